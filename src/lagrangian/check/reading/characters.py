@@ -24,16 +24,24 @@ _SAME = {
     **dict.fromkeys("ϕ", "φ"),
     **dict.fromkeys("ϵ", "ε"),
     **dict.fromkeys("ϱ", "ρ"),
+    **dict.fromkeys("‧・･ᐧ", "·"),
+    **dict.fromkeys("ˆ＾", "^"),
+    **dict.fromkeys("ʺ˝〃", "″"),
+    **dict.fromkeys(map(chr, (0xA0, *range(0x2000, 0x200B), 0x202F, 0x205F, 0x3000)), " "),
+    "\f": "\n",
+    "\v": "\n",
     "\u2223": "|",
     "\u0085": "\n",
     "\u2028": "\n",
     "\u2029": "\n",
 }
 _TABLE = str.maketrans(_SAME)
-_NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad]")
+_NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad\u200e\u200f\ufe00-\ufe0f]")
 _GAP = re.compile("[\u2061\u2062]")  # the signs of a function and of a product, which are not shown
 _ASSIGNED = re.compile(r":=|≔")
-_STYLED = re.compile("[\U0001d400-\U0001d7ff\u210e\u2110-\u2112\u211b\u212c\u2130\u2131\u2133]")
+_STYLED = re.compile(
+    "[\U0001d400-\U0001d7ff\u210e\u2110-\u2112\u211b\u212c\u2130\u2131\u2133\u2145\u2146\uff01-\uff5e]"
+)
 
 
 def plainer(text: str) -> str:

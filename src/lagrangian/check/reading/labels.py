@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from lagrangian.check.reading.markup import blank
-from lagrangian.check.reading.words import Words
+from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.units import lookup
 
 _ARROW = re.compile(r"\s*(?:<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|➔|➜|➡|➤|↪|∴|[•◦▪●‣⁃✓✔]|>|[·o]\t)\s*")
@@ -17,8 +17,21 @@ _NUMBER = r"\d{1,3}(?:\.\d{1,3}){0,2}[a-z]?['′*]{0,2}"
 _NUMBERED = re.compile(
     rf"\s*(?:\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"
     rf"|{_EQUATION}\.?\s*[(\[]?{_NUMBER}[)\]]?[.:]?|{_NUMBER}\s?(?:[.)]{{1,2}}|:)|(?P<open>[a-h](?=\))|[ivx]{{1,5}}|[IVX]{{1,4}})[.)])"
-    r"(?=\s+[^\s*/^=])"
+    r"(?=\s+(?:=+>|[^\s*/^=]))"
 )
+_SHORT = rf"(?:{_NUMBER}|[a-h]|[ivx]{{1,4}}|[IVX]{{1,4}})"
+_NEXT = r"(?=\s+(?:=+>|[^\s*/^=+]))"
+_SPOKEN = re.compile(rf"\s*(?P<words>(?:[^\W\d_]{{2,12}}\.?\s+){{1,2}}){_SHORT}\s?\)[.:]?{_NEXT}")
+"""A word or two before a letter with a bracket that nothing opens: ad a), zu 1)."""
+_CALLED = re.compile(
+    r"\s*(?:ad|zu|to|re|for|für|from|aus|in|teil|part|punkt|point|question|frage|task|aufgabe|item|nr|no)\.?\s*"
+    rf"[(\[]?\s*{_SHORT}\s*(?:[)\]][.:]?|[.:]){_NEXT}",
+    re.IGNORECASE,
+)
+_OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
+"""A name with a bracket that nothing opens: x), θ)."""
+_ROUNDS = 4
+"""How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*\s*[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
@@ -58,14 +71,24 @@ def numbering(text: str) -> Numbering:
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
     """Blank out an arrow, a bullet, a number or a label before a statement."""
-    for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _NUMBERED, _LABEL, _ARROW):
-        match = form.match(line)
-        if match is None and form is _NUMBERED and numbers.before:
-            match = _CLOSE.match(line)
-        if match is None or (form is _NUMBERED and _is_factor(match, words)):
-            continue
-        line = blank(line, 0, match.end())
+    for _ in range(_ROUNDS):
+        above = line
+        for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _SPOKEN, _CALLED, _OPEN, _LABEL):
+            match = form.match(line)
+            if match is None and form is _NUMBERED and numbers.before:
+                match = _CLOSE.match(line)
+            if match is not None and not _is_factor(match, words):
+                line = blank(line, 0, match.end())
+        if line == above:
+            break
     return line
+
+
+def is_mark(text: str) -> bool:
+    """Whether a text is only a number or a letter with a bracket, perhaps after a word: (ii), ad a)."""
+    mark = text.rstrip()
+    found = (form.match(f"{mark} x") for form in (_NUMBERED, _SPOKEN, _CALLED, _OPEN))
+    return any(match is not None and match.end() == len(mark) for match in found)
 
 
 def _is_unit(written: str, words: Words) -> bool:
@@ -75,9 +98,12 @@ def _is_unit(written: str, words: Words) -> bool:
 
 
 def _is_factor(match: re.Match[str], words: Words) -> bool:
-    """Whether the letter of a number in front, (i) or (a), is a name of the system."""
+    """Whether the letter of a number in front, (i) or (a), is a name of the system, or a word in front a factor."""
     named = match.groupdict()
-    letter = named.get("inside") or named.get("open")
+    if (spoken := named.get("words")) is not None:
+        return any(words.known(x) or function_of(x) is not None for x in re.findall(r"[^\W\d_]+", spoken))
+    bracket = match.group().rstrip().endswith(")")
+    letter = named.get("inside") or (None if bracket else named.get("open"))
     return letter is not None and not letter[0].isdigit() and words.is_name(letter)
 
 

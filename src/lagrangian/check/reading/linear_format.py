@@ -19,7 +19,7 @@ _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _INDEX = r"_[^\W_⁰¹²³⁴-⁹]+"
 _GROUPED_INDEX = re.compile(r"(?<=[\w*\u0307\u0308])_\(\s*(\w+(?:[ -]\w+){0,4})\s*\)")
 _DOTTED = re.compile(rf"(?P<base>[^\W\d_]|\))[ \xa0]+(?P<mark>[\u0307\u0308\u20db])(?P<index>{_INDEX})?")
-_SPACING = re.compile(rf"(?<=[\w)])(?P<mark>[˙¨])(?!\w)|(?<![\w)])(?P<before>[˙¨])(?P<after>{_NAME})")
+_SPACING = re.compile(rf"(?<=[\w)])(?P<mark>[˙¨])(?![^\W⁰¹²³⁴-⁹])|(?<![\w)])(?P<before>[˙¨])(?P<after>{_NAME})")
 _MARKS = {"\u0307": "'", "\u0308": "''", "\u20db": "‴", "˙": "'", "¨": "″"}
 _TWO = r"\s*(?:\^\s*2|\*\*\s*2|²)"
 _PRIMES = r"['’′″]*"

@@ -6,6 +6,7 @@ Everything is replaced by spaces, so that all places stay the same.
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
 _RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
@@ -14,6 +15,9 @@ _BOLD = re.compile(r"(?<![\w)\]'*])(\*\*|__)(?=[^\s*_])([^*\n]*?[^\s*])\1(?![\w(
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
 _QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
 _BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
+_SIGNED = re.compile(r"[ \t]*[-+–]")
+_UNFINISHED = re.compile(r"^(?=[^=]*['′″²³*^()\u0307\u0308])[^=:]*[^\s=:.,;][ \t]*$")
+"""A line that ends in mathematics and has no equals sign."""
 _LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
 _STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
 _ANY = re.compile(r"=|\bEq\w*\s*\(")
@@ -47,7 +51,10 @@ def bullets(text: str) -> int:
 def all_bullets(text: str, *, marked: bool = False) -> bool:
     """Whether several lines with an equals sign begin with the same bullet, and none without; one if Markdown is used
     elsewhere (``marked``)."""
-    stated = [line for line in text.split("\n") if "=" in line]
+    lines = text.split("\n")
+    stated = [line for line in lines if "=" in line]
+    if any("=" in line and _SIGNED.match(line) and _UNFINISHED.search(above) for above, line in pairwise(lines)):
+        return False  # an equation goes on in the next line
     marks = [m.group().strip() if (m := _BULLET.match(line)) else "" for line in stated]
     return len(marks) > (0 if marked else 1) and len(set(marks)) == 1 and marks[0] != ""
 

@@ -193,8 +193,12 @@ class PlainParser(PlainDerivatives):
         opens = self.next.kind in ("(", "[")
         if token.text in DIFFERENTIATE and opens and not self.words.is_name(token.text):
             return self._differentiated(token)
-        if token.text in DOTS and self.next.kind == "(":
-            return node("rate", token.start, self._bracket(), DOTS[token.text])
+        if token.text in DOTS and not self.words.is_name(token.text):
+            if self.next.kind == "(":
+                return node("rate", token.start, self._bracket(), DOTS[token.text])
+            if self.next.kind == "name" and self.ahead().kind != "primes":  # ddot x
+                below = self.take()
+                return name(below.text, below.start, DOTS[token.text])
         if token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text):
             return self._bracket_of_one()
         if token.text == "d" and self.next.kind == "(" and (rate := self._d_of_bracket(token)) is not None:

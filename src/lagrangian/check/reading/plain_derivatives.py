@@ -15,7 +15,7 @@ ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3, '"': 2}
 DIFFERENTIATE = frozenset(["diff", "Derivative", "D", "Diff"])
 """The functions of programs that differentiate."""
 
-DOTS = {"dot": 1, "ddot": 2}
+DOTS = {"dot": 1, "ddot": 2, "der": 1}
 """Functions that stand for dots."""
 
 CLOSING = {"(": ")", "[": "]"}

@@ -18,6 +18,8 @@ _INSIDE = re.compile(
 _ONE = r"[^\W\d_]+(?:['’-][^\W\d_]+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
+_EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
+"""What a definition means: ψ = θ − β : angle between pendulum and normal."""
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*[.,;:]?\s*\Z")
 _NUMBER_ALONE = re.compile(r"\s*[(\[]?\s*\d{0,3}[a-z]?\s*[)\]]?\s*[.,;:]?\s*\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
@@ -88,6 +90,8 @@ def without_tail(text: str, words: Words) -> str:
     """Return a statement without the words behind it: s = r - l holds, φ = π/2 − θ be the angle from the top."""
     if "=" not in text:
         return text
+    if (said := _EXPLAINED.search(text)) is not None and _explains(said[1], words):
+        text = blank(text, said.start(), len(text))
     end, count, linked = len(text), 0, False
     while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
         links = _links(match[1], words)
@@ -97,6 +101,12 @@ def without_tail(text: str, words: Words) -> str:
     if count < (1 if linked else 2) or not _ENDS.search(text[:end]):
         return text
     return blank(text, end, len(text))
+
+
+def _explains(said: str, words: Words) -> bool:
+    """Whether words explain what stands before them: they begin with a word that is no name."""
+    listed = _WORD.findall(said)
+    return bool(listed) and (_is_word(listed[0], words) or (_links(listed[0], words) and len(listed) > 1))
 
 
 def _links(written: str, words: Words) -> bool:

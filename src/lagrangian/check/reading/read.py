@@ -10,6 +10,7 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import latex_rows
@@ -19,8 +20,11 @@ from lagrangian.check.reading.markup import all_bullets, bullets, without_bullet
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
+from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows
+from lagrangian.check.reading.text_matrices import on_one_line
+from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
@@ -70,16 +74,18 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
-    typed = plainer(text)
-    text = without_markup(typed)
+    given = text
+    lines = Lines(model)
+    typed = Source(plainer(text), "the answer", place)
+    plain = _without_notations(typed.text, lines)
+    text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
     text = text if latex else plain_format(text)
-    listed = all_bullets(text, marked=text != typed and not latex) if reading.listed is None else reading.listed
+    listed = all_bullets(text, marked=text != plain.text and not latex) if reading.listed is None else reading.listed
     choice = bool(bullets(text))
     text = without_bullets(text) if listed else text
-    source = Source(text, "the answer", place)
+    source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE)
-    lines = Lines(model)
     lines.names.dependents = dependents(text, lambda name: bool(lines.names.scope.meanings(name)[0]))
     words = _words(lines, text)
     words.flipped, words.units = reading.flipped, reading.units
@@ -105,10 +111,17 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
         (Choices(listed=not listed), choice),
     ]
     others = [x for x, asked in less_likely if asked]
-    again = [partial(parse_answer, text, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
+    again = [partial(parse_answer, given, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
     notes = (*words.notes(), *_chosen(reading), *lines.names.notes)
     notation = "latex" if latex else "text"
     return Answer(made, notation, tuple(lines.names.unknown.values()), notes, tuple(again))
+
+
+def _without_notations(text: str, lines: Lines) -> TracedText:
+    """An answer without HTML and without the spellings of programs, and with matrices in one line."""
+    names = lines.names
+    plain = without_programs(without_tags(TracedText(text)), names.changes, lambda x: bool(names.scope.meanings(x)[0]))
+    return on_one_line(plain)
 
 
 def _chosen(reading: Choices) -> Iterator[str]:

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from itertools import pairwise
 
-from lagrangian.check.reading.labels import before, behind, numbering
+from lagrangian.check.reading.labels import before, behind, is_mark, numbering
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.prose import (
     LINKING,
@@ -93,6 +93,8 @@ def _separated(text: str) -> str:
             depth -= 1
         elif mark == "\n":
             depth = depth if depth > 0 else 0
+        elif depth <= 0 and match["arrow"] and is_mark(text[text.rfind("\n", 0, match.start()) + 1 : match.start()]):
+            continue
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)

@@ -20,6 +20,19 @@ from lagrangian.read.letters import key
 RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
 """Functions of answers that are 1 over another."""
 
+SPELLINGS = {
+    **dict.fromkeys(["sen", "sén", "seno", "sinus"], "sin"),
+    **dict.fromkeys(["coseno", "cosinus", "kosinus"], "cos"),
+    **dict.fromkeys(["tang", "tangens", "tangente"], "tan"),
+    **dict.fromkeys(["ctg", "cotg", "ctan", "cotan"], "cot"),
+    **dict.fromkeys(["asen", "arcsen", "arcoseno"], "asin"),
+    **dict.fromkeys(["arctg", "atg", "arctang"], "atan"),
+    "senh": "sinh",
+    "tgh": "tanh",
+    **dict.fromkeys(["raiz", "raíz", "wurzel"], "sqrt"),
+}
+"""How other languages write functions."""
+
 MAX_WORDS = 500
 """The largest number of words in one answer that are tried to be split."""
 
@@ -35,7 +48,7 @@ def function_of(word: str) -> str | None:
     if word in FUNCTIONS or word in RECIPROCALS:
         return word
     for form in (word, word.lower(), word.lower().replace("_", "")):
-        other = ALIASES.get(form, form)
+        other = SPELLINGS.get(form) or ALIASES.get(form, form)
         if other in FUNCTIONS or other in RECIPROCALS:
             return other
     return None
@@ -77,6 +90,8 @@ class Words:
     def readable(self, word: str) -> bool:
         """Whether a word may be a factor of a product without a sign: known, a function, or a single letter."""
         bare = re.sub(r"[\W\d_]", "", word)
+        if word in ("dot", "ddot"):
+            return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         return named or len(bare) == 1 or len(key(word)) > len(word)
 

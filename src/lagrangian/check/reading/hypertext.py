@@ -1,0 +1,48 @@
+"""Answers copied from a web page: x<sub>1</sub>'<sup>2</sup> &minus; &theta; as x_1'^2 − θ."""
+
+from __future__ import annotations
+
+import html
+import re
+from html.entities import html5
+
+from lagrangian.check.reading.traced_text import TracedText
+
+_TAGS = "p|sub|sup|br|i|b|em|strong|u|div|span|var|math|td|tr|th|table|tbody|thead|ul|ol|li|h[1-6]|pre|code|html|body"
+_TAG = re.compile(rf"<\s*(?P<close>/?)\s*(?P<tag>{_TAGS})(?:\s[^<>\n]{{0,200}})?\s*/?\s*>", re.IGNORECASE)
+_COMMENT = re.compile(r"<!--(?:(?!-->).){0,2000}-->", re.DOTALL)
+_RAISED = re.compile(
+    r"<\s*(?P<tag>su[bp])(?:\s[^<>\n]{0,200})?\s*>(?P<inside>[^<>]{1,200})<\s*/\s*(?P=tag)\s*>", re.IGNORECASE
+)
+_ENTITY = re.compile(r"&(?:#(?:[xX][0-9A-Fa-f]{1,6}|[0-9]{1,7})|[A-Za-z][A-Za-z0-9]{1,31});")
+_SHORT = re.compile(r"\w+\Z")
+_ROWS = frozenset(["p", "br", "div", "tr", "li", "table", "pre", "h1", "h2", "h3", "h4", "h5", "h6", "ul", "ol"])
+_PARTS = frozenset(["td", "th"])
+
+
+def without_tags(written: TracedText) -> TracedText:
+    """Return an answer without tags and entities of HTML; each paragraph is a line."""
+    if "<" in written.text and ">" in written.text:
+        written = written.sub(_COMMENT, lambda match: " ")
+        written = written.sub(_RAISED, _raised).sub(_TAG, _tag)
+    return written.sub(_ENTITY, _character) if "&" in written.text else written
+
+
+def _raised(match: re.Match[str]) -> str:
+    """x<sup>2</sup> as x^2, e<sup>-t</sup> as e^(-t)."""
+    inside = html.unescape(match["inside"]).strip()
+    mark = "_" if match["tag"].lower() == "sub" else "^"
+    if not inside or (mark == "^" and set(inside) <= set("'’′″")):
+        return inside
+    return f"{mark}{inside}" if _SHORT.match(inside) else f"{mark}({inside})"
+
+
+def _tag(match: re.Match[str]) -> str:
+    tag = match["tag"].lower()
+    return "\n" if tag in _ROWS else " " if tag in _PARTS else ""
+
+
+def _character(match: re.Match[str]) -> str:
+    """&theta; as θ; what has no meaning in HTML stays."""
+    known = match.group()[1] == "#" or match.group()[1:] in html5
+    return html.unescape(match.group()) if known else match.group()
