@@ -17,7 +17,7 @@ from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.vectors import Vector, dot, times, transposed
-from lagrangian.graph import Graph, backwards
+from lagrangian.graph import Graph, backwards, reached
 from lagrangian.model import Gravity, Model
 from lagrangian.structured.names import COMPONENTS, Indices
 from lagrangian.structured.quantities import BodyMotion, Candidate, body_motions
@@ -68,7 +68,7 @@ def listing(model: Model) -> Listing:
     velocities = list(moving.velocities())
     slopes = CoordinateSlopes(d, [bare(graph, node) for node, *_ in velocities], momenta)
     heights = dict(_heights(d, bodies))
-    candidates = [*moving.verticals(), *moving.positions(heights)]
+    candidates = [*moving.verticals(), *moving.positions(heights), *_lengths(d, m)]
     candidates += [Candidate(node, "velocity", letter, index, words) for node, letter, index, words in velocities]
     candidates += _own(bodies, "momentum")
     candidates += list(_inward(graph, velocities, momenta, "momentum", {"omega": "H", "v": "P"}))
@@ -220,6 +220,19 @@ def _inward(
         if under in cotangents:
             natural = cotangents[under] if under == node else g.neg(cotangents[under])
             yield Candidate(natural, kind, letters[letter], index, words, True)
+
+
+def _lengths(d: Description, m: Mechanics) -> Iterator[Candidate]:
+    """The lengths of what is between two points."""
+    g = d.graph
+    for element in d.model.elements:
+        added = m.added.get(element.title)
+        if added is None or getattr(element, "between", None) is None:
+            continue
+        ends = [*added.potentials, *(effort for _, effort in added.efforts)]
+        for node in reached(g, ends):
+            if g.nodes[node][0] == "sqrt":
+                yield Candidate(node, "length", "delta", (element.name,), element.title, False, (element.title,))
 
 
 def _heights(d: Description, bodies: Sequence[BodyMotion]) -> Iterator[tuple[str, int]]:

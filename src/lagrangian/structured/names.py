@@ -2,13 +2,13 @@
 
 A frame has the number of the coordinate that turns it, otherwise its own name. A body has the index of its frame; a
 point keeps its name, and a joint, the origin of frame k, is O_k. Names of the system come first: where a symbol of the
-system has a name already, the letter is primed.
+system has a name already, its index ends with “own”.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.description import Description
@@ -88,22 +88,18 @@ def _after_mass(mass: object) -> str:
 
 
 class FreeNames:
-    """FreeNames that are free: none is given twice, and none that the system has."""
+    """Names that are free: none is given twice, and none that the system has."""
 
     def __init__(self, taken: Iterable[str]) -> None:
         self._taken = set(taken)
 
-    def take(self, base: str, *parts: str) -> str:
-        """A name made of a letter and the parts of its index, with primes until it is free."""
-        for letter in _primed(base):
-            name = "_".join([letter, *(p for p in parts if p)])
-            if name not in self._taken:
-                self._taken.add(name)
-                return name
-        raise AssertionError("there are infinitely many names")
+    def take(self, base: str, *parts: str, last: str = "") -> str:
+        """A name made of a letter and the parts of its index; "own" is added to the index until the name is free.
 
-
-def _primed(base: str) -> Iterator[str]:
-    while True:
-        yield base
-        base += "′"
+        ``last`` ends the name. Names are such that Python could have them, although names of elements may have spaces.
+        """
+        index = [part for p in parts if (part := re.sub(r"\W+", "", p))]
+        while (name := "_".join([base, *index, *([last] if last else [])])) in self._taken:
+            index.append("own")
+        self._taken.add(name)
+        return name

@@ -32,7 +32,16 @@ from lagrangian.page.formula import (
 from lagrangian.structured.listing import Listing
 from lagrangian.structured.writing import ListingWriter
 
-ORDER: tuple[QuantityKind, ...] = ("turn", "velocity", "vertical", "height", "momentum", "acceleration", "force")
+ORDER: tuple[QuantityKind, ...] = (
+    "turn",
+    "velocity",
+    "vertical",
+    "height",
+    "length",
+    "momentum",
+    "acceleration",
+    "force",
+)
 """The kinds of quantities in the order in which the steps introduce them."""
 
 HEADINGS = {
@@ -40,6 +49,7 @@ HEADINGS = {
     "velocity": "Velocities",
     "vertical": "The upward direction in the axes of the frames",
     "height": "Heights",
+    "length": "Lengths of springs and dampers",
     "momentum": "Momenta",
     "acceleration": "Accelerations",
     "force": "Forces",
@@ -175,7 +185,12 @@ class ListedSteps:
 
     def potential(self) -> Step:
         """V = Σ m g h + the energies of springs."""
-        items: list[Item] = [*self.lines("vertical"), *self.lines("height"), Heading(text("Energies"))]
+        items: list[Item] = [
+            *self.lines("vertical"),
+            *self.lines("height"),
+            *self.lines("length"),
+            Heading(text("Energies")),
+        ]
         names: list[Name] = []
         reasons: list[Text] = []
         for element, value in self.V:

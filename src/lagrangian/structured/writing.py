@@ -166,7 +166,7 @@ class ListingWriter:
                 number += 1
                 c = replace(c, index=(str(number),))
             expr = to_sympy(self.graph, node, self.symbols)
-            name = self.names.take(c.letter, *c.index, INWARD.strip("_") if c.inward else "")
+            name = self.names.take(c.letter, *c.index, last=INWARD.strip("_") if c.inward else "")
             symbol = sp.Symbol(name, real=True)
             self.symbols[node] = -symbol if c.negative else symbol
             meaning = -expr if c.negative else expr
