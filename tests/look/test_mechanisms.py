@@ -144,6 +144,25 @@ def test_a_hoop_that_turns_by_its_coordinate_is_a_wheel_and_the_coordinate_an_an
     assert "rolling on a horizontal track" in scene.description
 
 
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_yo_yo_hangs_on_a_string_that_leaves_it_where_the_rim_is_at_rest(sense: int) -> None:
+    s = lg.System("yo-yo")
+    y = s.coordinates("y")
+    m, r, J = s.parameters("m r J", m="0.2 kg", r="0.02 m", J="0.0001 kg*m^2")
+    s.rigid_body(m, J, s.point("C", (0, -y)), s.frame(sense * y / r), name="yo-yo")
+    s.gravity(direction=(0, -1), g=9.81)
+    picture = s.look()
+    scene, at = picture.scene, places(picture.scene)
+    (_, start), (_, end) = placed(next(p for p in scene.parts if p.kind == "rope"), at)
+    wheel = next(p for p in scene.parts if p.kind == "wheel")
+    centre = np.array(scene.seen(wheel.placement.at))
+    # it falls with speed 1 and turns with sense/r: the rim is at rest at sense·r beside the centre, v = ω × r upward
+    assert (start - centre) / scene.scale == pytest.approx([sense * 0.02, 0.0], abs=1e-6)
+    assert end[0] == pytest.approx(start[0]) and end[1] < start[1] - 50
+    assert "unwinding from a string" in picture.description
+    assert not any(p.kind == "floor" for p in scene.parts)
+
+
 def test_friction_of_a_gear_is_drawn_at_the_gear_that_turns_by_its_deflection() -> None:
     s = lg.System("gears")
     phi = s.coordinates("phi")

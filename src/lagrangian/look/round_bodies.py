@@ -13,8 +13,8 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.look.board import BODY, JOINT, Board
-from lagrangian.look.cast import Player
-from lagrangian.look.holds import HoldKind
+from lagrangian.look.cast import FLAT, BodyGlyph, Player
+from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.shapes import line, quarters
 from lagrangian.model import RigidBody
 from lagrangian.page.scene import Disc, Trace
@@ -82,6 +82,13 @@ def draw_wheel(board: Board, part: Player) -> None:
         board.wish(
             (part.radius.name,), at + spoke / 2, (spoke[1], -spoke[0]), "thin", of, distance=2.0, inside=radius > 30
         )
+
+
+def unwinds(motions: Motions, part: Player) -> bool:
+    """Whether a wheel rolls up and down a vertical line under gravity: on a string, as a yo-yo."""
+    vertical = part.direction is not None and abs(part.direction[0]) < FLAT and motions.stage.dimension == 2
+    rolls = part.glyph is BodyGlyph.WHEEL and motions.holds[part.point].how is HoldKind.SLIDE
+    return vertical and rolls and any(e.kind == "gravity" for e in motions.stage.model.elements)
 
 
 def cog(board: Board, part: Player, radius: float) -> None:

@@ -25,7 +25,7 @@ from lagrangian.look.pose import Pose
 from lagrangian.look.space_scene import draw_in_space
 from lagrangian.look.space_supports import draw_fixed_axes
 from lagrangian.look.spread import spread
-from lagrangian.look.string_glyphs import draw_strings, floor_ends
+from lagrangian.look.string_glyphs import draw_strings, draw_unwinding, floor_ends
 from lagrangian.look.string_layout import extent, lay_strings, show_strings
 from lagrangian.look.strings import PulleyString, cast_strings, strings_of, undrawn_string
 from lagrangian.look.supports import draw_supports
@@ -96,6 +96,7 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     TieArtist(board, parts, ties).draw()
     draw_supports(board, parts, ties, floor_ends(board, parts, laid))
     draw_strings(board, parts, laid)
+    draw_unwinding(board, parts)
     if (on := undrawn_string(motions, parts, strings)) is not None:
         board.lacks(
             f"the string from {on[0]} to {on[1]} is not drawn, because no point of the model is its moving pulley",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BODY, GROUND, JOINT, Board
 from lagrangian.look.bodies import slide_heading
 from lagrangian.look.cast import Player
-from lagrangian.look.round_bodies import mass_names
+from lagrangian.look.round_bodies import mass_names, unwinds
 from lagrangian.look.shapes import INK, floor, line, turned
 from lagrangian.look.string_layout import LOOP, Laid
 from lagrangian.look.supports import sole_of
@@ -22,6 +22,8 @@ STRING = 1.6
 """The width of a string [px]."""
 CEILING = 26.0
 """How far above a pulley the ceiling is [px]."""
+DROP = 80.0
+"""How far above a wheel that unwinds the ceiling is [px]."""
 TABLE = 72.0
 """The height of the side of a table [px]."""
 
@@ -42,6 +44,25 @@ def draw_strings(board: Board, parts: list[Player], laid: list[Laid]) -> None:
         if one.second is not None:
             _between(board, one, of)
         _hang(board, parts, one)
+
+
+def draw_unwinding(board: Board, parts: list[Player]) -> None:
+    """The strings of wheels that roll on one: from the point at rest on the rim, straight up to the ceiling."""
+    for part in parts:
+        i = board.motions.holds[part.point].along
+        if part.radius is None or part.frame is None or i is None or not unwinds(board.motions, part):
+            continue
+        turn, moved = board.motions.angle_slopes(part.frame)[i], board.motions.views.J[0, part.point, 1, i]
+        side = -1.0 if float(turn * moved) > 0 else 1.0  # there ω × r is the opposite of the centre's velocity
+        radius = board.pixels(part.radius)
+        start = board.at(part.point) + (side * radius, 0.0)
+        top = start - (0.0, radius + DROP)
+        base = board.stage.fixed(board.r[part.point].tolist())
+        place = _towards(board, part.point, start, base, top)
+        board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", place, of=(part.name,), kind="rope", width=STRING)
+        board.put(turned(floor(-26.0, 26.0), pi), "ground", _placed(board, base, top), kind="pin", layer=GROUND)
+        board.fence(start, top)
+        board.block(top, 52.0, 16.0)
 
 
 def floor_ends(board: Board, parts: list[Player], laid: list[Laid]) -> dict[int, list[Array]]:

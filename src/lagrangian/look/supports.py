@@ -15,6 +15,7 @@ from lagrangian.look.cast import BodyGlyph, Player, direction
 from lagrangian.look.couplers import couplers
 from lagrangian.look.driven import driven, driven_round
 from lagrangian.look.holds import HoldKind
+from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.shapes import CART, INK, WHEEL, arc, floor, line, pin, turned
 from lagrangian.look.ties import Tie
 from lagrangian.page.scene import Disc, Placement, Trace
@@ -260,7 +261,7 @@ def sole_of(board: Board, part: Player) -> float | None:
         return SOLE
     if part.glyph is BodyGlyph.WEDGE:
         return board.sole.get(part.point)
-    if part.glyph is BodyGlyph.WHEEL and part.radius is not None:
+    if part.glyph is BodyGlyph.WHEEL and part.radius is not None and not unwinds(board.motions, part):
         return board.pixels(part.radius)
     if part.glyph is BodyGlyph.BLOCK:
         angle, _ = slide_heading(board, part)

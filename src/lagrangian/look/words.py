@@ -15,6 +15,7 @@ from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.couplers import couplers
 from lagrangian.look.holds import Hold, HoldKind
+from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
@@ -186,6 +187,8 @@ class _Sentences:
             return "on a common shaft"
         if part.glyph is BodyGlyph.PULLEY:
             return "on a fixed axle" if self.motions.still(part.point) else "hanging on a string"
+        if unwinds(self.motions, part):
+            return "unwinding from a string"
         if part.glyph is BodyGlyph.WHEEL and part.direction is not None and not self.space:
             return f"rolling on {self._line(part.direction)}"
         if any(isinstance(e, Rolling) and e.body is part.body for e in self.stage.model.elements):
