@@ -114,7 +114,7 @@ def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredL
         for f in new if expr is not None else ():
             if expr is not None and expr.has(f):
                 solved.setdefault(f, []).extend(_solutions(expr - c.symbol, f))
-    choices = [solved.get(f) or meanings(truth) for f in new]
+    choices = [solved.get(f) or list(meanings(truth)) for f in new]
     if len(new) > 3:
         return
     used = {q for line in lines for q in truth.derivation.coordinates if line.expr.has(q) and line.kind != "definition"}
@@ -145,7 +145,8 @@ def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:
     return text("with ", *parts[:-1])
 
 
-def meanings(truth: Reference) -> list[sp.Expr]:
+@lru_cache(maxsize=64)
+def meanings(truth: Reference) -> tuple[sp.Expr, ...]:
     """The possible meanings of an unknown coordinate: one of the system, sums and differences, positions and
     directions."""
     q: list[sp.Expr] = list(truth.derivation.coordinates)
@@ -163,13 +164,19 @@ def meanings(truth: Reference) -> list[sp.Expr]:
         found += [sp.pi / 2 - x, x + sp.pi / 2, x - sp.pi / 2, sp.pi - x, x + sp.pi]
     for x, c in shifts(truth):
         found += [x - c, c - x]
-    return list(dict.fromkeys(found))
+    return tuple(dict.fromkeys(found))
 
 
 # -- the system's own names -------------------------------------------------------------------------------------------
 
 
-def _reused(truth: Reference) -> Iterator[ProposedChange]:
+@lru_cache(maxsize=64)
+def _reused(truth: Reference) -> tuple[ProposedChange, ...]:
+    """The changes of a system's own coordinates, the same for all answers."""
+    return tuple(islice(_with_own_names(truth), MAX_CHANGES))
+
+
+def _with_own_names(truth: Reference) -> Iterator[ProposedChange]:
     q: list[sp.Expr] = list(truth.derivation.coordinates)
     turned = set(turning(truth))
     groups = [g for g in ([x for x in q if x in turned], [x for x in q if x not in turned]) if g]

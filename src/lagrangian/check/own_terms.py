@@ -54,6 +54,8 @@ class OwnTerm:
     def cost(self) -> float:
         """How unlikely it is that this was the mistake."""
         if self.instead is not None:
+            if self.term in (0, -self.instead[0]):
+                return 2.2
             return 3.0 if _factors(self.term, self.instead[0]) is not None else 3.3
         return 2.6 if self.forgotten or self.times in (1, 2) else 3.2
 
@@ -92,7 +94,11 @@ class OwnTerm:
 
 
 def _replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
-    """The name and the words for a term in place of another."""
+    """The name and the words for a term in place of another, or for one that is missing."""
+    if term == 0:
+        return "term_forgotten", text("The term ", right, " is missing.")
+    if term == -right:
+        return "sign_of_a_term", text("The term ", right, " has the wrong sign.")
     factors = _factors(term, right)
     if factors is None:
         return "term_replaced", text("The term ", term, " stands where ", right, " belongs.")
@@ -185,17 +191,25 @@ def _in_place(
     scale: sp.Expr,
     factor: Array | float,
 ) -> OwnTerm | None:
-    """A term of the answer that stands where a right one belongs: rest = term − scale·right."""
+    """A right term that is missing or has the wrong sign, or one in whose place another stands: rest = term − right."""
     right = right_terms(pool, kind, i)
     scaled = right.values * factor
     best: OwnTerm | None = None
+    row = i if kind == "equation" else None
+    size = np.abs(rest).max()
+
+    def belongs(k: int) -> sp.Expr:
+        expr = right.terms[k].expr
+        return scale * expr if scale in (1, -1) else bounded.expand(scale * expr)
+
+    for k, v in enumerate(scaled):
+        for number in (-1, -2):
+            if np.abs(rest - number * v).max() <= SMALL * size:
+                return OwnTerm(row, cast("sp.Expr", (1 + number) * belongs(k)), instead=(belongs(k), right.terms[k]))
     for t, v in written:
         missing = np.abs(scaled - (v - rest)).max(axis=1)
-        for k in np.flatnonzero(missing <= SMALL * (np.abs(rest).max() + np.abs(v).max())):
-            belongs = (
-                bounded.expand(scale * right.terms[k].expr) if scale not in (1, -1) else scale * right.terms[k].expr
-            )
-            found = OwnTerm(i if kind == "equation" else None, t, instead=(belongs, right.terms[k]))
+        for k in np.flatnonzero(missing <= SMALL * (size + np.abs(v).max())):
+            found = OwnTerm(row, t, instead=(belongs(int(k)), right.terms[k]))
             if best is None or found.cost < best.cost:
                 best = found
     return best

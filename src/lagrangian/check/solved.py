@@ -46,10 +46,21 @@ def solved_from_wrong(pool: Pool, exprs: Sequence[sp.Expr], P: Array) -> list[Ex
     if np.abs(rest).max() <= 1e-9 * np.abs(truth.W).max():
         return []
     effects[np.abs(effects).max(axis=(1, 2)) <= 1e-9 * (1 + np.abs(pool.W).max(axis=(1, 2)))] = 0.0
-    found = singles(pool, [effects[:, i] for i in range(truth.n)], rest)
+    found = [e for e in singles(pool, [effects[:, i] for i in range(truth.n)], rest) if _solvable(pool, e)]
     if found and found[0].cost <= EXOTIC:
         return found
-    return sorted([*found, *Vectors(pool, effects).pairs(rest)], key=lambda e: e.cost)
+    pairs = [e for e in Vectors(pool, effects).pairs(rest) if _solvable(pool, e)]
+    return sorted([*found, *pairs], key=lambda e: e.cost)
+
+
+def _solvable(pool: Pool, explanation: Explanation) -> bool:
+    """Whether the rows with the mistakes are still independent: without that they could not have been solved."""
+    truth = pool.truth
+    rows = truth.W + sum(float(t.times) * pool.W[pool.places[id(t.mistake)]] for t in explanation.told)
+    blocks = rows.reshape(truth.n, -1, truth.states.motions).transpose(1, 0, 2)
+    size = np.linalg.norm(blocks, axis=2, keepdims=True)
+    gone = size.min() <= 1e-9 * np.abs(truth.W).max()
+    return bool(not gone and np.linalg.svd(blocks / size, compute_uv=False).min() > 1e-6)
 
 
 def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake | None:

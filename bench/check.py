@@ -1,0 +1,64 @@
+"""CPU time of the check of an answer, in a class of 500 wrong answers to one system.
+
+    python bench/check.py                          print a Markdown table
+    python bench/check.py cart-pole --count 100    one system, fewer answers
+    python bench/check.py --append                 and append the table to bench/RESULTS.md, with the machine
+
+The answers have one random mistake each (`tests/check/mutations.py`). The first answer to a system pays for everything
+that is kept for the others: the right equations in normal form, and all small changes of the derivation.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "tests"), str(HERE.parent / "tests" / "check")]
+
+SYSTEMS = ("lecture-3b", "cart-pole", "double-pendulum", "three-masses", "spherical-pendulum")
+
+
+def row(name: str, count: int) -> str:
+    """A row of the table: the first answer, then the median, the 90th percentile and the most of all others."""
+    from built_in import derivation
+    from mutations import Mutator
+
+    mutator = Mutator(derivation(name), "bench")
+    taken: list[float] = []
+    named = 0
+    for _ in range(count):
+        lines = mutator.mutation().lines
+        start = time.process_time()
+        verdict = derivation(name).check(lines)
+        taken.append(time.process_time() - start)
+        named += bool(verdict.mistakes)
+    first, rest = taken[0], sorted(taken[1:])
+    figures = (first, statistics.median(rest), rest[int(0.9 * len(rest))], rest[-1])
+    return f"| {name} | {count} | {named} | " + " | ".join(f"{x:.3f}" for x in figures) + " |"
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("systems", nargs="*", default=list(SYSTEMS))
+    parser.add_argument("--count", type=int, default=500)
+    parser.add_argument("--append", action="store_true")
+    options = parser.parse_args()
+    from startup import machine
+
+    head = "| system | answers | a mistake is named | first [s] | median [s] | 90 % [s] | most [s] |"
+    lines = [head, "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
+    lines += [row(name, options.count) for name in options.systems]
+    table = "\n".join(lines)
+    text = f"## Checking a class\n\n`python bench/check.py --count {options.count}`, CPU. {machine()}.\n\n{table}\n"
+    print(text)
+    if options.append:
+        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
+            file.write(f"\n{text}")
+
+
+if __name__ == "__main__":
+    main()
