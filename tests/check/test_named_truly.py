@@ -104,6 +104,11 @@ def test_a_term_in_place_of_another() -> None:
     assert kind == "divided_by" and "divisor m" in words
 
 
+def test_a_factor_too_much_in_a_sum_that_is_written_out() -> None:
+    kind, element, words = told("lecture-3a", "m1*x1'' + k*m1*x1 - k*m1*x2 = -F\nm2*x2'' + k*(x2 - x1) = F")
+    assert kind == "foreign_factor" and element == "spring 'k'" and "factor m1 too much" in words
+
+
 def test_of_two_equal_bodies_either_is_named() -> None:
     s = lg.System("two pulleys")
     x = s.coordinates("x")

@@ -206,6 +206,8 @@ def _in_place(
         for number in (-1, -2):
             if np.abs(rest - number * v).max() <= SMALL * size:
                 return OwnTerm(row, cast("sp.Expr", (1 + number) * belongs(k)), instead=(belongs(k), right.terms[k]))
+    for k, p in _multiplied(pool, scaled, rest):
+        return OwnTerm(row, cast("sp.Expr", p * belongs(k)), instead=(belongs(k), right.terms[k]))
     for t, v in written:
         missing = np.abs(scaled - (v - rest)).max(axis=1)
         for k in np.flatnonzero(missing <= SMALL * (size + np.abs(v).max())):
@@ -226,6 +228,19 @@ def _idle(pool: Pool, row: int | None, term: sp.Expr) -> Element | None:
         if row is not None and own and own <= atoms and not rows.get(row):
             found.append(element)
     return found[0] if len(found) == 1 else None
+
+
+def _multiplied(pool: Pool, right: Array, rest: Array) -> Iterator[tuple[int, sp.Expr]]:
+    """The right terms, by their place, that a letter or its inverse multiplies too much: rest = (p − 1)·right."""
+    with np.errstate(all="ignore"):
+        times = rest / right + 1.0
+    for q in pool.truth.model.parameters:
+        if q.symbol in pool.truth.values:
+            continue
+        value = pool.truth.states.of(q.symbol)
+        for p, v in ((q.symbol, value), (1 / q.symbol, 1 / value)):
+            for k in np.flatnonzero((np.abs(times - v) <= SMALL * np.abs(v)).all(axis=1)):
+                yield int(k), p
 
 
 def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
