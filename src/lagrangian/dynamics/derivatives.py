@@ -7,8 +7,9 @@ a(q, v, u, p) solves r(q, v, a, u, p) = 0, where r = M a + h is linear in a. The
 D is computed forwards, by columns, or backwards, by rows, from an r whose accelerations are *inputs* of the graph.
 Their values are substituted afterwards: if they were nodes from the beginning, the graph would simplify with them, as
 in a + (−b) → a − b, and what is held constant would be bypassed. M⁻¹ comes from the elimination that gives a, with a
-unit load for each velocity; D is multiplied by it, or each column of D is a load itself. All combinations are
-counted, and the cheapest is returned.
+unit load for each velocity; D is multiplied by it, or each column of D is a load itself. Instead of r, the conditions
+for the minimum that the elimination finds can be differentiated, node by node of the tape. All ways are counted, and
+the cheapest is returned: r in chains, the conditions in trees with many branches.
 
 Derivatives with respect to q are along the velocities: column k is the rate of change for q̇ = N(q) e_k. Without
 floating frames N = 1, and these are the partial derivatives; with a floating frame there are six columns for its
@@ -19,10 +20,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product as pairs_of
 
 from lagrangian.dynamics.floating import bracket
 from lagrangian.dynamics.mechanics import MANY, Mechanics
+from lagrangian.dynamics.multipliers import Problem
 from lagrangian.dynamics.programs import _matrix, _program, _start, _vector
 from lagrangian.dynamics.recorded import RecordedElimination
 from lagrangian.dynamics.vectors import Matrix, Vector, dot, plus, product, scaled, transposed, zeros
@@ -117,12 +118,32 @@ def _by_rows(g: Graph, r: Sequence[int], directions: Directions) -> Matrix:
 
 @dataclass(frozen=True)
 class SolvedForward:
-    """Accelerations a, and the factors from which they and M⁻¹ come."""
+    """Accelerations a = reference + x, the elimination from which x and M⁻¹ come, and x of every node of its tape."""
 
-    graph: Graph
-    velocities: Vector
-    a: Vector
+    problem: Problem
     factors: RecordedElimination
+    x: dict[int, int]
+
+    @classmethod
+    def of(cls, problem: Problem) -> SolvedForward:
+        """Eliminate a problem without rows, and solve it for its own loads."""
+        factors = RecordedElimination.of(problem)
+        return cls(problem, factors, factors.answer(problem.linear))
+
+    @property
+    def graph(self) -> Graph:
+        """The graph of everything."""
+        return self.problem.graph
+
+    @property
+    def velocities(self) -> Sequence[int]:
+        """The velocities v."""
+        return self.problem.rates
+
+    @property
+    def a(self) -> Vector:
+        """The accelerations."""
+        return plus(self.graph, self.problem.reference, [self.x[v] for v in self.velocities])
 
     def along(self, loads: Sequence[int]) -> Vector:
         """−M⁻¹ loads."""
@@ -137,6 +158,46 @@ class SolvedForward:
         below = [[columns[min(i, k)][max(i, k)] for k in range(n)] for i in range(n)]
         return min((above, below), key=lambda rows: _cost(g, [x for row in rows for x in row]))
 
+    def along_conditions(self, directions: Directions) -> Matrix:
+        """∂a along the directions, from the conditions for the minimum that the elimination finds.
+
+        On the tape x_i = Σ_j c_ij x_j, and φ_i = g_i + (H x)_i + Σ_k c_ki φ_k, which is 0 for the velocities. A
+        direction δ loads node i with δg_i + Σ_j δH_ij x_j and with δc_ki φ_k, and shifts it by Σ_j δc_ij x_j.
+        """
+        g, forms, H = self.graph, self.problem.tape.forms, self.problem.H.rows
+        gathered = self._gathered()
+        ends = [*self.problem.reference, *self.problem.linear.values()]
+        ends += [x for row in (*H.values(), *forms.values()) for x in row.values()]
+        columns: Matrix = []
+        for column in directions.columns:
+            slope = dict(zip(ends, Tangents(g, column)(ends), strict=True))
+            loads = {i: slope[x] for i, x in self.problem.linear.items()}
+            for i, row in H.items():
+                change = dot(g, [slope[h] for h in row.values()], [self.x[k] for k in row])
+                loads[i] = g.add(loads.get(i, g.zero), change)
+            shifts: dict[int, int] = {}
+            for k, form in forms.items():
+                shifts[k] = dot(g, [slope[c] for c in form.values()], [self.x[i] for i in form])
+                for i, c in form.items():
+                    loads[i] = g.add(loads.get(i, g.zero), g.mul(slope[c], gathered[k]))
+            value = self.factors.answer(loads, shifts)
+            columns.append(
+                [g.add(slope[r], value[v]) for r, v in zip(self.problem.reference, self.velocities, strict=True)]
+            )
+        return transposed(columns) or [[] for _ in self.velocities]
+
+    def _gathered(self) -> dict[int, int]:
+        """φ of every node: what acts on it and on all that hangs on it, at the solution."""
+        g, H = self.graph, self.problem.H.rows
+        found: dict[int, int] = {}
+        for k in reversed(self.problem.tape.order):
+            row = H.get(k, {})
+            own = g.add(self.problem.linear.get(k, g.zero), dot(g, list(row.values()), [self.x[i] for i in row]))
+            found[k] = g.add(found.get(k, g.zero), own)
+            for i, c in self.problem.tape.forms.get(k, {}).items():
+                found[i] = g.add(found.get(i, g.zero), g.mul(c, found[k]))
+        return found
+
 
 def _cost(g: Graph, ids: Sequence[int]) -> int:
     return count_operations(g, ids, hoist=["p"]).operations
@@ -149,10 +210,7 @@ def _solutions(m: Mechanics) -> Iterator[tuple[bool, SolvedForward]]:
         for free in (True, False) if few and m.motion.free_rates() else (True,):
             acc = m.accelerations(zeros(m.graph, len(m.v)), free=free)
             for problem in m.problems(links, m.missing(acc, links), [], acc.vdot):
-                factors = RecordedElimination.of(problem)
-                value = factors.answer(problem.linear)
-                a = plus(m.graph, problem.reference, [value[v] for v in m.v])
-                yield not problem.tape.forms, SolvedForward(m.graph, list(m.v), a, factors)
+                yield not problem.tape.forms, SolvedForward.of(problem)
 
 
 def _cheapest_solutions(m: Mechanics) -> list[tuple[SolvedForward, Matrix]]:
@@ -172,12 +230,15 @@ def candidates(m: Mechanics, directions: Directions) -> Iterator[tuple[Vector, M
     held = [g.input("a", i) for i in range(n)]
     r = m.inverse(held)
     ways = [_by_rows(g, r, directions), _by_columns(g, r, directions)]
-    for (solution, Minv), D in pairs_of(_cheapest_solutions(m), ways):
-        flat = replaced(g, [x for row in D for x in row], dict(zip(held, solution.a, strict=True)))
-        width = len(directions.columns)
-        slopes = [flat[i * width : (i + 1) * width] for i in range(n)]
-        yield solution.a, Minv, [[g.neg(x) for x in row] for row in product(g, Minv, slopes)]
-        yield solution.a, Minv, transposed([solution.along(column) for column in transposed(slopes)]) or slopes
+    for solution, Minv in _cheapest_solutions(m):
+        if solution.problem.tape.forms:
+            yield solution.a, Minv, solution.along_conditions(directions)
+        for D in ways:
+            flat = replaced(g, [x for row in D for x in row], dict(zip(held, solution.a, strict=True)))
+            width = len(directions.columns)
+            slopes = [flat[i * width : (i + 1) * width] for i in range(n)]
+            yield solution.a, Minv, [[g.neg(x) for x in row] for row in product(g, Minv, slopes)]
+            yield solution.a, Minv, transposed([solution.along(column) for column in transposed(slopes)]) or slopes
 
 
 def derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
