@@ -1,0 +1,135 @@
+"""Measure derivatives of the accelerations beside Pinocchio: operations, compiling, time a state, agreement.
+
+    python bench/derivatives.py                 print Markdown tables
+    python bench/derivatives.py --append        and append them to bench/RESULTS.md, with the machine
+
+All of a, ∂a/∂q, ∂a/∂v and M⁻¹ are computed, by `dynamics.derivatives` with wrt=("q", "v") and by Pinocchio's
+``computeABADerivatives``. Pinocchio is called from Python, one state after the other, since its wheel has no loop over
+states for derivatives and brings no headers of Eigen. What Python adds is estimated by the same call for a model with
+one joint; it is subtracted in the second column of its times, and in the ratios. Everything runs in turn on one core,
+the least of many short chunks, so ratios come from one run.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+import engine_systems as systems
+from engine import best, one_call, table, this_machine
+from engine_peers import Pinocchio
+from engine_systems import Array, Body, Link, Tree, Z
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.graph import count_program
+
+HERE = Path(__file__).parent
+TREES = {"arm": systems.arm_tree, "quadruped": systems.quadruped_tree, "humanoid": systems.humanoid_tree}
+STATES = 256
+"""States in a timed call: inputs and outputs of the largest stay in the second cache."""
+
+NAMES = ("a", "a_q", "a_v", "Minv")
+
+
+def called(peer: Pinocchio, q: Array, v: Array, u: Array) -> Callable[[], object]:
+    """One call of Pinocchio's function, which writes into its data."""
+    pin, model, data = peer.pin, peer.model, peer.data
+    return lambda: pin.computeABADerivatives(model, data, q, v, u)
+
+
+def disagreement(peer: Pinocchio, found: dict[str, Array], states: tuple[Array, Array, Array]) -> float:
+    """The greatest difference, as a part of the greatest entry of each array."""
+    worst = 0.0
+    for k, (q, v, u) in enumerate(zip(*states, strict=True)):
+        by_q, by_v, Minv = peer.pin.computeABADerivatives(peer.model, peer.data, q, v, u)
+        theirs = (peer.data.ddq, by_q, by_v, np.triu(Minv) + np.triu(Minv, 1).T)
+        for name, wanted in zip(NAMES, theirs, strict=True):
+            worst = max(worst, float(np.abs(found[name][k] - wanted).max() / np.abs(wanted).max()))
+    return worst
+
+
+def one_joint() -> Tree:
+    """The smallest tree, for what a call costs in Python."""
+    body = Body(1.0, (0.1, 0.0, 0.0), ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)))
+    return Tree("one joint", (Link(-1, Z, (0.0, 0.0, 0.0), body),))
+
+
+def row(name: str, rounds: int, seconds: float) -> list[str]:
+    """The figures of one system."""
+    tree = TREES[name]()
+    states = tree.states(STATES)
+    clock = [time.process_time()]
+    program = dynamics.derivatives(systems.described(tree).model, ("q", "v"))
+    clock.append(time.process_time())
+    kernel = machine.compile(program, optional={"t": 0.0}, threads=1, keep=False)
+    kernel(*(x[0] for x in states))
+    clock.append(time.process_time())
+    found = kernel(*states)
+    clock.append(time.process_time())
+    peer, small = Pinocchio(tree), Pinocchio(one_joint())
+    contenders = {
+        "one": one_call(kernel, *states),
+        "batch": kernel.prepared(*states),
+        "theirs": called(peer, *(x[0] for x in states)),
+        "python": called(small, *(x[0] for x in one_joint().states(1))),
+    }
+    taken = best(contenders, rounds, seconds)
+    one, batch = (taken[k] / STATES for k in ("one", "batch"))
+    core = taken["theirs"] - taken["python"]
+    made = [f"{b - a:.2f}" for a, b in pairwise(clock)]
+    times = [f"{one * 1e9:.0f}", f"{batch * 1e9:.0f}", f"{taken['theirs'] * 1e9:.0f}", f"{core * 1e9:.0f}"]
+    ratios = [f"{core / one:.2f}", f"{core / batch:.2f}"]
+    return [
+        name,
+        str(count_program(program).operations),
+        *made,
+        *times,
+        *ratios,
+        f"{disagreement(peer, found, states):.1e}",
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser.add_argument("--quick", action="store_true", help="fewer rounds, without the humanoid")
+    given = parser.parse_args()
+    os.environ["LAGRANGIAN_CACHE_DIR"] = ""
+    if hasattr(os, "sched_setaffinity"):  # stay on one core
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    rounds, seconds = (2, 0.05) if given.quick else (6, 0.15)
+    lines = ["## Derivatives of the accelerations", "", f"`python bench/derivatives.py`. {this_machine()}.", ""]
+    lines += [
+        "a, ∂a/∂q, ∂a/∂v and M⁻¹ together. CPU seconds: the program, machine code for one state, for a batch. Times in",
+        "ns a state. Pinocchio (the wheel's code, not built for this processor) is called from Python; the next column",
+        "is without the same call for one joint, and so are the ratios.",
+        "",
+    ]
+    head = [
+        "one core",
+        "operations",
+        "program [s]",
+        "one [s]",
+        "batch [s]",
+        "one call",
+        "batch",
+        "Pinocchio",
+        "without Python",
+    ]
+    head += ["one call: times as fast", "batch: times as fast", "difference"]
+    names = [name for name in TREES if not (given.quick and name == "humanoid")]
+    lines += table(head, [row(name, rounds, seconds) for name in names])
+    print("\n".join(lines), flush=True)
+    if given.append:
+        results = HERE / "RESULTS.md"
+        results.write_text("\n".join([results.read_text(encoding="utf-8").rstrip(), "", *lines, ""]), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
