@@ -241,7 +241,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
         chosen += [(t, best.under) for t in best.told if key(t) not in known]
     every = [_mistake(pool.truth, t, a) for t, a in chosen]
     if len(every) == 1:
-        every[0], others = _of_either(pool.truth, every[0], chosen[0][0], others)
+        every[0], others = _of_either(pool.truth, every[0], chosen[0], others)
     told = tuple(
         {(m.name, m.element, m.coordinate) if m.element else str(m.what): m for m in reversed(every)}.values()
     )[::-1]
@@ -254,13 +254,17 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
 
 
 def _of_either(
-    truth: Reference, mistake: Mistake, told: Told, others: Sequence[Explanation]
+    truth: Reference, mistake: Mistake, chosen: tuple[Told, Alignment | None], others: Sequence[Explanation]
 ) -> tuple[Mistake, list[Explanation]]:
-    """The mistake in either of the elements in which it would lead to the same answer, and the others that are left."""
-    rivals = [e for e in others if e.cost <= told.cost + ALIKE + (e.under.doubt if e.under is not None else 0.0)]
-    for e in rivals:
+    """The mistake in either of two bodies, or springs, … if both lead to the same answer; the others that are left."""
+    told, under = chosen
+    ledgers = {e.title: e.ledger for e in truth.model.elements}
+    own = ledgers.get(mistake.element or "")
+    for e in others:
+        if own is None or e.under is not under or e.told[0].cost > told.cost + ALIKE:
+            continue
         rival = _mistake(truth, e.told[0], e.under)
-        if rival.name == mistake.name and rival.element not in (None, mistake.element) and mistake.element:
+        if rival.name == mistake.name and rival.element != mistake.element and ledgers.get(rival.element or "") == own:
             what = text("Either this: ", *mistake.what.parts, " Or this: ", *rival.what.parts)
             element = f"{mistake.element} or {rival.element}"
             brief = None
