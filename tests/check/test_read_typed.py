@@ -18,6 +18,7 @@ from lagrangian.cli import main
 PLAIN = "m L² θ'' + b θ' + m g L sin θ = 0"
 CHANGED = PLAIN.replace("θ", "theta")
 CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
+DIAGONAL = r"\operatorname{diag}(m_1, m_2)\ddot x + K x = f"
 POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 
 
@@ -187,3 +188,38 @@ def test_the_command_and_classes_read_utf_16(tmp_path: Path, monkeypatch: pytest
     assert main(["check", "-e", "pendulum", str(tmp_path)]) == 0
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(PLAIN.encode("utf-16"))))
     assert main(["check", "-e", "pendulum", "-"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [
+        ("pendulum", "m L² theta_pp + b theta_p + m g L sin(theta) = 0"),
+        ("pendulum", "m L² θpunktpunkt + b θpunkt + mgL sinθ = 0"),
+        ("pendulum", "(m + m)L²θ'' + 2bθ' + (m + m)gLsinθ = 0"),
+        ("pendulum", "∑M = m L² θ'' = -b θ' - m g L sin θ"),
+        ("pendulum", "T=1/2 m L² θ'²   V=-m g L cos θ\nm L² θ'' = -b θ' - m g L sin θ   | : mL"),
+        ("pendulum", "m L² θ'' = -b θ' - m g L sin θ   | : mL\n=> L θ'' = -b/(mL) θ' - g sin θ"),
+        ("pendulum", r"$\omega_0^2 \coloneqq g/L$, $mL^2\ddot\theta + b\dot\theta + mL^2\omega_0^2\sin\theta = 0$"),
+        ("lecture-3a", "M x'' + K x = f\nM = [m1 0; 0 m2]\nK = [k -k; -k k]\nf = [-F; F]"),
+        ("lecture-3a", "M x'' + K x = f\nM = diag(m1, m2)\nK = [k, -k; -k, k]\nf = [-F; F]"),
+        ("lecture-3a", rf"${DIAGONAL}, K = \begin{{bmatrix}}k&-k\\-k&k\end{{bmatrix}}, f = [-F, F]^\top$"),
+    ],
+)  # fmt: skip
+def test_customs_of_notebooks(name: str, written: str) -> None:
+    verdict = derivation(name).check(written)
+    assert verdict.right, verdict.to_text()
+
+
+def test_sums_of_angles_without_brackets() -> None:
+    rows = "(m1+m2)L1θ1'' + m2L2θ2''cosθ1{s}θ2 + m2L2θ2'²sinθ1-θ2 + (m1+m2)g sinθ1 = 0\n"
+    rows += "L2θ2'' + L1θ1''cosθ1-θ2 - L1θ1'²sinθ1-θ2 + g sinθ2 = 0"
+    verdict = derivation("double-pendulum").check(rows.format(s="-"))
+    assert verdict.right and "read as sums: cos(θ1-θ2)" in " ".join(map(str, verdict.notes))
+    assert not derivation("double-pendulum").check(rows.format(s="+")).right
+    assert not derivation("double-pendulum").check(rows.format(s=" - ")).right
+
+
+def test_products_in_a_column_stay_products() -> None:
+    columns = "[(M + m) x'' + m s'' cos α; m s'' + m x'' cos α] = [F; m g sin α]"
+    assert derivation("wedge").check(columns).right
+    assert derivation("pendulum").check("[m L² θ''] + [b θ'] = [-m g L sin θ]").right

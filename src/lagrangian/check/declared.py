@@ -153,9 +153,10 @@ def speeds(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[Answe
     """Read names that occur with their first rate at most as rates of coordinates, if the answer is right then."""
     own = {c.symbol for c in truth.model.coordinates} | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
-    new = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)} - own
-    moving = {d.args[0]: d.derivative_count for line in lines for d in line.expr.atoms(sp.Derivative)}
-    high = {d.args[0] for line in lines for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    told = [line for line in lines if line.kind != "statement"]
+    new = {f for line in told for f in line.expr.atoms(AppliedUndef) if f.args == (time,)} - own
+    moving = {d.args[0]: d.derivative_count for line in told for d in line.expr.atoms(sp.Derivative)}
+    high = {d.args[0] for line in told for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
     if not new or len(new) > MAX_SPEEDS or new & high or not new <= moving.keys():
         return tuple(lines), ()
     names = sorted(new, key=str)

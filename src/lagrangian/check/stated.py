@@ -136,6 +136,8 @@ def _of_coordinate(truth: Reference, kind: str, i: int, L: sp.Expr, Xi: sp.Expr)
         return L.diff(c.rate)
     if kind == "p-rate":
         return bounded.diff(L, c.rate, time)
+    if kind == "left":
+        return bounded.diff(L, c.rate, time) - L.diff(c.symbol)
     return L.diff(c.symbol) if kind == "slope" else None
 
 
@@ -183,7 +185,7 @@ def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQ
     """Whether a line is the consequence of the lines above it, and of the right T* or V if only one is above it."""
     if line.kind == "L" and (above.T is not None or above.V is not None):
         return zero_everywhere(truth, line.expr - replace(above, L=None).lagrangian(truth))
-    if i is None or line.kind not in ("p", "p-rate", "slope") or not above.stated:
+    if i is None or line.kind not in ("p", "p-rate", "slope", "left") or not above.stated:
         return False
     own = _of_coordinate(truth, line.kind, i, above.lagrangian(truth), sp.S.Zero)
     return own is not None and zero_everywhere(truth, line.expr - own)

@@ -10,7 +10,18 @@ from lark import Tree
 
 from lagrangian.check.reading.latex_fractions import CLOSING, LatexFractions
 from lagrangian.check.reading.names import Names
-from lagrangian.check.reading.nodes import Node, inside, leaf, matrix, name, node, number, wrapped
+from lagrangian.check.reading.nodes import (
+    Node,
+    diagonal,
+    inside,
+    leaf,
+    matrix,
+    matrix_entries,
+    name,
+    node,
+    number,
+    wrapped,
+)
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
@@ -190,6 +201,9 @@ class LatexParser(LatexFractions):
         if self.next.kind == "accent" and (over := self._dots_over_more()) is not None:
             return self._powered(over, start)
         base, order, start = self._base()
+        if base == "diag" and self.next.kind == "(" and not self.known("diag"):
+            made = inside(self._closed(")"))
+            return diagonal(start, matrix_entries(made) or [made])
         if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self.known("delta"):
             return wrapped("variation", start, self._symbol_in_brackets())
         if base == "e" and self.next.kind == "^" and not self.known("e"):

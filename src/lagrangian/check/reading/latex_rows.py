@@ -54,6 +54,7 @@ _ARROWS = (
     r"|leadsto|Leftarrow|because|land)(?![A-Za-z])|[⇒⟹⇔⟺→⟶∴]|<?=>"
 )
 _ARROW = re.compile(rf"{_SPACE}(?:{_ARROWS})")
+_EQUALS = re.compile(r"\\(?:coloneqq|triangleq|equiv|stackrel\{!\}\{=\}|eqdef)(?![A-Za-z])|:=")
 _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
@@ -63,6 +64,7 @@ _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 def latex_rows(text: str) -> list[AnswerRow]:
     """Return the statements of an answer in LaTeX; words around the mathematics are ignored."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
+    text = _EQUALS.sub(lambda m: "=".ljust(len(m.group())), text)
     found = list(_mathematics(text))
     if not found:
         return _statements(text, 0, lines=True)

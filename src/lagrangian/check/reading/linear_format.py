@@ -11,9 +11,11 @@ Every replacement is as long as what it replaces, so that all places stay the sa
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from lagrangian.check.reading.latex_tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
+from lagrangian.read.letters import key
 
 _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _INDEX = r"_[^\W_⁰¹²³⁴-⁹]+"
@@ -32,6 +34,10 @@ _ARRAY = re.compile(r"[■█]\s*\(")
 _ROW = re.compile(r"(?P<open>[⎡⎢⎣])(?P<row>[^⎡-⎦]*)(?P<close>[⎤⎥⎦])")
 _TALL = re.compile(r"[⎡-⎦]")
 _COLUMNS = re.compile(r"(?<=\S)\s{2,}(?=\S)")
+_LETTERED = re.compile(r"(?<!\w)(?P<stem>[^\W\d]\w{0,30}?)_?(?P<dots>p{1,2}|(?:punkt){1,2})(?!\w)")
+_LISTED = re.compile(r"\[([^\[\]=\n]{3,2000})\]")
+_GAPS = re.compile(r"(?<=[\w)'²])\s+(?=[\w(]|-\S)")
+_TOLD = re.compile(r"[\w)'²]\s+(?:\d|-\S)")
 _DELIMITERS = str.maketrans("├┤", "  ")
 _SUM = re.compile(r"(?<=[\w)\]'′″\s])\s*[-+−–/±]")
 _MAX = 400
@@ -46,6 +52,8 @@ def plain_format(text: str) -> str:
         text = "\n".join(_drawn(line) for line in text.split("\n"))
     if "〖" in text:
         text = _shown(text)
+    if "[" in text:
+        text = _rows_with_commas(text)
     text = _GROUPED_INDEX.sub(lambda m: f"_{re.sub('[ -]', '_', m[1])}".ljust(len(m.group())), text)
     text = _DOTTED.sub(_primed, text)
     text = _SPACING.sub(_spaced, text)
@@ -63,6 +71,35 @@ def _drawn(line: str) -> str:
     inside = inside.replace("sym.", f"{SYMMETRIC}   ")
     opened, closed = ("[" if match["open"] == "⎡" else ";"), ("]" if match["close"] == "⎦" else " ")
     return f"{line[: match.start()]}{opened}{inside}{closed}{line[match.end() :]}"
+
+
+def dots_in_letters(text: str, coordinates: Sequence[str]) -> str:
+    """Return an answer that writes accelerations as x_pp, xpp or x_punktpunkt with primes, x_p and xp included."""
+    names = {key(name) for name in coordinates}
+    words = {m.group(): m for m in _LETTERED.finditer(text)}
+    twice = {key(m["stem"]) for m in words.values() if len(m["dots"]) in (2, 10)}
+    meant = twice & names
+
+    def primed(match: re.Match[str]) -> str:
+        if key(match["stem"]) not in meant:
+            return match.group()
+        made = match["stem"].rstrip("_") + ("''" if len(match["dots"]) in (2, 10) else "'")
+        return made.ljust(len(match.group()))
+
+    return _LETTERED.sub(primed, text) if meant else text
+
+
+def _rows_with_commas(text: str) -> str:
+    """Matrices as in MATLAB, [a 0; -b c], with commas: where a number or a sign stands behind a gap."""
+
+    def separated(match: re.Match[str]) -> str:
+        rows = match[1].split(";")
+        found = [_GAPS.sub(lambda m: ",".ljust(len(m.group())), row.strip().rjust(len(row))) for row in rows]
+        counts = {row.count(",") for row in found}
+        told = any(_TOLD.search(row) for row in rows) and "," not in match[1]
+        return f"[{';'.join(found)}]" if told and len(counts) == 1 and counts != {0} else match.group()
+
+    return _LISTED.sub(separated, text)
 
 
 def _primed(match: re.Match[str]) -> str:

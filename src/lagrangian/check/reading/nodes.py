@@ -17,6 +17,8 @@ from lark.tree import Meta
 Node: TypeAlias = Any
 """A tree or one of its tokens; lark's own types are no more specific about the children of a node."""
 
+_MAX_DIAGONAL = 30
+
 MAX_DEPTH = 50
 """The deepest nesting of brackets, fractions, roots and dots over brackets."""
 
@@ -56,6 +58,21 @@ def wrapped(kind: str, start: int, child: Tree) -> Tree:
 def matrix(start: int, rows: Sequence[Sequence[Tree]]) -> Tree:
     """Return the node of a matrix."""
     return node("matrix", start, leaf("MARK", "matrix", start), *(node("row", start, *row) for row in rows))
+
+
+def diagonal(start: int, entries: Sequence[Tree]) -> Tree:
+    """Return the node of a matrix with these entries on its diagonal; of a matrix that is too large, enough that it is
+    refused."""
+    n = min(len(entries), _MAX_DIAGONAL)
+    return matrix(start, [[entries[i] if i == j else number("0", start) for j in range(n)] for i in range(n)])
+
+
+def matrix_entries(tree: Tree) -> list[Tree] | None:
+    """Return the entries of a list inside a list; None if it is no list."""
+    if tree.data != "matrix":
+        return None
+    rows: list[Node] = list(tree.children[1:])
+    return [row.children[0] for row in rows] if all(len(r.children) == 1 for r in rows) else None
 
 
 def inside(tree: Node) -> Node:

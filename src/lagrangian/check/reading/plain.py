@@ -10,7 +10,18 @@ from __future__ import annotations
 from lark import Tree
 
 from lagrangian.check.reading.arguments import written
-from lagrangian.check.reading.nodes import Node, is_matrix, leaf, matrix, name, node, number, only_name
+from lagrangian.check.reading.nodes import (
+    Node,
+    diagonal,
+    is_matrix,
+    leaf,
+    matrix,
+    matrix_entries,
+    name,
+    node,
+    number,
+    only_name,
+)
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_conditions import AND, NOT, OR
 from lagrangian.check.reading.plain_derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PlainDerivatives
@@ -176,7 +187,7 @@ class PlainParser(PlainDerivatives):
             inner = rows[0]
             if len(inner) == 1:
                 return inner[0]
-            nested = [_entries(x) for x in inner]
+            nested = [matrix_entries(x) for x in inner]
             rows = [n if n is not None else [x] for n, x in zip(nested, inner, strict=True)]
         return matrix(start, rows)
 
@@ -191,7 +202,7 @@ class PlainParser(PlainDerivatives):
     def _named(self) -> Tree:
         token = self.take()
         opens = self.next.kind in ("(", "[")
-        if token.text in DIFFERENTIATE and opens and not self.words.is_name(token.text):
+        if token.text in DIFFERENTIATE and opens and (not self.words.is_name(token.text) or self._by_time()):
             return self._differentiated(token)
         if token.text in DOTS and not self.words.is_name(token.text):
             if self.next.kind == "(":
@@ -201,6 +212,9 @@ class PlainParser(PlainDerivatives):
                 return name(below.text, below.start, DOTS[token.text])
         if token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text):
             return self._bracket_of_one()
+        if token.text == "diag" and self.next.kind == "(" and not self.words.is_name("diag"):
+            listed = self._arguments()
+            return diagonal(token.start, matrix_entries(listed[0]) or listed)
         if token.text == "d" and self.next.kind == "(" and (rate := self._d_of_bracket(token)) is not None:
             return rate
         if self.words.is_function(token.text):
@@ -208,6 +222,20 @@ class PlainParser(PlainDerivatives):
         if self.next.kind == "(" and self._called(token):
             return self._call(token)
         return name(token.text, token.start)
+
+    def _by_time(self) -> bool:
+        """Whether the bracket that is next ends as that of a derivative does, even if D is a name: D[x[t], {t, 2}]."""
+        if self.next.kind != "[":
+            return False
+        depth, at = 0, self.i
+        while self.tokens[at].kind != "end":
+            depth += (self.tokens[at].kind == "[") - (self.tokens[at].kind == "]")
+            if depth == 1 and self.tokens[at].kind == ",":
+                return [x.text for x in self.tokens[at + 1 : at + 3]] in (["{", "t"], ["t", "]"])
+            if not depth:
+                return False
+            at += 1
+        return False
 
     def _called(self, token: AnswerToken) -> bool:
         """Whether the bracket after a name holds what it depends on, or its arguments, and is no factor."""
@@ -321,17 +349,24 @@ class PlainParser(PlainDerivatives):
             if self.next.kind == "name" and self.next.text == "t":
                 children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
             break
+        tree = node("product", start, *children)
+        while self._goes_on():
+            sign = self.take()
+            operator = leaf("SIGN", "+" if sign.kind == "plus" else "-", sign.start)
+            tree = node("sum", start, None, tree, operator, self.operand())
         if self.next.kind in ("times", "over"):
             end = self.tokens[self.i - 1].end
             inner = self.source.text[start:end].strip()
             read = f"{token.text} {inner}{self.next.text}… was read as {token.text}({inner})."
             self.words.names.notes.setdefault(read)
-        return node("product", start, *children)
+        return tree
 
-
-def _entries(tree: Tree) -> list[Tree] | None:
-    """The entries of a list inside a list."""
-    if tree.data != "matrix":
-        return None
-    rows: list[Node] = list(tree.children[1:])
-    return [row.children[0] for row in rows] if all(len(r.children) == 1 for r in rows) else None
+    def _goes_on(self) -> bool:
+        """Whether an angle that is added without a gap is read as part of an argument without brackets: cosθ1-θ2."""
+        last, sign, more = self.tokens[self.i - 1], self.next, self.ahead()
+        joined = last.end == sign.start and sign.end == more.start and sign.kind in ("plus", "minus")
+        moving = [x.kind == "name" and self.words.names.changes(x.text) for x in (last, more)]
+        if not joined or not all(moving):
+            return False
+        self.words.summed_asked = True
+        return self.words.summed

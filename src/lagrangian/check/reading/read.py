@@ -14,7 +14,7 @@ from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import latex_rows
-from lagrangian.check.reading.linear_format import plain_format
+from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
 from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
 from lagrangian.check.reading.parser import Parser
@@ -42,9 +42,8 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-_DEFINED = re.compile(
-    rf"(?:^|[,;:)]|\bwhere|\bwith|\band)\s*((?>{_NAME}))\s*(?:(?:\^|\*\*)\s*2|²)?\s*=(?!=)", re.MULTILINE
-)
+_BEGINS = r"^|^\s*[(\[]?\w{1,4}[)\]]|[,;:]|\bwhere|\bwith|\band"
+_DEFINED = re.compile(rf"(?:{_BEGINS})\s*((?>{_NAME}))[ \t]*(?:(?:\^|\*\*)\s*2|²)?\s*=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
@@ -53,11 +52,12 @@ _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 @dataclass(frozen=True)
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
-    after numbers as units."""
+    after numbers as units, sums of angles without brackets as arguments."""
 
     flipped: bool = False
     listed: bool | None = None
     units: bool = False
+    summed: bool = False
 
 
 LIKELIEST = Choices()
@@ -80,7 +80,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     plain = _without_notations(typed.text, lines)
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
-    text = text if latex else plain_format(text)
+    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates])
     listed = all_bullets(text, marked=text != plain.text and not latex) if reading.listed is None else reading.listed
     choice = bool(bullets(text))
     text = without_bullets(text) if listed else text
@@ -88,7 +88,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     source.check_text(MAX_ANSWER, EXAMPLE)
     lines.names.dependents = dependents(text, lambda name: bool(lines.names.scope.meanings(name)[0]))
     words = _words(lines, text)
-    words.flipped, words.units = reading.flipped, reading.units
+    words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     written = written_out(source) if latex else None
     rows = plain_rows(text, words) if written is None else latex_rows(written.text)
     if not rows:
@@ -107,6 +107,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     made = lines.read(statements, errors)
     less_likely = [
         (Choices(units=True), words.doubtful),
+        (Choices(summed=True), words.summed_asked),
         (Choices(flipped=True), words.asked),
         (Choices(listed=not listed), choice),
     ]
@@ -128,6 +129,8 @@ def _chosen(reading: Choices) -> Iterator[str]:
     """What to say about a reading that is not the likeliest."""
     if reading.flipped:
         yield "Denominators without brackets, as in a/b c, were read in the other way that is possible."
+    if reading.summed:
+        yield "Arguments without brackets, as in cosθ1-θ2, were read as sums: cos(θ1-θ2)."
     if reading.listed is not None:
         of = "that of a list" if reading.listed else "a minus"
         yield f"The sign at the beginning of a line was read as {of}."

@@ -46,7 +46,8 @@ _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
-_BETWEEN = re.compile(rf"[(\[{{}}\])\n]|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}")
+_NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=[^\W\d_]\w{0,8}\*?[ \t]*=(?!=))"
+_BETWEEN = re.compile(rf"[(\[{{}}\])\n]|{_NEXT}|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}")
 
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
@@ -76,6 +77,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
+    split = [row for row in map(_without_sums, split) if row.text.strip()]
     found = [AnswerRow(row.start, without_tail(without_lead(row.text, words), words)) for row in split]
     stated = [row for row in found if not is_prose(row.text, words)]
     return stated or found[:1]
@@ -132,6 +134,20 @@ def incomplete(text: str) -> bool:
     return (
         bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
     )
+
+
+def _without_sums(row: AnswerRow) -> AnswerRow:
+    """A row without the side that only says what is added up, ∑M = J φ'' = …; empty if there is no other equation."""
+    if "∑" not in row.text:
+        return row
+    sides = row.text.split("=")
+    kept = [side for side in sides if "∑" not in side]
+    text = row.text
+    for k, side in enumerate(sides):
+        if "∑" in side:
+            start = sum(len(x) + 1 for x in sides[:k])
+            text = blank(text, max(0, start - (k == len(sides) - 1)), min(len(text), start + len(side) + 1))
+    return AnswerRow(row.start, text if len(kept) > 1 else "")
 
 
 def _stated(part: str) -> bool:

@@ -39,7 +39,9 @@ MAX_WORDS = 500
 MAX_TOLD = 6
 """The largest number of split words that a note lists."""
 
-_WHOLE = frozenset(["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "Eq", "piecewise", "ddot", "dot"])
+_WHOLE = frozenset(
+    ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot"]
+)
 _NUMBER = re.compile(r"\d+")
 
 
@@ -76,6 +78,10 @@ class Words:
         """Whether letters after a number are a unit even if they are names of the system."""
         self.doubtful = False
         """Whether there were such letters."""
+        self.summed = False
+        """Whether cosθ1-θ2, written without gaps, is read as cos(θ1 - θ2)."""
+        self.summed_asked = False
+        """Whether there was such an argument."""
 
     def known(self, word: str) -> bool:
         """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
