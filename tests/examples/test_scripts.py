@@ -19,7 +19,7 @@ def run(name: str) -> dict:
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
-def test_a_script_prints_a_derivation(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_script_prints_what_it_finds(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
     runpy.run_path(str(script), run_name="__main__")
     assert len(capsys.readouterr().out) > 100
 
@@ -41,3 +41,11 @@ def test_the_bead_from_its_energies_rubs_along_its_way() -> None:
     x, (c, b) = dynamicsymbols("x"), sp.symbols("c b")
     (one,), (other,) = script.equations, file.equations
     assert sp.expand(one.lhs - one.rhs - other.lhs - b * (1 + 4 * c**2 * x**2) * x.diff()) == 0
+
+
+def test_the_pole_swings_up_and_stands() -> None:
+    script = run("ilqr_swing_up")
+    X, U, cost = script["swing_up"]()
+    assert abs(X[-1]).max() < 0.01 and cost < 3
+    run_again = script["dyn"].step(X[:-1, :2], X[:-1, 2:], U, script["dt"])  # every state follows from the one before
+    assert abs(run_again - X[1:]).max() < 1e-12
