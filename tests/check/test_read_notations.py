@@ -54,6 +54,7 @@ def right(system: str, written: str) -> None:
         "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) ~ 0",
         "$ m L^2 dot.double(theta) + b dot(theta) + m g L sin(theta) = 0 $",
         "The equation is $ frac(2, 2) m L^2 dot.double(theta) + b dot(theta) = - m g L sin theta $.",
+        "theta = dynamicsymbols('theta')\neq1 := m*L**2*theta.diff().diff(t) + b*theta.diff(t) + m*g*L*sin(theta) = 0",
         "$ T = 1/2 m L^2 dot(theta)^2 $\n"
         "$ dif/(dif t) (partial T)/(partial dot(theta)) + b dot(theta) + m g L sin theta = 0 $",
     ],
@@ -72,6 +73,11 @@ def test_the_spellings_of_programs(written: str) -> None:
         "<div>T = &frac12; m L<sup>2</sup>&theta;&#775;<sup>2</sup><br/>m L² θ'' + b θ' + m g L sin(&theta;) = 0</div>",
         "m\u202fL²\u2009θ'' + b\u3000θ' + m g L sin\u00a0θ = 0",
         "𝑚𝐿²𝜃'' + 𝑏𝜃' + ｍ＊ｇ＊Ｌ＊ｓｉｎ（θ） ＝ ０",
+        "m L² ¨θ + b˙θ = −m g L sin θ",
+        "(m L²) θ'' + b θ' + (m g L) senθ = 0",
+        r"m L^2 \ddot\theta + b \dot theta + m*g*L*sin(theta) = 0",
+        r"ad a) mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0.",
+        r"(ii) \Rightarrow mL^2\ddot\theta + b\dot\theta + mgL\sen\theta = 0",
         "m L² θ'' + b θ' + m g L sen θ = 0",
         "m L² θ'' + b θ' + mgL senθ = 0",
         "mL²θ'' + bθ' + mgLsenθ = 0",
@@ -97,6 +103,14 @@ def test_labels_in_front(before: str, behind: str) -> None:
 
 def test_words_that_explain_a_definition() -> None:
     right("pendulum", f"φ = θ : angle from the vertical\n{PLAIN.replace('θ', 'φ')}")
+
+
+def test_a_vector_of_kinematics_is_left_out_and_said_and_an_equation_is_not() -> None:
+    verdict = derivation("pendulum").check(f"a = (L θ'') e_t - (L θ'^2) e_n\n{PLAIN}")
+    assert verdict.right
+    assert "Line 1" in str(verdict.notes[0]) and "not read" in str(verdict.notes[0])
+    with pytest.raises(ParseError):
+        derivation("pendulum").check(f"F = (m L θ'') e_t\n{PLAIN}")
 
 
 @pytest.mark.parametrize(
@@ -135,6 +149,7 @@ def test_blanks_in_brackets_remain_products_where_the_shape_wants_them() -> None
         "m L² θ'' + b θ' + m g L tg θ = 0",
         "m*L^2*D2theta + b*D2theta + m*g*L*sin(theta) = 0",
         "m L^2 ddot θ + b ddot θ + m g L sinθ = 0",
+        "m L² ¨θ + b ¨θ + m g L sin θ = 0",
         "<p>m L<sub>2</sub> θ'' + b θ' + m g L sin θ = 0</p>",
         "m L² θ''\n + b θ' = 0\nm L²\n + m g L sin θ = 0",
     ],

@@ -46,6 +46,12 @@ _SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
 _NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
+_LETTER_BEFORE = re.compile(
+    rf"{_SPACE}(?:(?:[^\W\d_]{{2,12}}\.?\s+){{0,2}}(?:\d{{1,3}}[a-z]?|[a-h]|[ivx]{{1,4}})\s?\)[.:]?|\((?:i{{2,3}}|i?v|vi{{1,3}})\))"
+    rf"(?={_SPACE}[^\s=+*/^])(?=.*=)",
+    re.DOTALL,
+)
+"""A letter or a number with a bracket that nothing opens, perhaps after a word, and Roman numbers: ad a), (ii)."""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
@@ -160,7 +166,7 @@ def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
 
 def _labels(piece: str) -> str:
     """Blank out arrows, and numbers of equations before and after a statement."""
-    for form in (_ARROW, _NUMBER_BEFORE):
+    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
     end = _content_end(piece)

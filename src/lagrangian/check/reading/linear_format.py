@@ -21,7 +21,11 @@ _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _INDEX = r"_[^\W_⁰¹²³⁴-⁹]+"
 _GROUPED_INDEX = re.compile(r"(?<=[\w*\u0307\u0308])_\(\s*(\w+(?:[ -]\w+){0,4})\s*\)")
 _DOTTED = re.compile(rf"(?P<base>[^\W\d_]|\))[ \xa0]+(?P<mark>[\u0307\u0308\u20db])(?P<index>{_INDEX})?")
-_SPACING = re.compile(rf"(?<=[\w)])(?P<mark>[˙¨])(?![^\W⁰¹²³⁴-⁹])|(?<![\w)])(?P<before>[˙¨])(?P<after>{_NAME})")
+_LETTER = r"[^\W⁰¹²³⁴-⁹]"
+_SPACING = re.compile(
+    rf"(?<=[\w)])(?P<mark>[˙¨])(?!{_LETTER})|(?<!{_LETTER})(?<!\))(?P<before>[˙¨])(?P<after>{_NAME})"
+    rf"|(?<={_LETTER})(?P<amid>[˙¨])(?P<next>[^\W\d_])"
+)
 _MARKS = {"\u0307": "'", "\u0308": "''", "\u20db": "‴", "˙": "'", "¨": "″"}
 _TWO = r"\s*(?:\^\s*2|\*\*\s*2|²)"
 _PRIMES = r"['’′″]*"
@@ -56,7 +60,9 @@ def plain_format(text: str) -> str:
         text = _rows_with_commas(text)
     text = _GROUPED_INDEX.sub(lambda m: f"_{re.sub('[ -]', '_', m[1])}".ljust(len(m.group())), text)
     text = _DOTTED.sub(_primed, text)
-    text = _SPACING.sub(_spaced, text)
+    found = [m.lastgroup for m in _SPACING.finditer(text)]
+    before, behind = "after" in found, "mark" in found
+    text = _SPACING.sub(lambda m: _spaced(m, before=before and not behind, behind=behind and not before), text)
     if ".." in text:
         text = _dots_behind(text)
     return _FRACTION.sub(_bare, text)
@@ -108,7 +114,11 @@ def _primed(match: re.Match[str]) -> str:
     return made.ljust(len(match.group()))
 
 
-def _spaced(match: re.Match[str]) -> str:
+def _spaced(match: re.Match[str], *, before: bool, behind: bool) -> str:
+    """¨x and x¨ as x″; between two letters, a mark belongs to that side on which all others of the answer stand."""
+    if match["amid"]:
+        mark = _MARKS[match["amid"]]
+        return f"{match['next']}{mark}" if before else f"{mark}{match['next']}" if behind else match.group()
     if match["before"]:
         return f"{match['after']}{_MARKS[match['before']]}"
     return _MARKS[match["mark"]]

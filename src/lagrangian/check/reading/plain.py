@@ -7,6 +7,8 @@ m L^2 phi''  k(x1 - x2)  2mgL      Eq(a, b)
 
 from __future__ import annotations
 
+import re
+
 from lark import Tree
 
 from lagrangian.check.reading.arguments import written
@@ -33,6 +35,8 @@ from lagrangian.read.explain import explain
 from lagrangian.read.letters import undotted
 
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
+_CALLED = re.compile(r"(?:eqn?s?|eom|ode|dgl|gl|bwg|equation)_?\w{0,3}", re.IGNORECASE)
+"""What people call an equation in programs: eq1 := m*x'' = F."""
 _BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
 _NUMBERS = frozenset(["number", "fraction"])
 
@@ -87,7 +91,9 @@ class PlainParser(PlainDerivatives):
     def sides(self) -> list[Tree]:
         """Read sums with = between them, or Eq(a, b); what a program calls an equation is ignored: eq1 = a == b."""
         texts = [x.text for x in self.tokens]
-        if self.tokens[0].kind == "name" and texts[1:2] == ["="] and ("==" in texts or texts[2] in _EQUALITIES):
+        called = self.tokens[0].kind == "name" and texts[1:2] == ["="]
+        named = texts.count("=") == 2 and _CALLED.fullmatch(texts[0]) and not self.words.names.known(texts[0])
+        if called and ("==" in texts or texts[2] in _EQUALITIES or named):
             self.i = 2
         token = self.next
         if token.text not in _EQUALITIES or self.ahead().kind not in CLOSING or self.words.is_name(token.text):

@@ -42,6 +42,16 @@ _QUOTED = re.compile(r"(?<![\w)\]'’′])['%](?=[dD]iff\()")
 _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
 _EQUALS = re.compile(r"^(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE)
 _RATE = re.compile(rf"(?<![\w\\])D(?P<two>2)?(?P<of>{_NAME})(?!\w)")
+_LINE_OF_CODE = re.compile(
+    r"^[ \t]*(?:from\s+\w[\w.]*\s+import\b[^=\n]*|import\s+\w[\w. ,]*|syms\s[^=\n]*|using\s+[\w, ]+|clear|clc|restart:?"
+    r"|with\(\w+\)[:;]|#(?:import|let|set|include)\b.*"
+    r"|[\w, ]+=\s*(?:\w{1,6}\.)?(?:symbols|dynamicsymbols|Symbol|Function|var)\(.*)$",
+    re.MULTILINE,
+)
+"""Lines of programs that state nothing: imports, and declarations of symbols."""
+_PLAIN_DOTS = re.compile(r"\\(?P<dots>d{1,2})ot\s*\\?(?P<of>[^\W\d_]\w*)")
+_COMMAND = re.compile(r"\\(?P<word>[A-Za-z]+)")
+_PLAIN_CALL = re.compile(rf"(?<![\w\\])(?:sin|cos|tan|sqrt)\s*\(|(?<![\w\\])(?:{'|'.join(SPELLED.values())})(?!\w)")
 _LATEX = re.compile(r"\\[A-Za-z]|[_^]\{")
 _GREEK = {word: letter for letter, word in SPELLED.items() if letter != "ς"}
 _CALLS = re.compile(r"(?<![\w.\\])(?P<name>frac|Rational|pow|power|square|mat|vec)\(")
@@ -66,7 +76,9 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     """
     if "\\[" in written.text:
         written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
-    written = written.sub(_TIMES, lambda m: f"t, {m['order']}")
+    written = written.sub(_LINE_OF_CODE, lambda m: "").sub(_TIMES, lambda m: f"t, {m['order']}")
+    if _is_mixed(written.text):
+        written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])
     if _LATEX.search(written.text):
         return written
     from_typst = _is_typst(written.text)
@@ -83,6 +95,13 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     )
     written = written.edited(_called(written.text, taken, typst=from_typst))
     return _with_primes(written, moves, taken)
+
+
+def _is_mixed(text: str) -> bool:
+    """Whether an answer is plain text with a few commands of LaTeX: \\dot x, \\theta, but sin(theta)."""
+    words = {m["word"] for m in _COMMAND.finditer(text)}
+    few = words and all(word in ("dot", "ddot") or word in _GREEK for word in words)
+    return bool(few) and not re.search(r"[${}]|\\[^A-Za-z]", text) and _PLAIN_CALL.search(text) is not None
 
 
 def _letter(match: re.Match[str]) -> str:

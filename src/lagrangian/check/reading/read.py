@@ -45,6 +45,11 @@ _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*
 _BEGINS = r"^|^\s*[(\[]?\w{1,4}[)\]]|[,;:]|\bwhere|\bwith|\band"
 _DEFINED = re.compile(rf"(?:{_BEGINS})\s*((?>{_NAME}))[ \t]*(?:(?:\^|\*\*)\s*2|²)?\s*=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
+_VECTOR = re.compile(
+    r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s*=[^=]*?(?<!\w)"
+    r"(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
+    r"(?=[^=]*\Z)"
+)
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 
@@ -103,7 +108,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     parser: Callable[[Source], Parser] = partial(PlainParser, words=words)
     if latex:
         parser = partial(LatexParser, names=lines.names)
-    statements, errors = _parsed(source, rows, parser, written)
+    statements, errors, aside = _parsed(source, rows, parser, written, lines)
     made = lines.read(statements, errors)
     less_likely = [
         (Choices(units=True), words.doubtful),
@@ -113,7 +118,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     ]
     others = [x for x, asked in less_likely if asked]
     again = [partial(parse_answer, given, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
-    notes = (*words.notes(), *_chosen(reading), *lines.names.notes)
+    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes)
     notation = "latex" if latex else "text"
     return Answer(made, notation, tuple(lines.names.unknown.values()), notes, tuple(again))
 
@@ -148,9 +153,14 @@ def _words(lines: Lines, text: str) -> Words:
 
 
 def _parsed(
-    source: Source, rows: Sequence[AnswerRow], parser: Callable[[Source], Parser], latex: ExpandedLatex | None
-) -> tuple[list[Statement], list[ParseError]]:
-    """The statements, whose places refer to the whole answer, and the errors of those that cannot be parsed."""
+    source: Source,
+    rows: Sequence[AnswerRow],
+    parser: Callable[[Source], Parser],
+    latex: ExpandedLatex | None,
+    lines: Lines,
+) -> tuple[list[Statement], list[ParseError], list[str]]:
+    """The statements, whose places refer to the whole answer, the errors of those that cannot be parsed, and notes
+    about rows that are no statements about the system and were left out."""
     found: list[Statement] = []
     errors: list[ParseError] = []
     words: list[ParseError] = []
@@ -161,10 +171,19 @@ def _parsed(
         try:
             found.append(Statement(tuple(parser(own).sides()), own))
         except ParseError as error:
-            (errors if _is_stated(written) or error.code == "E703" else words).append(error)
+            stated = _is_stated(written) and not _is_vector(written, lines)
+            (errors if stated or error.code == "E703" else words).append(error)
             if len(errors) >= MAX_ERRORS or error.code == "E703":
                 break
-    return found, errors if found or errors else words[:1]
+    aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
+    notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MAX_ERRORS]]
+    return found, errors if found or errors else words[:1], notes
+
+
+def _is_vector(row: str, lines: Lines) -> bool:
+    """Whether a row says with unit vectors what a position, velocity or acceleration is: a = x'' e_x + y'' e_y."""
+    match = _VECTOR.match(row)
+    return match is not None and not lines.names.known(match["name"]) and not lines.names.known(match["unit"])
 
 
 def _is_stated(row: str) -> bool:
