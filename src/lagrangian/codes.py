@@ -48,6 +48,11 @@ class Code(StrEnum):
         "gravity that may be missing",
         "A notice: there is a parameter g but no gravity uses it, or nothing acts on bodies that swing in a plane.",
     )
+    E108 = (
+        "E108",
+        "what a robot's file says beside its mechanics",
+        "A notice: limits, shapes, transmissions and the like are listed, and the motion does not depend on them.",
+    )
     E201 = (
         "E201",
         "no coordinates, or an idle one",
@@ -263,10 +268,10 @@ class Code(StrEnum):
 
 
 CodeText = Literal[
-    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E303",
-    "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E401", "E402", "E403", "E404", "E405", "E406", "E408",
-    "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504",
-    "E505", "E506", "E507", "E508", "E509", "E510", "E521", "E522", "E523", "E524", "E525", "E601", "E701", "E702",
-    "E703", "E704", "E705", "E801", "E802", "E803", "E804",
+    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E108", "E201", "E202", "E203", "E210", "E301", "E302",
+    "E303", "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E401", "E402", "E403", "E404", "E405", "E406",
+    "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503",
+    "E504", "E505", "E506", "E507", "E508", "E509", "E510", "E521", "E522", "E523", "E524", "E525", "E601", "E701",
+    "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

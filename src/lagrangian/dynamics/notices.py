@@ -50,6 +50,7 @@ def _found(model: Model) -> tuple[Notice, ...]:
     if negative:
         _decide(model, negative)
     return (
+        *model.remarks,
         *(Notice(d.code, _where(d.body), _said(d)) for d in found),
         *_weightless(model),
         *_dependent(model),

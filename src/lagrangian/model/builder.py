@@ -38,8 +38,6 @@ class Builder(Declarations):
         super().__init__()
         self.name = name.strip()
         self.origin = Point("origin", None, (), None, self)
-        self.settings: dict[str, Any] = {}
-        self.look: dict[str, Any] = {}
         self._points: dict[str, Point] = {"origin": self.origin}
         self._frames: dict[str, Frame] = {}
         self._elements: list[Element] = []
@@ -392,6 +390,7 @@ class Builder(Declarations):
             elements=tuple(self._elements),
             settings=dict(self.settings),
             look=dict(self.look),
+            remarks=tuple(self.remarks),
         )
         made = with_pressing_rows(made)
         check_effect(made)

@@ -11,7 +11,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.errors import ModelError, Place, did_you_mean
+from lagrangian.errors import ModelError, Notice, Place, did_you_mean
 from lagrangian.model.body_checks import ConstantValues
 from lagrangian.model.checks import checked_number
 from lagrangian.model.geometry import as_expr
@@ -21,7 +21,11 @@ from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, V
 
 
 class Declarations:
-    """The symbols of a description that is being built; an invalid declaration raises `ModelError`."""
+    """The symbols of a description that is being built; an invalid declaration raises `ModelError`.
+
+    Beside them it has what a file says of a run and of the picture, ``settings`` and ``look``, and notices of what the
+    file says beside its mechanics, ``remarks``.
+    """
 
     def __init__(self) -> None:
         self._coordinates: dict[str, Coordinate] = {}
@@ -31,6 +35,9 @@ class Declarations:
         self._inputs: dict[str, Input] = {}
         self._definitions: dict[str, Definition] = {}
         self._symbols: set[Any] = {time}
+        self.settings: dict[str, Any] = {}
+        self.look: dict[str, Any] = {}
+        self.remarks: list[Notice] = []
         self._frozen: Model | None = None
 
     @property

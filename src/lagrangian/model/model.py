@@ -14,6 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.errors import Notice
 from lagrangian.model.elements import Body, Element, Friction, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
@@ -39,7 +40,7 @@ class Model(Brief):
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
     2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file,
     and ``look`` its hints for the picture, both as plain data. ``spare`` says which rows of constraints follow from
-    others along the motion, if that is known.
+    others along the motion, if that is known. ``remarks`` are notices of what the description was read from.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Model(Brief):
     settings: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
     look: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
     spare: tuple[SpareRows, ...] = ()
+    remarks: tuple[Notice, ...] = ()
     _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], repr=False)
 
     def __repr__(self) -> str:

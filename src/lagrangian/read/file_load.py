@@ -22,6 +22,7 @@ from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.file_look import LookReader
 from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal, spelled, twin
+from lagrangian.read.robots import is_markup, read_robot
 from lagrangian.read.toml_index import Path
 from lagrangian.read.validate import MAX_BYTES, decode, owner
 
@@ -51,7 +52,7 @@ def _unreadable(name: str, what: str, fix: str) -> ModelError:
 
 def loads(text: str, name: str | None = None) -> Builder:
     """Return the description in the text of a model file; messages use ``name`` as the name of the file."""
-    return Loader(text, name or "<text>").build()
+    return read_robot(text, name or "<text>") if is_markup(text) else Loader(text, name or "<text>").build()
 
 
 class Loader(Reading):

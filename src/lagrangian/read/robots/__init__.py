@@ -1,0 +1,5 @@
+"""Reads the files of robots (URDF) into a `Builder`: markup → tree of links and joints → description of a system."""
+
+from lagrangian.read.robots.reading import is_markup, read_robot
+
+__all__ = ["is_markup", "read_robot"]

@@ -1,0 +1,248 @@
+"""Describes a robot to a `Builder`: a frame and a coordinate for every joint, a body for every link with mass.
+
+Masses, inertias, lengths, damping, friction and angles that are no multiples of 30° or 45° become parameters with the
+values of the file, zeros stay zeros. What a fixed joint carries belongs to the frame of the link that carries it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.errors import Place
+from lagrangian.model import Builder, Damper, Force, Frame, Friction, Gravity, Particle, Point, RigidBody, Torque
+from lagrangian.read.robots.naming import Identifiers
+from lagrangian.read.robots.remarks import described, remarks
+from lagrangian.read.robots.robot import Inertial, Robot, RobotJoint, RobotLink
+from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector, X, Y, Z, turned_tensor
+
+STANDARD_GRAVITY = 9.81
+
+
+@dataclass(frozen=True)
+class CarriedBy:
+    """Where a link is: its origin ``at``, and its axes after ``turns`` from a frame's; no frame is the ground."""
+
+    frame: Frame | None
+    at: Point
+    turns: tuple[FixedTurn, ...] = ()
+
+    @property
+    def moves(self) -> bool:
+        """Whether the link moves."""
+        return self.frame is not None
+
+
+def assembled(robot: Robot) -> Builder:
+    """Return the description of a robot; raises `ModelError` with the place of what the description refuses."""
+    return Assembly(robot).build()
+
+
+class Assembly:
+    """A robot on its way into a `Builder`."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.builder = Builder(robot.name)
+        self.names = Identifiers()
+        self.floating: dict[str, Frame] = {}
+        self.coordinates: dict[str, tuple[sp.Expr, ...]] = {}
+        self.order = robot.outwards()
+
+    def build(self) -> Builder:
+        """Coordinates first, because joints may follow later ones; then links from the root outwards."""
+        for joint in self.order:
+            self._declare(joint)
+        ground = CarriedBy(None, self.builder.origin)
+        carriers = {self.robot.root: ground}
+        for joint in self.order:
+            carriers[joint.child] = self._carried(joint, carriers[joint.parent])
+            self._mass(self.robot.links[joint.child], carriers[joint.child])
+        for joint in self.order:
+            self._resistance(joint)
+            self._drive(joint)
+        strength = self.builder.standard_gravity(STANDARD_GRAVITY)
+        self.builder.add(Gravity(direction=(0, 0, -1), g=strength, place=self.robot.place))
+        still = [name for name, carrier in carriers.items() if not carrier.moves and self.robot.links[name].inertial]
+        self.builder.remarks.extend(remarks(self.robot, still, self.names.changed))
+        return self.builder
+
+    # -- coordinates --------------------------------------------------------------------------------------------
+
+    def _declare(self, joint: RobotJoint) -> None:
+        """Declare the coordinates of a joint that moves by itself."""
+        if joint.kind == "fixed" or joint.mimic is not None:
+            return
+        if joint.kind == "floating":
+            name = self.names.of(joint.child)
+            made = self.floating[joint.name] = self.builder.floating_frame(name, place=joint.place)
+            own = [x.name for x in self.builder.floating]
+            self.names.reserve(*own, made.origin.name or "")
+            return
+        if joint.kind == "planar":
+            names = [self.names.of(f"{joint.name}_{key}") for key in ("x", "y", "angle")]
+        else:
+            names = [self.names.of(joint.name)]
+        units = {"planar": ("m", "m", "rad"), "prismatic": ("m",)}.get(joint.kind, ("rad",))
+        self.coordinates[joint.name] = tuple(
+            self.builder.coordinate(name, unit=unit, description=described(joint), place=joint.place).symbol
+            for name, unit in zip(names, units, strict=True)
+        )
+
+    def coordinate(self, joint: RobotJoint) -> sp.Expr:
+        """The coordinate of a joint, that of the joint it follows put in: q = multiplier · q_leader + offset."""
+        factor, offset = sp.S.One, sp.S.Zero
+        while (mimic := joint.mimic) is not None:
+            offset += factor * sp.Rational(repr(mimic.offset))
+            factor *= sp.Rational(repr(mimic.multiplier))
+            joint = self.robot.joints[mimic.leader]
+        return factor * self.coordinates[joint.name][0] + offset
+
+    # -- frames -------------------------------------------------------------------------------------------------
+
+    def _carried(self, joint: RobotJoint, carrier: CarriedBy) -> CarriedBy:
+        """Where the child of a joint is."""
+        if joint.kind == "fixed":
+            at, turns = carrier.at, FixedPose(ZERO, carrier.turns + joint.pose.turns).short.turns
+            if joint.pose.offset != ZERO:
+                name = self.names.of(joint.child, also="_point")
+                words = ("{}_" + name, f"{joint.child} on {joint.parent}")
+                at = self._point(carrier, joint.pose.offset, words, joint.place, name)
+            return CarriedBy(carrier.frame, at, turns)
+        if joint.kind == "floating":
+            frame = self.floating[joint.name]
+            return CarriedBy(frame, frame.origin)
+        own = self.names.known(joint.name)
+        at = self._point(carrier, joint.pose.offset, ("{}_" + own, f"joint {joint.name}"), joint.place)
+        turns = FixedPose(ZERO, carrier.turns + joint.pose.turns).short.turns
+        angle: sp.Expr = sp.S.Zero
+        axis = _unit(joint.axis)
+        if joint.kind in ("revolute", "continuous"):
+            angle = self.coordinate(joint)
+        elif joint.kind == "planar":
+            angle = self.coordinates[joint.name][2]
+        if turns and angle != 0 and turns[-1].axis == joint.axis:  # two turns about one axis are one
+            angle, turns = angle + self._angle(turns[-1], own, joint), turns[:-1]
+        parent = carrier.frame
+        for turn in turns:
+            fixed = self._angle(turn, own, joint)
+            parent = self.builder.frame(None, fixed, axis=turn.axis, parent=parent, origin=at, place=joint.place)
+        if joint.kind == "prismatic":
+            at = self._moved(at, parent, [n * self.coordinate(joint) for n in axis])
+        elif joint.kind == "planar":
+            x, y = self.coordinates[joint.name][:2]
+            first, second = _across(joint.axis)
+            at = self._moved(at, parent, [a * x + b * y for a, b in zip(first, second, strict=True)])
+        name = self.names.of(joint.child, also="_link")
+        frame = self.builder.frame(name, angle, axis=joint.axis, parent=parent, origin=at, place=joint.place)
+        return CarriedBy(frame, at)
+
+    def _moved(self, at: Point, frame: Frame | None, offset: list[sp.Expr]) -> Point:
+        return at + tuple(offset) if frame is None else frame.point(*offset, at=at)
+
+    def _point(
+        self, carrier: CarriedBy, offset: Vector, words: tuple[str, str], place: Place, name: str | None = None
+    ) -> Point:
+        """The point at ``offset`` in the axes of a link; its lengths are parameters, named and described by words."""
+        if offset == ZERO:
+            return carrier.at
+        pattern, what = words
+        lengths = [
+            self._parameter(pattern.format(key), value, "m", f"{key} of {what}", place)
+            for key, value in zip("xyz", FixedPose(ZERO, carrier.turns).along(offset), strict=True)
+        ]
+        return self.builder.point(name, lengths, parent=carrier.at, frame=carrier.frame, place=place)
+
+    def _angle(self, turn: FixedTurn, name: str, joint: RobotJoint) -> sp.Expr:
+        """The angle of a constant turn: a multiple of π, or else a parameter."""
+        if (exact := turn.exact).has(sp.pi):
+            return exact
+        key = {X: "roll", Y: "pitch", Z: "yaw"}.get(turn.axis, "angle")
+        return self._parameter(f"{key}_{name}", turn.angle, "rad", f"{key} of joint {joint.name}", joint.place)
+
+    # -- elements -----------------------------------------------------------------------------------------------
+
+    def _parameter(self, name: str, value: float, unit: str, what: str, place: Place) -> sp.Expr:
+        """A new parameter, or 0 where the value is 0."""
+        if value == 0:
+            return sp.S.Zero
+        return self.builder.parameter(self.names.free(name), value, unit=unit, description=what, place=place).symbol
+
+    def _mass(self, link: RobotLink, carrier: CarriedBy) -> None:
+        """Add the body of a link that moves."""
+        given = link.inertial
+        if given is None or carrier.frame is None:
+            return
+        name = self.names.known(link.name)
+        mass = self._parameter(f"m_{name}", given.mass, "kg", f"mass of {link.name}", given.place)
+        centre = ("c{}_" + name, f"centre of mass of {link.name}")
+        at = self._point(carrier, given.centre, centre, given.place)
+        if not any(any(row) for row in given.inertia):
+            self.builder.add(Particle(mass=mass, at=at, name=link.name, place=given.place))
+            return
+        tensor = self._tensor(given, carrier, name, link.name)
+        self.builder.add(
+            RigidBody(mass=mass, inertia=tensor, at=at, frame=carrier.frame, name=link.name, place=given.place)
+        )
+
+    def _tensor(self, given: Inertial, carrier: CarriedBy, name: str, link: str) -> list[list[sp.Expr]]:
+        """The inertia in the axes of the frame that carries the link, a parameter for every entry that is not 0."""
+        rows = turned_tensor(FixedPose(ZERO, carrier.turns).matrix, given.inertia) if carrier.turns else given.inertia
+        entries: dict[tuple[int, int], sp.Expr] = {}
+        for i in range(3):
+            for j in range(i, 3):
+                key = "xyz"[i] + "xyz"[j]
+                what = f"inertia of {link} about its centre of mass, {key}"
+                made = self._parameter(f"I{key}_{name}", rows[i][j], "kg*m^2", what, given.place)
+                entries[i, j] = entries[j, i] = made
+        return [[entries[i, j] for j in range(3)] for i in range(3)]
+
+    def _resistance(self, joint: RobotJoint) -> None:
+        """Add a damper and dry friction on the coordinate of a joint."""
+        if joint.kind in ("fixed", "floating", "planar"):
+            return
+        q, name, along = self.coordinate(joint), self.names.known(joint.name), joint.kind == "prismatic"
+        if joint.damping:
+            unit = "N*s/m" if along else "N*m*s"
+            b = self._parameter(f"b_{name}", joint.damping, unit, f"damping of {joint.name}", joint.place)
+            self.builder.add(Damper(b=b, deflection=q, name=f"damping of {joint.name}", place=joint.place))
+        if joint.friction:
+            unit = "N" if along else "N*m"
+            limit = self._parameter(f"f_{name}", joint.friction, unit, f"dry friction of {joint.name}", joint.place)
+            self.builder.add(Friction(limit=limit, deflection=q, name=f"friction of {joint.name}", place=joint.place))
+
+    def _drive(self, joint: RobotJoint) -> None:
+        """Add an input for every coordinate of a joint that moves by itself."""
+        for q in self.coordinates.get(joint.name, ()):
+            coordinate = next(c for c in self.builder.coordinates if c.symbol == q)
+            name, along = coordinate.name, coordinate.unit == "m"
+            unit, letter, what = ("N", "F", "force") if along else ("N*m", "tau", "torque")
+            bound = "" if joint.limits.effort is None else f", at most {joint.limits.effort:g} {unit.replace('*', ' ')}"
+            u = self.builder.input(
+                self.names.free(f"{letter}_{name}"),
+                unit=unit,
+                description=f"{what} on {name}{bound}",
+                place=joint.place,
+            ).symbol
+            effect = (
+                Force(value=u, deflection=q, place=joint.place) if along else Torque(value=u, on=q, place=joint.place)
+            )
+            self.builder.add(effect)
+
+
+def _unit(axis: Vector) -> list[sp.Expr]:
+    """The axis with length 1, exactly."""
+    exact = [sp.Rational(repr(x)) for x in axis]
+    size = sp.sqrt(sum((x**2 for x in exact), sp.S.Zero))
+    return [x / size for x in exact]
+
+
+def _across(axis: Vector) -> tuple[list[sp.Expr], list[sp.Expr]]:
+    """Two directions that make a right-handed system with an axis: x and y for the axis z."""
+    n = sp.Matrix(_unit(axis))
+    least = min(range(3), key=lambda k: (abs(axis[k]), (k - 2) % 3))
+    helper = sp.Matrix([int(k == least) for k in range(3)])
+    second = n.cross(helper)
+    second = second / sp.sqrt(second.dot(second))
+    return list(second.cross(n)), list(second)

@@ -1,0 +1,26 @@
+"""Reads the text of a robot's file: which format it is, the robot in it, and its description as a `Builder`."""
+
+from __future__ import annotations
+
+from lagrangian.model import Builder
+from lagrangian.quantities.source import shown
+from lagrangian.read.robots.assembling import assembled
+from lagrangian.read.robots.markup import MarkupFile
+from lagrangian.read.robots.urdf import read_urdf
+
+
+def is_markup(text: str) -> bool:
+    """Whether a text is XML rather than TOML, which never begins with ``<``."""
+    return text.lstrip().startswith("<")
+
+
+def read_robot(text: str, name: str) -> Builder:
+    """Return the description of the robot in a text; errors name the file ``name``, with line and column."""
+    root = MarkupFile(text.lstrip("\ufeff"), name).parse()
+    if root.name != "robot":
+        raise root.error(
+            f"the outermost element is <{root.name[:40]}>, which is not a robot's",
+            f"a file in URDF is <robot name={shown('arm')}> … </robot>",
+            "E405",
+        )
+    return assembled(read_urdf(root))

@@ -1,0 +1,56 @@
+"""What a robot's file says that its description does not: notices, so that nothing is left out in silence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from lagrangian.codes import Code
+from lagrangian.errors import Notice
+from lagrangian.read.robots.robot import JointLimits, Robot, RobotJoint
+
+
+def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str]) -> Iterator[Notice]:
+    """The notices of a robot: limits, joints without input, bodies at rest, names, and what is not mechanics."""
+    where = f"robot '{robot.name}'"
+    moving = [joint for joint in robot.joints.values() if joint.kind != "fixed"]
+
+    def notice(text: str) -> Notice:
+        return Notice(Code.E108, where, text)
+
+    if limits := [f"{joint.name} {said}" for joint in moving if (said := ", ".join(in_words(joint.limits, joint)))]:
+        yield notice("limits are data, which the motion does not keep: " + "; ".join(limits))
+    if followers := [j for j in moving if j.mimic is not None]:
+        said = "; ".join(f"{j.name} follows {j.mimic.leader}" for j in followers if j.mimic is not None)
+        yield notice(f"joints that follow others have neither coordinate nor input: {said}")
+    for joint in moving:
+        if joint.kind == "floating":
+            yield notice(
+                f"joint {joint.name} floats: no input drives it, and its coordinates count from the fixed axes"
+            )
+        if joint.kind in ("floating", "planar") and (joint.damping or joint.friction):
+            yield notice(f"damping and friction of the {joint.kind} joint {joint.name} are left out")
+    if still:
+        yield notice(f"what does not move needs no mass: {', '.join(still)}")
+    if changed:
+        yield notice("names were made identifiers: " + ", ".join(f"'{a}' is {b}" for a, b in changed.items()))
+    if robot.left_out:
+        yield notice("these are no part of the mechanics and are left out: " + ", ".join(robot.left_out))
+
+
+def described(joint: RobotJoint) -> str:
+    """A joint in words, for its coordinate: ``revolute joint, arm on base, -2 to 2 rad``."""
+    said = f"{joint.kind} joint, {joint.child} on {joint.parent}"
+    return ", ".join([said, *in_words(joint.limits, joint)[:1]]) if joint.limits.ranged else said
+
+
+def in_words(limits: JointLimits, joint: RobotJoint) -> list[str]:
+    """JointLimits in words: ``-2.9 to 2.9 rad``, ``effort 87 N m``, ``velocity 2.2 rad/s``."""
+    length, effort = ("m", "N") if joint.kind == "prismatic" else ("rad", "N m")
+    said: list[str] = []
+    if limits.ranged:
+        said.append(f"{limits.lower or 0:g} to {limits.upper or 0:g} {length}")
+    if limits.effort is not None:
+        said.append(f"effort {limits.effort:g} {effort}")
+    if limits.velocity is not None:
+        said.append(f"velocity {limits.velocity:g} {length}/s")
+    return said

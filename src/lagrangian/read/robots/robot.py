@@ -1,0 +1,110 @@
+"""A robot as its file describes it: links with inertias, joined to a tree by joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from lagrangian.errors import Place
+from lagrangian.read.robots.rotations import FixedPose, Rows, Vector
+
+JointKind: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+
+MAX_LINKS = 1000
+"""The largest number of links."""
+
+MAX_CHAIN = 100
+"""The largest number of links one after the other from the root."""
+
+
+@dataclass(frozen=True)
+class Inertial:
+    """A mass [kg], its centre [m] and the inertia about it [kg m²], both in the axes of a link."""
+
+    mass: float
+    centre: Vector
+    inertia: Rows
+    place: Place = field(repr=False)
+
+
+@dataclass(frozen=True)
+class RobotLink:
+    """A rigid part of a robot; without ``inertial`` it has no mass."""
+
+    name: str
+    inertial: Inertial | None
+    place: Place = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Mimic:
+    """A joint that follows another: q = multiplier · q_leader + offset."""
+
+    leader: str
+    multiplier: float
+    offset: float
+    place: Place = field(repr=False)
+
+
+@dataclass(frozen=True)
+class JointLimits:
+    """What the file says of the range, effort and speed of a joint, as data; None where it says nothing."""
+
+    lower: float | None = None
+    upper: float | None = None
+    effort: float | None = None
+    velocity: float | None = None
+
+    @property
+    def ranged(self) -> bool:
+        """Whether the coordinate has a range."""
+        return self.lower is not None or self.upper is not None
+
+
+@dataclass(frozen=True)
+class RobotJoint:
+    """How link ``child`` moves in link ``parent``: placed at ``pose``, then by its coordinate along or about ``axis``.
+
+    A planar joint moves along the two directions perpendicular to ``axis``, and turns about it. ``damping`` is in
+    N s/m or N m s, ``friction`` in N or N m.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    pose: FixedPose
+    axis: Vector
+    place: Place = field(repr=False)
+    damping: float = 0.0
+    friction: float = 0.0
+    mimic: Mimic | None = None
+    limits: JointLimits = JointLimits()
+
+
+@dataclass(frozen=True)
+class Robot:
+    """The tree: links and joints by name, in the order of the file.
+
+    ``left_out`` lists in words what is not mechanics.
+    """
+
+    name: str
+    links: dict[str, RobotLink]
+    joints: dict[str, RobotJoint]
+    root: str
+    left_out: tuple[str, ...] = ()
+    place: Place | None = field(default=None, repr=False)
+
+    def outwards(self) -> list[RobotJoint]:
+        """The joints limb after limb, every one after that which carries it; of one link, in the order of the file."""
+        below: dict[str, list[RobotJoint]] = {}
+        for joint in self.joints.values():
+            below.setdefault(joint.parent, []).append(joint)
+        found: list[RobotJoint] = []
+        waiting = below.get(self.root, [])[::-1]
+        while waiting:
+            joint = waiting.pop()
+            found.append(joint)
+            waiting.extend(below.get(joint.child, [])[::-1])
+        return found

@@ -1,0 +1,138 @@
+"""Rotations as turns about axes, one after the other, and as matrices of numbers; right angles stay exact.
+
+R = R(n₁, φ₁) R(n₂, φ₂) …,      R(n, φ) = 1 + sin φ [n]× + (1 − cos φ) [n]×²
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import sympy as sp
+
+Vector: TypeAlias = tuple[float, float, float]
+Rows: TypeAlias = tuple[Vector, Vector, Vector]
+
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+IDENTITY: Rows = (X, Y, Z)
+ZERO: Vector = (0.0, 0.0, 0.0)
+
+EXACT_ANGLE = 1e-11
+"""An angle [rad] that is nearer than this to a multiple of 30° or 45° is that multiple: 1.57079632679 is π/2."""
+
+_STEPS = tuple(k for k in range(1, 24) if k % 2 == 0 or k % 3 == 0)  # of 15°
+
+
+@dataclass(frozen=True)
+class FixedTurn:
+    """A turn by a constant ``angle`` [rad] about an ``axis`` of length 1."""
+
+    axis: Vector
+    angle: float
+
+    @property
+    def exact(self) -> sp.Expr:
+        """The angle as an exact number, a multiple of π where it is one."""
+        steps = round(self.angle * 12 / math.pi)
+        near = abs(self.angle - steps * math.pi / 12) < EXACT_ANGLE
+        if near and (steps % 24 == 0 or steps % 24 in _STEPS):
+            return sp.Rational(steps, 12) * sp.pi
+        return sp.Rational(repr(self.angle))
+
+    @property
+    def is_none(self) -> bool:
+        """Whether it is no turn at all."""
+        return self.exact == 0
+
+    @property
+    def matrix(self) -> Rows:
+        """R(n, φ), with exact zeros and ones at right angles."""
+        exact = self.exact
+        angle = exact if exact.has(sp.pi) else sp.Float(self.angle)
+        c, s = float(sp.cos(angle)), float(sp.sin(angle))
+        x, y, z = self.axis
+        cross = ((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0))
+        n = self.axis
+        return _rows([[c * (i == j) + (1 - c) * n[i] * n[j] + s * cross[i][j] for j in range(3)] for i in range(3)])
+
+
+def _rows(rows: Iterable[Sequence[float]]) -> Rows:
+    a, b, c = ((float(x), float(y), float(z)) for x, y, z in rows)
+    return a, b, c
+
+
+@dataclass(frozen=True)
+class FixedPose:
+    """Where a frame is in another: the ``offset`` of its origin [m] and the ``turns`` of its axes, in that order."""
+
+    offset: Vector = ZERO
+    turns: tuple[FixedTurn, ...] = ()
+
+    @property
+    def matrix(self) -> Rows:
+        """R, from the frame's axes to those in which it is placed."""
+        made = IDENTITY
+        for turn in self.turns:
+            made = product(made, turn.matrix)
+        return made
+
+    def along(self, offset: Vector) -> Vector:
+        """A vector along the frame's axes, in those in which it is placed; what is rounding alone is 0."""
+        if not self.turns:
+            return offset
+        noise = 1e-15 * length(offset)
+        x, y, z = (0.0 if abs(s) <= noise else float(f"{s:.15g}") for s in turned(self.matrix, offset))
+        return x, y, z
+
+    @property
+    def short(self) -> FixedPose:
+        """The same pose with at most three turns: of more, the angles are found anew from the matrix."""
+        if len(self.turns) <= 1:
+            return self
+        by_matrix = fixed_axes(*_roll_pitch_yaw(self.matrix))
+        return FixedPose(self.offset, by_matrix) if len(by_matrix) < len(self.turns) else self
+
+
+def fixed_axes(roll: float, pitch: float, yaw: float) -> tuple[FixedTurn, ...]:
+    """The turns of URDF's rpy: about the fixed x, y, z in this order, R = R(z, yaw) R(y, pitch) R(x, roll)."""
+    made = (FixedTurn(Z, yaw), FixedTurn(Y, pitch), FixedTurn(X, roll))
+    return tuple(turn for turn in made if not turn.is_none)
+
+
+def _roll_pitch_yaw(R: Rows) -> Vector:
+    """The angles of R = R(z, yaw) R(y, pitch) R(x, roll); roll is 0 where the pitch is a right angle."""
+    pitch = math.atan2(-R[2][0], math.hypot(R[0][0], R[1][0]))
+    if math.hypot(R[0][0], R[1][0]) < 1e-9:
+        return 0.0, pitch, math.atan2(-R[0][1], R[1][1])
+    return math.atan2(R[2][1], R[2][2]), pitch, math.atan2(R[1][0], R[0][0])
+
+
+def product(a: Rows, b: Rows) -> Rows:
+    """a · b."""
+    return _rows([[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)])
+
+
+def transposed(a: Rows) -> Rows:
+    """aᵀ."""
+    return _rows(zip(*a, strict=True))
+
+
+def turned(a: Rows, v: Sequence[float]) -> Vector:
+    """a · v."""
+    x, y, z = (sum(p * q for p, q in zip(row, v, strict=True)) for row in a)
+    return x, y, z
+
+
+def turned_tensor(a: Rows, inertia: Rows) -> Rows:
+    """a · I · aᵀ, symmetric to the last digit; entries that are rounding alone are 0."""
+    made = product(product(a, inertia), transposed(a))
+    large = max(abs(x) for row in made for x in row) * 1e-15
+    mean = [[(made[i][j] + made[j][i]) / 2 for j in range(3)] for i in range(3)]
+    return _rows([[0.0 if abs(x) <= large else x for x in row] for row in mean])
+
+
+def length(v: Sequence[float]) -> float:
+    """|v|."""
+    return math.hypot(*v)
