@@ -30,6 +30,7 @@ from lagrangian.page.formula import (
     text,
 )
 from lagrangian.structured.listing import Listing
+from lagrangian.structured.predict import is_long
 from lagrangian.structured.writing import ListingWriter
 
 ORDER: tuple[QuantityKind, ...] = (
@@ -87,7 +88,7 @@ class ListedSteps:
                 put(known[cast("sp.Symbol", needed)], kind)
             kinds[kind].append(q)
 
-        ordered = sorted(known.values(), key=lambda q: (first[_group(q)], str(q.symbol)))
+        ordered = sorted(known.values(), key=lambda q: (first[_group(q)], _alphabetic(q)))
         for kind in ORDER:
             for q in ordered:
                 if q.kind == kind:
@@ -149,8 +150,11 @@ class ListedSteps:
         )
         items: list[Item] = [
             text(
-                "Written out in the coordinates these equations would fill many pages. So every quantity that a person "
-                f"would name gets a name, and is defined once. {where}"
+                "Written out in the coordinates these equations would be too long to read. So every quantity that a "
+                "person would name gets a name, and is defined once. "
+                if is_long(self.model)
+                else "Every quantity that a person would name gets a name, and is defined once. ",
+                where,
             ),
             *self.lines("turn"),
             *self.lines("velocity"),
@@ -291,10 +295,21 @@ class ListedSteps:
     def _reason(self) -> Iterator[Item]:
         """Why the left-hand side of a coordinate is a force on what moves with it."""
         turning = "" if self.flat else " For a body that turns the same holds with Jω̇ + ω × Jω in the place of ma."
+        by_rate, by_place = Partial(Name("v"), Name("xi", "", 1)), Partial(Name("v"), Name("xi"))
         yield text(
-            "The derivative of mv·∂v/∂ξ̇ in time is ma·∂v/∂ξ̇ + mv·d/dt(∂v/∂ξ̇), and d/dt(∂v/∂ξ̇) = ∂v/∂ξ. So the second "
-            "part is ∂T*/∂ξ, which Lagrange's equation takes away again, and of every mass only ma·∂v/∂ξ̇ is left: its "
-            f"force of inertia, along the velocity that the rate gives it.{turning}"
+            "The derivative of mv·",
+            by_rate,
+            " in time is ma·",
+            by_rate,
+            " + mv·",
+            Total(by_rate),
+            ", and ",
+            Total(by_rate),
+            " = ",
+            by_place,
+            ". So the second part is ∂T*/∂ξ, which Lagrange's equation takes away again, and of every mass only ma·",
+            by_rate,
+            f" is left: its force of inertia, along the velocity that the rate gives it.{turning}",
         )
         yield text(
             "What a rate moves is everything that hangs on its joint. So momenta and forces are summed from the "
@@ -307,9 +322,15 @@ class ListedSteps:
             )
 
 
+def _alphabetic(q: NamedQuantity) -> tuple[str, str]:
+    """Cosine and sine of one angle side by side, components of one vector from x to z."""
+    letter, _, index = str(q.symbol).partition("_")
+    return (index, letter) if q.kind == "turn" else (letter, index)
+
+
 def _group(q: NamedQuantity) -> tuple[str, str, bool]:
     """What the components of one vector have in common."""
-    return str(q.symbol)[:1], q.of, q.inward
+    return "" if q.kind == "turn" else str(q.symbol)[:1], q.of, q.inward
 
 
 def boxed(found: Listing, write: ListingWriter) -> list[Formula]:
