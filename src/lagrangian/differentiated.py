@@ -13,7 +13,7 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.derivatives.results import Derivatives, InverseDerivatives
 from lagrangian.derivatives.steps import Rates, VelocityMap, differentiated, stepped, tableau
-from lagrangian.errors import RunError
+from lagrangian.errors import ModelError, RunError
 from lagrangian.queries import by_name
 from lagrangian.restricted import Restricted, Values
 
@@ -76,7 +76,11 @@ class Differentiated(Restricted):
         With ``a`` given, the forces r = M a + C v + G − Ξ of inverse dynamics are differentiated:
         `lagrangian.InverseDerivatives` with ``d.r``, ``d.r_q``, ``d.r_v``, ``d.r_u``, ``d.r_p`` and ``d.M``.
 
-        Raises `ModelError` for unknown names in ``wrt`` and for systems with constraints, `RunError` as `forward`.
+        With constraints the multipliers change too: a and λ are differentiated as the functions of q and v that
+        `forward` and `multipliers` return in every state, and ``d.Minv`` is ∂a/∂Ξ, which is singular. A change of the
+        state that satisfies the constraints is still up to you.
+
+        Raises `ModelError` for unknown names in ``wrt``, and what `forward` raises.
         """
         names = (wrt,) if isinstance(wrt, str) else tuple(wrt)
         if a is None:
@@ -95,8 +99,9 @@ class Differentiated(Restricted):
         δx = (δq, δv), A = [[0, 1], [∂a/∂q, ∂a/∂v]] and B = [[0], [∂a/∂u]] with n velocities. For a floating frame δq
         are the six components ξ along its velocities, δq = N(q) ξ, whose rate is ξ̇ = δv − ad_v ξ with the Lie bracket
         of velocities; −ad_v then stands in place of 0. About an equilibrium `System.linearize` returns the same in
-        coordinates, with poles and modes. Raises as `derivatives`.
+        coordinates, with poles and modes. Raises as `derivatives`, and for constraints.
         """
+        self._free_to_vary("linearized")
         d = self.derivatives(q, v, u, p, t)
         n = len(self.velocities)
         A, B = np.zeros((*d.a.shape[:-1], 2 * n, 2 * n)), np.zeros((*d.a.shape[:-1], 2 * n, len(self.inputs)))
@@ -151,9 +156,10 @@ class Differentiated(Restricted):
         ``method`` is "rk4", "midpoint" or "euler". With ``derivatives``, return x₁, A and B: A = ∂x₁/∂x has the shape
         ``(..., 2n, 2n)`` and B = ∂x₁/∂u ``(..., 2n, n_u)``. They are the exact derivatives of this discrete step, not
         of the motion that it approximates, in δx = (δq, δv); for a floating frame δq are components along its
-        velocities, before and after the step. Raises as `derivatives`, and `RunError` for another method or step.
+        velocities, before and after the step. Raises as `derivatives`, for constraints, and for another method or step.
         """
         table = tableau(method)
+        self._free_to_vary("step")
         if isinstance(dt, bool) or not isinstance(dt, (int, float, np.floating, np.integer)) or not isfinite(dt):
             raise RunError(f"dt must be a finite number of seconds (got {dt!r:.60})", code="E501")
         start, time = (_array(q, self.coordinates, "q"), _array(v, self.velocities, "v")), np.asarray(t, float)
@@ -166,6 +172,16 @@ class Differentiated(Restricted):
             return x
         places = len(self.coordinates)
         return x, *differentiated(table, float(dt), stages, self._tangent(x[..., :places], x[..., places:]))
+
+    def _free_to_vary(self, name: str) -> None:
+        """Raise `ModelError` where constraints tie the variations of a state to each other."""
+        if self._model.constraints:
+            raise ModelError(
+                f"{name} is not available for system '{self._model.name}': with constraints, a state cannot be varied"
+                " freely",
+                fix="system.linearize() returns A and B of the motions that the constraints allow",
+                code="E201",
+            )
 
     def _rates(self, given: tuple[Any, ...], *, derivatives: bool) -> Rates:
         """q̇ and v̇ at a state, which is given as for `forward`."""

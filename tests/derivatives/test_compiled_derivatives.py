@@ -150,5 +150,20 @@ def test_what_does_not_fit_is_said(cart: lg.Compiled) -> None:
         cart.step(q, v, u, float("nan"))
     with pytest.raises(lg.ModelError, match="mass"):
         cart.derivatives(q, v, p={"m": -1.0})
-    with pytest.raises(lg.ModelError, match="linearize"):
-        built_in.system("four-bar").compile().derivatives(0, 0)
+    loop = built_in.system("four-bar").compile()
+    for call in (lambda: loop.linearized([0, 0, 0], [0, 0, 0]), lambda: loop.step([0, 0, 0], [0, 0, 0], None, 0.1)):
+        with pytest.raises(lg.ModelError, match="linearize"):
+            call()
+
+
+def test_under_constraints_forces_along_the_rows_change_nothing() -> None:
+    dyn = built_in.system("four-bar").compile()
+    at, w = dyn.assemble({"theta2": 1.0} if "theta2" in dyn.coordinates else None)
+    d = dyn.derivatives(at, w)
+    A = dyn.constraint_matrix(at)
+    assert np.abs(d.Minv).max() > 0.1
+    assert np.allclose(d.Minv @ A.T, 0, atol=1e-9) and np.allclose(d.Minv, d.Minv.T, atol=1e-9)
+    h = 1e-6
+    for k, e in enumerate(np.eye(len(at))):  # a is defined beside the constraints, too
+        ends = [dyn.forward(at + s * h * e, w) for s in (1, -1)]
+        assert np.allclose(d.a_q[:, k], (ends[0] - ends[1]) / (2 * h), rtol=1e-5, atol=1e-5)

@@ -99,7 +99,7 @@ class Derivatives(NamedSlopes):
 
     @property
     def Minv(self) -> Array:
-        """M⁻¹ = ∂a/∂Ξ, shape ``(..., n, n)``: what generalized forces change."""
+        """M⁻¹ = ∂a/∂Ξ, shape ``(..., n, n)``: what generalized forces change; with constraints ∂a/∂Ξ alone."""
         return self._values["Minv"]
 
 

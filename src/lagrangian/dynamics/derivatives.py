@@ -21,6 +21,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from lagrangian.dynamics.constrained_derivatives import constrained_slopes
 from lagrangian.dynamics.floating import bracket
 from lagrangian.dynamics.mechanics import MANY, Mechanics
 from lagrangian.dynamics.multipliers import Problem
@@ -245,24 +246,18 @@ def derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
     """q, v, u, p, t → "a" (n,), "Minv" = M⁻¹ = ∂a/∂Ξ (n, n), and ∂a/∂x for every x named in ``wrt``.
 
     ``wrt`` contains "q", "v", "u" and names of parameters, for the outputs "a_q" and "a_v" (n, n), "a_u" (n, number of
-    inputs) and "a_p" (n, number of parameters named, in that order). "a_q" is along the velocities. Raises `ModelError`
-    for other names, for constraints, and where the mass matrix is singular by structure.
+    inputs) and "a_p" (n, number of parameters named, in that order). "a_q" is along the velocities. With
+    constraints "Minv" is ∂a/∂Ξ (`constrained_derivatives`). Raises `ModelError` for other names, and as `forward`.
     """
-    if model.constraints:
-        raise constrained(model)
     graph, m, directions = directions_of(model, wrt)
-    found = [
-        {"a": _vector(a), **directions.split("a", slopes), "Minv": _matrix(Minv)}
-        for a, Minv, slopes in candidates(m, directions)
-    ]
+    ways = [constrained_slopes(m, directions.columns)] if m.rows else candidates(m, directions)
+    found = [{"a": _vector(a), **directions.split("a", slopes), "Minv": _matrix(Minv)} for a, Minv, slopes in ways]
     outputs = min(found, key=lambda outputs: _cost(graph, [i for x in outputs.values() for i in x.ids]))
     return _program(model, "derivatives", graph, outputs)
 
 
 def inverse_derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
     """q, v, a, u, p, t → "r" (n,), "M" = ∂r/∂a (n, n), and ∂r/∂x as "r_q", "r_v", "r_u", "r_p"; see `derivatives`."""
-    if model.constraints:
-        raise constrained(model)
     graph, m, directions = directions_of(model, wrt)
     r = m.inverse([graph.input("a", i) for i in range(len(m.v))])
     M = _matrix(m.mass_matrix())
@@ -298,12 +293,3 @@ def tangent(model: Model) -> Program:
                 ad[at.v + i][at.v + k] = x
     outputs = {"qdot": _vector(rates), "N": _matrix(N), "Nq": _matrix(Nq), "back": _matrix(back), "ad": _matrix(ad)}
     return _program(model, "tangent", g, outputs)
-
-
-def constrained(model: Model) -> ModelError:
-    """Return the error that refuses derivatives of a system with constraints."""
-    return ModelError(
-        f"the derivatives of system '{model.name}' are not available: with constraints, states cannot be varied freely",
-        fix="linearize() returns A and B of the motions that the constraints allow",
-        code="E201",
-    )
