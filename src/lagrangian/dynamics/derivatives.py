@@ -232,14 +232,36 @@ def candidates(m: Mechanics, directions: Directions) -> Iterator[tuple[Vector, M
     r = m.inverse(held)
     ways = [_by_rows(g, r, directions), _by_columns(g, r, directions)]
     for solution, Minv in _cheapest_solutions(m):
-        if solution.problem.tape.forms:
-            yield solution.a, Minv, solution.along_conditions(directions)
-        for D in ways:
-            flat = replaced(g, [x for row in D for x in row], dict(zip(held, solution.a, strict=True)))
-            width = len(directions.columns)
+        values = dict(zip(held, solution.a, strict=True))
+        width = len(directions.columns)
+        for k, D in enumerate(ways):
+            flat = replaced(g, [x for row in D for x in row], values)
             slopes = [flat[i * width : (i + 1) * width] for i in range(n)]
-            yield solution.a, Minv, [[g.neg(x) for x in row] for row in product(g, Minv, slopes)]
-            yield solution.a, Minv, transposed([solution.along(column) for column in transposed(slopes)]) or slopes
+            found = [product(g, Minv, _negative(g, slopes)), _answers(solution, slopes)]
+            if k == 0 and solution.problem.tape.forms:
+                found.append(solution.along_conditions(directions))
+            for matrix in found:
+                yield solution.a, Minv, _with_single_entries(g, matrix, Minv, slopes)
+
+
+def _negative(g: Graph, matrix: Matrix) -> Matrix:
+    return [[g.neg(x) for x in row] for row in matrix]
+
+
+def _answers(solution: SolvedForward, D: Matrix) -> Matrix:
+    """−M⁻¹ D, column by column."""
+    return transposed([solution.along(column) for column in transposed(D)]) or D
+
+
+def _with_single_entries(g: Graph, matrix: Matrix, Minv: Matrix, D: Matrix) -> Matrix:
+    """−M⁻¹ D in which every column with one entry in D, such as that of a motor, is that entry times one of M⁻¹."""
+    columns = transposed(matrix)
+    for k, column in enumerate(transposed(D)):
+        entries = [i for i, x in enumerate(column) if x != g.zero]
+        if len(entries) == 1:
+            (i,) = entries
+            columns[k] = [g.neg(g.mul(column[i], row[i])) for row in Minv]
+    return transposed(columns) or matrix
 
 
 def derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
