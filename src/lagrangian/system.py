@@ -316,7 +316,7 @@ class System(Simulated):
 
 
 def load(path: str | Path) -> System:
-    """Return the system that the model file at ``path`` describes."""
+    """Return the system that the file at ``path`` describes: a model file (TOML), or a robot's in URDF or MJCF."""
     builder = read.load(_path(path))
     return System(builder.name, _builder=builder)
 

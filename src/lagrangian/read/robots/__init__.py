@@ -1,4 +1,4 @@
-"""Reads the files of robots (URDF) into a `Builder`: markup → tree of links and joints → description of a system."""
+"""Reads the files of robots (URDF, MJCF) into a `Builder`: markup → links and joints → description of a system."""
 
 from lagrangian.read.robots.reading import is_markup, read_robot
 

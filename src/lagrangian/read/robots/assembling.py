@@ -11,13 +11,25 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrangian.errors import Place
-from lagrangian.model import Builder, Damper, Force, Frame, Friction, Gravity, Particle, Point, RigidBody, Torque
+from lagrangian.model import (
+    Builder,
+    Damper,
+    Force,
+    Frame,
+    Friction,
+    Gravity,
+    Kinetic,
+    Particle,
+    Point,
+    RigidBody,
+    Spring,
+    Torque,
+)
+from lagrangian.model.names import time
 from lagrangian.read.robots.naming import Identifiers
 from lagrangian.read.robots.remarks import described, remarks
 from lagrangian.read.robots.robot import Inertial, Robot, RobotJoint, RobotLink
-from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector, X, Y, Z, turned_tensor
-
-STANDARD_GRAVITY = 9.81
+from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector, X, Y, Z, length, turned_tensor
 
 
 @dataclass(frozen=True)
@@ -61,9 +73,11 @@ class Assembly:
             self._mass(self.robot.links[joint.child], carriers[joint.child])
         for joint in self.order:
             self._resistance(joint)
+            self._spring(joint)
             self._drive(joint)
-        strength = self.builder.standard_gravity(STANDARD_GRAVITY)
-        self.builder.add(Gravity(direction=(0, 0, -1), g=strength, place=self.robot.place))
+        if strength := length(self.robot.gravity):
+            g = self.builder.standard_gravity(strength)
+            self.builder.add(Gravity(direction=self.robot.gravity, g=g, place=self.robot.place))
         still = [name for name, carrier in carriers.items() if not carrier.moves and self.robot.links[name].inertial]
         self.builder.remarks.extend(remarks(self.robot, still, self.names.changed))
         return self.builder
@@ -119,7 +133,7 @@ class Assembly:
         angle: sp.Expr = sp.S.Zero
         axis = _unit(joint.axis)
         if joint.kind in ("revolute", "continuous"):
-            angle = self.coordinate(joint)
+            angle = self.coordinate(joint) - self._start(joint, own)
         elif joint.kind == "planar":
             angle = self.coordinates[joint.name][2]
         if turns and angle != 0 and turns[-1].axis == joint.axis:  # two turns about one axis are one
@@ -129,7 +143,7 @@ class Assembly:
             fixed = self._angle(turn, own, joint)
             parent = self.builder.frame(None, fixed, axis=turn.axis, parent=parent, origin=at, place=joint.place)
         if joint.kind == "prismatic":
-            at = self._moved(at, parent, [n * self.coordinate(joint) for n in axis])
+            at = self._moved(at, parent, [n * (self.coordinate(joint) - self._start(joint, own)) for n in axis])
         elif joint.kind == "planar":
             x, y = self.coordinates[joint.name][:2]
             first, second = _across(joint.axis)
@@ -211,6 +225,29 @@ class Assembly:
             unit = "N" if along else "N*m"
             limit = self._parameter(f"f_{name}", joint.friction, unit, f"dry friction of {joint.name}", joint.place)
             self.builder.add(Friction(limit=limit, deflection=q, name=f"friction of {joint.name}", place=joint.place))
+
+    def _start(self, joint: RobotJoint, name: str) -> sp.Expr:
+        """The value of the coordinate at the pose of the file."""
+        unit = "m" if joint.kind == "prismatic" else "rad"
+        return self._parameter(f"ref_{name}", joint.start, unit, f"value of {joint.name} as described", joint.place)
+
+    def _spring(self, joint: RobotJoint) -> None:
+        """Add a spring and the inertia of a rotor on the coordinate of a joint."""
+        if joint.kind not in ("revolute", "prismatic"):
+            return
+        q, name, along = self.coordinate(joint), self.names.known(joint.name), joint.kind == "prismatic"
+        if joint.stiffness:
+            unit = "N/m" if along else "N*m/rad"
+            k = self._parameter(f"k_{name}", joint.stiffness, unit, f"stiffness of {joint.name}", joint.place)
+            unit = "m" if along else "rad"
+            rest = self._parameter(f"rest_{name}", joint.rest, unit, f"where {joint.name} relaxes", joint.place)
+            said = f"spring of {joint.name}"
+            self.builder.add(Spring(k=k, deflection=q, rest=rest, name=said, place=joint.place))
+        if joint.armature:
+            unit = "kg" if along else "kg*m^2"
+            J = self._parameter(f"J_{name}", joint.armature, unit, f"armature of {joint.name}", joint.place)
+            rate = sp.Derivative(q, time)
+            self.builder.add(Kinetic(value=J * rate**2 / 2, name=f"armature of {joint.name}", place=joint.place))
 
     def _drive(self, joint: RobotJoint) -> None:
         """Add an input for every coordinate of a joint that moves by itself."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from lagrangian.model import Builder
-from lagrangian.quantities.source import shown
 from lagrangian.read.robots.assembling import assembled
 from lagrangian.read.robots.markup import MarkupFile
+from lagrangian.read.robots.mjcf import read_mjcf
 from lagrangian.read.robots.urdf import read_urdf
 
 
@@ -17,10 +17,12 @@ def is_markup(text: str) -> bool:
 def read_robot(text: str, name: str) -> Builder:
     """Return the description of the robot in a text; errors name the file ``name``, with line and column."""
     root = MarkupFile(text.lstrip("\ufeff"), name).parse()
+    if root.name == "mujoco":
+        return assembled(read_mjcf(root))
     if root.name != "robot":
         raise root.error(
             f"the outermost element is <{root.name[:40]}>, which is not a robot's",
-            f"a file in URDF is <robot name={shown('arm')}> … </robot>",
+            "a file in URDF is <robot> … </robot>, one in MJCF <mujoco> … </mujoco>",
             "E405",
         )
     return assembled(read_urdf(root))

@@ -66,7 +66,8 @@ class RobotJoint:
     """How link ``child`` moves in link ``parent``: placed at ``pose``, then by its coordinate along or about ``axis``.
 
     A planar joint moves along the two directions perpendicular to ``axis``, and turns about it. ``damping`` is in
-    N s/m or N m s, ``friction`` in N or N m.
+    N s/m or N m s, ``friction`` in N or N m. A spring of ``stiffness`` [N/m or N m] relaxes at ``rest``; the coordinate
+    has the value ``start`` at the pose; ``armature`` is the inertia of a rotor that only its rate drives [kg or kg m²].
     """
 
     name: str
@@ -80,13 +81,17 @@ class RobotJoint:
     friction: float = 0.0
     mimic: Mimic | None = None
     limits: JointLimits = JointLimits()
+    stiffness: float = 0.0
+    rest: float = 0.0
+    start: float = 0.0
+    armature: float = 0.0
 
 
 @dataclass(frozen=True)
 class Robot:
     """The tree: links and joints by name, in the order of the file.
 
-    ``left_out`` lists in words what is not mechanics.
+    ``left_out`` lists in words what is not mechanics; ``gravity`` is the acceleration of free fall [m/s²].
     """
 
     name: str
@@ -94,6 +99,7 @@ class Robot:
     joints: dict[str, RobotJoint]
     root: str
     left_out: tuple[str, ...] = ()
+    gravity: Vector = (0.0, 0.0, -9.81)
     place: Place | None = field(default=None, repr=False)
 
     def outwards(self) -> list[RobotJoint]:

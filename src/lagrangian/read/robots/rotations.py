@@ -91,14 +91,30 @@ class FixedPose:
         """The same pose with at most three turns: of more, the angles are found anew from the matrix."""
         if len(self.turns) <= 1:
             return self
-        by_matrix = fixed_axes(*_roll_pitch_yaw(self.matrix))
-        return FixedPose(self.offset, by_matrix) if len(by_matrix) < len(self.turns) else self
+        turns = by_matrix(self.matrix)
+        return FixedPose(self.offset, turns) if len(turns) < len(self.turns) else self
 
 
 def fixed_axes(roll: float, pitch: float, yaw: float) -> tuple[FixedTurn, ...]:
     """The turns of URDF's rpy: about the fixed x, y, z in this order, R = R(z, yaw) R(y, pitch) R(x, roll)."""
     made = (FixedTurn(Z, yaw), FixedTurn(Y, pitch), FixedTurn(X, roll))
     return tuple(turn for turn in made if not turn.is_none)
+
+
+def by_matrix(R: Rows) -> tuple[FixedTurn, ...]:
+    """The turns about z, y and x that a matrix is made of."""
+    return fixed_axes(*_roll_pitch_yaw(R))
+
+
+def aligned(axis: Sequence[float], angle: float) -> FixedTurn:
+    """A turn about an axis of any length, which is one of x, y and z if it is within rounding of it."""
+    size = length(axis)
+    kept = [0.0 if abs(x) < 1e-12 * size else x / size for x in axis]
+    first = next(x for x in kept if x != 0)
+    if sum(x != 0 for x in kept) == 1 and first < 0:  # about −z by φ is about z by −φ
+        kept, angle = [-x for x in kept], -angle
+    x, y, z = (round(k) if abs(abs(k) - 1) < 1e-12 else k for k in kept)
+    return FixedTurn((float(x), float(y), float(z)), angle)
 
 
 def _roll_pitch_yaw(R: Rows) -> Vector:
