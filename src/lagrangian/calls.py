@@ -162,6 +162,7 @@ SYSTEM: Mapping[str, str] = {
     ),
     **dict.fromkeys(("ground", "world", "O"), "origin"),
     **dict.fromkeys(("forward", "rhs", "lambdify"), "compile().forward(q, v)"),
+    **dict.fromkeys(("derivatives", "jacobian", "sensitivities"), "compile().derivatives(q, v, u)"),
     "plot": "simulate(10.0).plot()",
     "animate": "simulate(10.0).animate()",
     "actuator": "torque(tau, on=angle) or force((F, 0), at=P)",

@@ -82,7 +82,7 @@ class Differentiated(Restricted):
 
         Raises `ModelError` for unknown names in ``wrt``, and what `forward` raises.
         """
-        names = (wrt,) if isinstance(wrt, str) else tuple(wrt)
+        names = _names(wrt)
         if a is None:
             kernel = self._slopes(names)
             return Derivatives(kernel.program, self._called(kernel, (q, v, u, p, t)), names)
@@ -208,14 +208,25 @@ class Differentiated(Restricted):
         )
 
 
+def _names(wrt: Any) -> tuple[str, ...]:
+    """What is asked for, as names; raises `RunError` for anything else."""
+    if isinstance(wrt, str):
+        return (wrt,)
+    if isinstance(wrt, Sequence) and all(isinstance(name, str) for name in wrt):
+        return tuple(wrt)
+    raise RunError(
+        f"wrt must be names (got {wrt!r:.60})", fix="such as ('q', 'v', 'u') and names of parameters", code="E501"
+    )
+
+
 def _array(given: Any, names: tuple[str, ...], what: str) -> Array:
     """q or v as an array, (..., n), of a mapping by name or an array; raises `RunError` if it does not fit."""
     named = by_name(given)
     if isinstance(named, Mapping):
         if set(named) != set(names):
             raise RunError(f"{what} must have a value for each of {', '.join(names)[:200]}", code="E401")
-        given = np.stack(np.broadcast_arrays(*(np.asarray(named[name], float) for name in names)), axis=-1)
-    found = np.asarray(given, float)
+        given = np.stack(np.broadcast_arrays(*(_numbers(named[name], name) for name in names)), axis=-1)
+    found = _numbers(given, what)
     if found.ndim == 0 or found.shape[-1] != len(names):
         raise RunError(
             f"{what} has the shape {found.shape}; its last axis must have {len(names)} entries",
@@ -223,3 +234,11 @@ def _array(given: Any, names: tuple[str, ...], what: str) -> Array:
             code="E501",
         )
     return found
+
+
+def _numbers(given: Any, what: str) -> Array:
+    """An array of float64; raises `RunError` for what is not a number."""
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError) as cause:
+        raise RunError(f"{what} must consist of numbers (got {given!r:.60})", code="E501") from cause

@@ -144,6 +144,11 @@ def test_what_does_not_fit_is_said(cart: lg.Compiled) -> None:
         cart.step([1, 2, 3], v, u, 0.1)
     with pytest.raises(lg.RunError, match="each of x, theta"):
         cart.step({"x": 1.0}, v, u, 0.1)
+    with pytest.raises(lg.RunError, match="theta must consist of numbers"):
+        cart.step({"x": 1.0, "theta": "a"}, v, u, 0.1)
+    for wrt in (None, ("q", 3)):
+        with pytest.raises(lg.RunError, match="wrt must be names"):
+            cart.derivatives(q, v, wrt=wrt)  # type: ignore[call-overload]
     with pytest.raises(lg.RunError, match="no method 'rk5'"):
         cart.step(q, v, u, 0.1, method="rk5")
     with pytest.raises(lg.RunError, match="finite number of seconds"):

@@ -70,7 +70,7 @@ def parameters_in(model: Model, wrt: Sequence[str]) -> tuple[str, ...]:
         if name not in VARIED and name not in known:
             raise ModelError(
                 f"there is nothing called '{name[:64]}' to differentiate with respect to",
-                fix=did_you_mean(name, known) or f"use {', '.join(map(repr, VARIED))} and names of parameters",
+                fix=did_you_mean(name, known) or f"use 'q', 'v', 'u' and parameters: {', '.join(known[:12]) or 'none'}",
                 code="E402",
             )
         if name in wrt[:at]:
