@@ -1,4 +1,4 @@
-"""Swing a pole up with iLQR: A and B of all steps of a horizon come from one call."""
+"""Swing a pole up with iLQR: A and B of all steps come from one call, and so do the steps of a line search."""
 
 import numpy as np
 
@@ -9,17 +9,18 @@ start, dt, steps = np.array([0, np.pi, 0, 0]), 0.04, 60  # the pole hangs, and i
 Q, Qf, R = np.diag([0.1, 0.1, 0.01, 0.01]) * dt, np.diag([200.0, 200.0, 50.0, 50.0]), np.eye(1) * 0.01 * dt
 
 
-def rolled(X, U, k, K, part):  # the motion with the inputs U + part k + K (x − X), and its cost
-    X, U, old = np.vstack([start, X[1:]]), U.copy(), X
+def rolled(X, U, k, K):  # motions with the inputs U + part k + K (x − X) for six parts, the cheapest, and its cost
+    new, inputs, parts = np.tile(start, (steps + 1, 6, 1)), np.zeros((steps, 6, 1)), 0.5 ** np.c_[:6]
     for i in range(steps):
-        U[i] = np.clip(U[i] + part * k[i] + K[i] @ (X[i] - old[i]), -50, 50)
-        X[i + 1] = dyn.step(X[i, :2], X[i, 2:], U[i], dt)
-    return X, U, X[-1] @ Qf @ X[-1] + ((X[:-1] @ Q) * X[:-1]).sum() + ((U @ R) * U).sum()
+        inputs[i] = np.clip(U[i] + parts * k[i] + (new[i] - X[i]) @ K[i].T, -50, 50)
+        new[i + 1] = dyn.step(new[i, :, :2], new[i, :, 2:], inputs[i], dt)
+    costs = sum(((x @ W) * x).sum((0, 2)) for x, W in ((new[-1:], Qf), (new[:-1], Q), (inputs, R)))
+    return new[:, costs.argmin()], inputs[:, costs.argmin()], costs.min()
 
 
 def swing_up(rounds=25):
     k, K, damping = np.zeros((steps, 1)), np.zeros((steps, 1, 4)), 1.0
-    X, U, cost = rolled(np.zeros((steps + 1, 4)), np.full((steps, 1), 0.1), k, K, 1.0)
+    X, U, cost = rolled(np.zeros((steps + 1, 4)), np.full((steps, 1), 0.1), k, K)
     for _ in range(rounds):
         _, A, B = dyn.step(X[:-1, :2], X[:-1, 2:], U, dt, derivatives=True)
         s, S = Qf @ X[-1], Qf  # slope and curvature of the cost to go
@@ -29,11 +30,10 @@ def swing_up(rounds=25):
             F = A[i] + B[i] @ K[i]  # of the closed loop
             s = Q @ X[i] + K[i].T @ R @ (U[i] + k[i]) + F.T @ (s + S @ B[i] @ k[i])
             S = Q + K[i].T @ R @ K[i] + F.T @ S @ F
-        best = min((rolled(X, U, k, K, part) for part in 0.5 ** np.arange(6)), key=lambda found: found[2])
+        best = rolled(X, U, k, K)
         damping, (X, U, cost) = (damping / 3, best) if best[2] < cost else (damping * 10, (X, U, cost))
     return X, U, cost
 
 
-if __name__ == "__main__":
-    X, U, cost = swing_up()
-    print("x, theta, x', theta', F", np.array2string(np.hstack([X[1:], U]), precision=2, suppress_small=True), sep="\n")
+if __name__ == "__main__":  # a row for every step: x, theta, their rates, and F
+    print(np.array2string(np.hstack([y[-steps:] for y in swing_up()[:2]]), precision=2, suppress_small=True))

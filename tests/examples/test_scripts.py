@@ -43,9 +43,13 @@ def test_the_bead_from_its_energies_rubs_along_its_way() -> None:
     assert sp.expand(one.lhs - one.rhs - other.lhs - b * (1 + 4 * c**2 * x**2) * x.diff()) == 0
 
 
-def test_the_pole_swings_up_and_stands() -> None:
-    script = run("ilqr_swing_up")
-    X, U, cost = script["swing_up"]()
-    assert abs(X[-1]).max() < 0.01 and cost < 3
-    run_again = script["dyn"].step(X[:-1, :2], X[:-1, 2:], U, script["dt"])  # every state follows from the one before
-    assert abs(run_again - X[1:]).max() < 1e-12
+ACROBOT = pytest.param("ilqr_acrobot", [3.14159, 0, 0, 0], marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(("name", "goal"), [("ilqr_swing_up", [0, 0, 0, 0]), ACROBOT])
+def test_it_swings_up_and_stands(name: str, goal: list[float]) -> None:
+    script = run(name)
+    X, U, _ = script["swing_up"]()
+    assert abs(X[0] - script["start"]).max() == 0 and abs(X[-1] - goal).max() < 0.02
+    again = script["dyn"].step(X[:-1, :2], X[:-1, 2:], U, script["dt"])  # every state follows from the one before
+    assert abs(again - X[1:]).max() < 1e-11
