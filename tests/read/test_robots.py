@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pinocchio_robots import Oracle
-from robot_texts import GRIPPER, PENDULUM, QUADRUPED, ROBOTS, TWO, UR5, inertial, joint, link, robot
+from robot_texts import GANTRY, GRIPPER, PENDULUM, QUADRUPED, ROBOTS, TWO, UR5, inertial, joint, link, robot
 
 import lagrangian as lg
 from lagrangian import dynamics
@@ -157,3 +157,11 @@ def test_the_papers_robot_runs_as_it_stands(tmp_path, monkeypatch):
     arm = runpy.run_path("arm.py")["arm"]
     assert all(check.holds for check in arm.derive().verified)
     assert (tmp_path / "arm.html").exists() and len(lg.load("arm.toml").model.coordinates) == 2
+
+
+def test_the_picture_shows_joints_within_their_limits():
+    text = GANTRY.replace('lower="-3" upper="3"', 'lower="0" upper="0.1"')
+    system = lg.loads(text)
+    assert system.model.look["pose"] == {f"joint{k}": 0.07 for k in range(1, 5)}
+    assert lg.loads(system.to_toml()).model.look == system.model.look
+    assert system.look().pose["joint1"] == 0.07

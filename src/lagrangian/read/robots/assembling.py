@@ -31,6 +31,12 @@ from lagrangian.read.robots.remarks import described, remarks
 from lagrangian.read.robots.robot import Inertial, Robot, RobotJoint, RobotLink
 from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector, X, Y, Z, length, turned_tensor
 
+SHOWN = 0.7
+"""Where the picture shows a joint with limits, as a part of its range."""
+
+NEAR = 0.3
+"""An angle [rad] that a joint must reach on both sides of 0 for the picture to choose its pose freely."""
+
 
 @dataclass(frozen=True)
 class CarriedBy:
@@ -79,6 +85,8 @@ class Assembly:
             g = self.builder.standard_gravity(strength)
             self.builder.add(Gravity(direction=self.robot.gravity, g=g, place=self.robot.place))
         still = [name for name, carrier in carriers.items() if not carrier.moves and self.robot.links[name].inertial]
+        if pose := self._pose():
+            self.builder.look["pose"] = pose
         self.builder.remarks.extend(remarks(self.robot, still, self.names.changed))
         return self.builder
 
@@ -112,6 +120,23 @@ class Assembly:
             factor *= sp.Rational(repr(mimic.multiplier))
             joint = self.robot.joints[mimic.leader]
         return factor * self.coordinates[joint.name][0] + offset
+
+    def _pose(self) -> dict[str, float]:
+        """Where the picture shows joints that slide, and those that turn and cannot be near 0: within their limits."""
+        found: dict[str, float] = {}
+        for joint in self.order:
+            low, high = joint.limits.lower, joint.limits.upper
+            if (
+                joint.name not in self.coordinates
+                or joint.kind == "planar"
+                or low is None
+                or high is None
+                or low >= high
+            ):
+                continue
+            if joint.kind == "prismatic" or low > -NEAR or high < NEAR:
+                found[self.names.known(joint.name)] = float(f"{low + SHOWN * (high - low):.3g}")
+        return found
 
     # -- frames -------------------------------------------------------------------------------------------------
 
