@@ -12,11 +12,15 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.derive.sample import Sampler
 from lagrangian.model import DEFLECTION, Action, Element, Model, Words, time
 
 GROUND: Words = ("the ground",)
 MAX_QUANTITIES = 200
 """With more quantities no search is made, because the number of pairs grows with the square."""
+
+CLOSE = 1e-7
+"""Differences of changes below this are rounding: then the expressions themselves decide."""
 
 
 def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
@@ -26,16 +30,19 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
     then +F acts on B and −F on A. If no pair fits, the deflection itself remains the only end.
     """
     ends = element.ends(model)
-    if len(ends) != 1 or ends[0].on != DEFLECTION or ends[0].displacement is None:
+    whole = ends[0] if len(ends) == 1 else None
+    if whole is None or whole.on != DEFLECTION or (deflection := whole.displacement) is None:
         return ends
-    whole = ends[0]
     quantities = list(_quantities(model))
     if len(quantities) > MAX_QUANTITIES:
         return ends
     ground = [(group, GROUND, sp.S.Zero) for group in dict.fromkeys(g for g, _, _ in quantities)]
-    for group_b, on_b, b in quantities:
-        for group_a, on_a, a in ground + quantities:
-            if group_a == group_b and on_a != on_b and _constant(whole.displacement - b + a):
+    changes = _changes(model, [deflection, *(x for _, _, x in ground + quantities)])
+    for (group_b, on_b, b), change_b in zip(quantities, changes[1 + len(ground) :], strict=True):
+        for (group_a, on_a, a), change_a in zip(ground + quantities, changes[1:], strict=True):
+            if group_a != group_b or on_a == on_b or not _near(changes[0] + change_a, change_b):
+                continue  # numbers tell most pairs apart, and to expand their difference takes long
+            if _constant(deflection - b + a):
                 if on_a == GROUND:
                     return (Action(whole.effort, bounded.diff(b, time), on_b, b),)
                 return (
@@ -43,6 +50,19 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
                     Action(-whole.effort, bounded.diff(a, time), on_a, a),
                 )
     return ends
+
+
+def _changes(model: Model, exprs: list[sp.Expr]) -> list[float]:
+    """How much each of the expressions changes between two random states with the same parameters."""
+    sampler = Sampler(model, exprs)
+    first, second = sampler.draw(1), sampler.draw(2)
+    second.update((s, value) for s, value in first.items() if not (s == time or isinstance(s, AppliedUndef)))
+    return [y - x for x, y in zip(sampler.at(first), sampler.at(second), strict=True)]
+
+
+def _near(a: float, b: float) -> bool:
+    """Whether two numbers may be the same but for rounding; a number that is not finite may be any."""
+    return not abs(a - b) > CLOSE * max(abs(a), abs(b), 1.0)
 
 
 def _constant(expr: sp.Expr) -> bool:
