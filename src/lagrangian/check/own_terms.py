@@ -15,6 +15,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.align import LARGEST, Alignment
 from lagrangian.check.changes.pool import Pool
+from lagrangian.check.efforts import Effort, effort_of
 from lagrangian.check.misconceptions.base import partner, put
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.right_terms import RightTerm, right_terms
@@ -31,6 +32,14 @@ WHY_IDLE = text(
     "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
 )
 WHY_ENERGY = text("Go through this line once more, term by term, and compare the units of its terms.")
+WHY_FORCE = text(
+    "Ξ = Σ F·∂r/∂ξ: only the part of a force along the motion does work, and only in coordinates that move its point."
+)
+WHY_DAMPER = text(
+    "A damper feels how fast its own two ends move apart, nothing else, and acts only on coordinates that change that."
+)
+LINES = {"equation": 5, "T": 2, "V": 3, "L": 4, "Xi": 6}
+"""The step to which a term belongs of which only the kind of its line is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,15 +49,17 @@ class OwnTerm:
     1: too much, 2: wrong sign. ``forgotten``: it is not there, but one like it with sine and cosine exchanged is.
     ``instead``: what belongs in its place, in the scale of the answer, and the right term that this is. ``idle``: the
     element that such a term is of, which adds nothing to this equation. ``row`` is the equation, None for a line that
-    is none.
+    is none. ``effort`` is the force, torque or damper with whose letters the term is written.
     """
 
     row: int | None
+    step: int
     term: sp.Expr
     times: Fraction = Fraction(1)
     forgotten: bool = False
     instead: tuple[sp.Expr, RightTerm] | None = None
     idle: Element | None = None
+    effort: Effort | None = None
 
     @property
     def cost(self) -> float:
@@ -65,17 +76,17 @@ class OwnTerm:
         where = ("the equation of ", truth.derivation.coordinates[self.row]) if self.row is not None else ("this line",)
         kind, what = self._said()
         brief, why = text("A term of ", *where, " is not right."), WHY if self.row is not None else WHY_ENERGY
-        if self.idle is not None:
-            step = {"T*": 2, "V": 3}.get(self.idle.ledger, 6)
-            brief = text(f"{self.idle.title} does not belong in ", *where, ".")
-            return Mistake(kind, what, WHY_IDLE, step, self.idle.title, name, brief)
-        if self.instead is None:
-            return Mistake(kind, what, why, 5 if self.row is not None else 2, None, name, brief)
-        right = self.instead[1]
-        element = right.element.title if right.element is not None else None
+        step, element = self.step, None
+        if self.instead is not None:
+            step, element = self.instead[1].step, self.instead[1].element
+        if self.effort is not None:
+            step, element, why = 6, self.effort.element or element, WHY_DAMPER if self.effort.damper else WHY_FORCE
         if element is not None:
-            brief = text(f"A term that comes from {element} in ", *where, " is not right.")
-        return Mistake(kind, what, why, right.step, element, name, brief)
+            brief = text(f"A term that comes from {element.title} in ", *where, " is not right.")
+        if self.idle is not None:
+            step, element, why = {"T*": 2, "V": 3}.get(self.idle.ledger, 6), self.idle, WHY_IDLE
+            brief = text(f"{self.idle.title} does not belong in ", *where, ".")
+        return Mistake(kind, what, why, step, element.title if element is not None else None, name, brief)
 
     def _said(self) -> tuple[str, Text]:
         t = self.term
@@ -87,7 +98,11 @@ class OwnTerm:
         if self.times == 2:
             return "sign_of_a_term", text("The term ", t, " has the wrong sign.")
         if self.times == 1:
-            why = () if self.idle is None else (f": {self.idle.title} adds nothing to this equation",)
+            why: tuple[str | sp.Expr, ...] = ()
+            if self.idle is not None:
+                why = (f": {self.idle.title} adds nothing to this equation",)
+            elif self.effort is not None and self.effort.rate is not None and self.effort.element is not None:
+                why = (f": {self.effort.element.title} feels ", self.effort.rate, " alone")
             return "term_too_much", text("The term ", t, " is too much", *why, ".")
         number = 1 - sp.Rational(self.times.numerator, self.times.denominator)
         return "factor_of_a_term", text("The term ", t, " should be ", number * t, ".")
@@ -114,11 +129,13 @@ def _replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
 
 
 def _factors(term: sp.Expr, right: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
-    """By which product of letters and numbers a term is too much, and by which too little; None for anything else."""
+    """By which product of letters, sines, cosines and numbers a term is too much, and by which too little.
+
+    None for anything else.
+    """
     quotient = bounded.cancel(term / right)
-    if not all(
-        f.is_number or ((f.is_Pow or f.is_Symbol) and f.as_base_exp()[0].is_Symbol) for f in sp.Mul.make_args(quotient)
-    ):
+    bases = [f.as_base_exp()[0] for f in sp.Mul.make_args(quotient)]
+    if not all(x.is_number or x.is_Symbol or isinstance(x, (sp.sin, sp.cos)) for x in bases):
         return None
     more, less = sp.fraction(quotient)
     return more, less
@@ -173,9 +190,11 @@ def own_term(
         if t == expr or np.abs(rest - c * v).max() > SMALL * np.abs(rest).max() or (number := simple_number(c)) is None:
             continue
         if k < len(written):
-            return OwnTerm(row, t, number, idle=_idle(pool, row, t) if number == 1 else None)
+            idle = _idle(pool, row, t) if number == 1 else None
+            return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort_of(pool, kind, row, t))
         if number in (1, -1):
-            return OwnTerm(row, cast("sp.Expr", -number * t), forgotten=True)
+            lost = cast("sp.Expr", -number * t)
+            return OwnTerm(row, LINES[kind], lost, forgotten=True, effort=effort_of(pool, kind, row, t))
     if scale is None:
         return None
     listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use]
@@ -198,35 +217,50 @@ def _in_place(
     row = i if kind == "equation" else None
     size = np.abs(rest).max()
 
-    def belongs(k: int) -> sp.Expr:
-        expr = right.terms[k].expr
-        return scale * expr if scale in (1, -1) else bounded.expand(scale * expr)
+    def in_place(k: int, t: sp.Expr | None = None, times: Any = 1) -> OwnTerm:
+        one = right.terms[k]
+        expr = scale * one.expr if scale in (1, -1) else bounded.expand(scale * one.expr)
+        effort = effort_of(pool, kind, row, expr) if one.step == 6 else None
+        written = cast("sp.Expr", times * expr) if t is None else t
+        return OwnTerm(row, one.step, written, instead=(expr, one), effort=effort)
 
     for k, v in enumerate(scaled):
         for number in (-1, -2):
             if np.abs(rest - number * v).max() <= SMALL * size:
-                return OwnTerm(row, cast("sp.Expr", (1 + number) * belongs(k)), instead=(belongs(k), right.terms[k]))
+                return in_place(k, times=1 + number)
     for k, p in _multiplied(pool, scaled, rest):
-        return OwnTerm(row, cast("sp.Expr", p * belongs(k)), instead=(belongs(k), right.terms[k]))
+        return in_place(k, times=p)
     for t, v in written:
         missing = np.abs(scaled - (v - rest)).max(axis=1)
         for k in np.flatnonzero(missing <= SMALL * (size + np.abs(v).max())):
-            found = OwnTerm(row, t, instead=(belongs(int(k)), right.terms[k]))
+            found = in_place(int(k), t)
             if best is None or found.cost < best.cost:
                 best = found
     return best
 
 
 def _idle(pool: Pool, row: int | None, term: sp.Expr) -> Element | None:
-    """The one element with whose letters a term is written, if it adds nothing to an equation."""
+    """The one element with whose letters a term is written, if it adds nothing to an equation, and none like it does.
+
+    A rate is no letter of a damper: it may be given that of another point.
+    """
     letters = cast("set[sp.Expr]", term.free_symbols | term.atoms(AppliedUndef))
-    atoms = {pool.sites.ring.atom(x) for x in letters}
+    ring = pool.sites.ring
+    atoms = {ring.atom(x) for x in letters}
+    rates = {ring.atom(v) for v in pool.sites.of.v}
     found: list[Element] = []
+    acting: set[str] = set()
     for element, rows in pool.sites.element_rows.items():
-        held = [{a for a, _ in m if not pool.sites.ring.turns(a)} for x in rows.values() for m in x]
+        held = [{a for a, _ in m if not ring.turns(a)} for x in rows.values() for m in x]
         own = set[int].intersection(*held) if held else set[int]()
-        if row is not None and own and own <= atoms and not rows.get(row):
+        own -= rates if element.ledger == "Ξ" else set[int]()
+        if row is None or not own or not own <= atoms:
+            continue
+        if not rows.get(row):
             found.append(element)
+        elif element.ledger == "Ξ":
+            acting.add(element.ledger)
+    found = [e for e in found if e.ledger not in acting]
     return found[0] if len(found) == 1 else None
 
 

@@ -183,7 +183,7 @@ KINDS: Mapping[str, KindWords] = {
         "{Brief} comes with a wrong factor.",
         WHY_PART[6],
     ),
-    "arm_added": KindWords("{Site} is nothing: it does no work there.", "{Brief} is not right.", WHY_PART[6]),
+    "arm_added": KindWords("{Site}, where it does no work.", "{Brief} is not right.", WHY_PART[6]),
     "rate_left_out": KindWords(
         "{Site} is taken as {written}; it is {right}.", "Something is left out in {brief}.", DAMPER
     ),

@@ -134,12 +134,27 @@ def _listed(names: list[str]) -> str:
 
 
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
-    """The step of a mistake, and its element or those whose terms differ."""
-    origins = [o for f in verdict.findings if not f.follows for d in f.differences for o in d.origins]
-    of_step = [o.element for o in origins if o.step == mistake.step] or [o.element for o in origins]
-    elements = [mistake.element] if mistake.element else list(dict.fromkeys(of_step))[:3]
+    """The step of a mistake, and its element or those whose terms differ because of it."""
+    elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
     concerns = f"; it concerns {_listed(elements)}" if elements else ""
     return (f"This belongs to step {mistake.step}, {STEPS[mistake.step].lower()}{concerns}.",)
+
+
+def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
+    """The elements from which differences come, in the equation and the ledger of a mistake, less those of other ones.
+
+    Left-hand sides hold what comes from T* and V, never what comes from Ξ.
+    """
+    ledgers = {5: (2, 3)}.get(mistake.step, (mistake.step,))
+    others = {(m.element, m.step) for m in verdict.mistakes if m is not mistake and m.element}
+    found: list[str] = []
+    for f in verdict.findings:
+        elsewhere = f.line.kind == "equation" and mistake.coordinate is not None and f.coordinate != mistake.coordinate
+        if f.follows or elsewhere:
+            continue
+        origins = [o for d in f.differences for o in d.origins if o.step in ledgers]
+        found += [o.element for o in origins if (o.element, o.step) not in others]
+    return list(dict.fromkeys(found))[:3]
 
 
 def _differing(verdict: Verdict) -> bool:

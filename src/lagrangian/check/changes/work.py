@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site, Words
@@ -15,7 +17,7 @@ from lagrangian.check.changes.sites import Sites
 from lagrangian.check.misconceptions.base import put
 from lagrangian.model import Element
 
-MOST_ARMS = 24
+MOST_ARMS = 28
 
 
 class WorkChanges:
@@ -54,6 +56,7 @@ class WorkChanges:
         for effort, right in self._efforts(element, shares):
             for i in range(self.sites.n):
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
+                added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
                 site = Site(words=words, brief=words, step=6, element=element, coordinate=i)
                 for arm in self.arms:
                     for sign in (1, -1):
@@ -61,13 +64,14 @@ class WorkChanges:
                             continue  # another sign or number is a change of the whole
                         extra = self._sum(effort * (sign * arm - right[i]))
                         if extra:
+                            place = replace(site, words=added) if right[i] == 0 else site
                             cost = (
                                 (1.9 if arm == 1 else 2.1)
                                 + (0.0 if sign == 1 else 0.2)
                                 + (0.0 if right[i] != 0 else 0.3)
                             )
                             kind = "arm_added" if right[i] == 0 else "no_arm" if sign * arm == 1 else "arm"
-                            yield _change(kind, cost, site, {i: extra}, right[i], sign * arm)
+                            yield _change(kind, cost, place, {i: extra}, right[i], sign * arm)
 
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
         """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
@@ -100,7 +104,7 @@ class WorkChanges:
         """1, the lengths, sines and cosines of the system's angles, and both together."""
         every: list[sp.Expr] = [sp.S.One, *self.lengths]
         turned: list[sp.Expr] = []
-        for a in self.s.angles(self.s.T + self.s.V + sp.Add(*self.s.Xi)):
+        for a in self._angles():
             turned += [sp.cos(a), sp.sin(a)]
         every += turned
         every += [r * f for r in self.lengths[:3] for f in turned[:6]]
@@ -109,6 +113,16 @@ class WorkChanges:
         every += [a - b for a, b in combinations(self.lengths[:3], 2)]
         every += [a / b for a in self.lengths[:3] for b in self.lengths[:3] if a != b]
         return list(dict.fromkeys(every))[:MOST_ARMS]
+
+    def _angles(self) -> list[sp.Expr]:
+        """The angles that depend on coordinates, then those of inclines and of what is prescribed."""
+        energies = self.s.T + self.s.V + sp.Add(*self.s.Xi)
+        moving = self.s.angles(energies)
+        turned = energies.atoms(sp.sin, sp.cos)
+        for body in self.s.bodies:
+            turned |= {f for x in self.s.position(body) for f in x.atoms(sp.sin, sp.cos)}
+        still = {cast("sp.Expr", f.args[0]) for f in turned if not f.has(AppliedUndef)}
+        return [*moving, *sorted(still, key=sp.default_sort_key)]
 
     def _rates(self, element: Element) -> Iterator[LocalChange]:
         """Another rate in a damper, also in its force alone: a piece left out or with the wrong sign, another rate."""

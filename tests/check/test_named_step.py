@@ -1,0 +1,111 @@
+"""A mistake in what a force or a damper adds belongs to step 6, and only the elements that it concerns are named."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+from built_in import derivation
+
+
+@cache
+def turntable() -> lg.Derivation:
+    """A mass in springs and dampers on a turntable, in axes that turn with it."""
+    return lg.loads("""
+name = "turntable"
+[coordinates]
+x = ""
+y = ""
+[parameters]
+m = "1 kg"
+Omega = "3 rad/s"
+k = "40 N/m"
+c = "0.4 N*s/m"
+[inputs]
+f = "N"
+[points]
+P = ["x*cos(Omega*t) - y*sin(Omega*t)", "x*sin(Omega*t) + y*cos(Omega*t)"]
+[[particle]]
+mass = "m"
+at = "P"
+[[spring]]
+k = "k"
+deflection = "x"
+[[damper]]
+name = "along x"
+b = "c"
+deflection = "x"
+[[damper]]
+name = "along y"
+b = "c"
+deflection = "y"
+[[force]]
+name = "actuator"
+value = "f"
+deflection = "x"
+""").derive()
+
+
+X = "m*(x'' - 2*Omega*y' - Omega^2*x) + k*x"
+Y = "m*(y'' + 2*Omega*x' - Omega^2*y)"
+
+
+def test_dampers_with_the_velocity_against_the_fixed_axes() -> None:
+    verdict = turntable().check(f"{X} + c*(x' - Omega*y) = f\n{Y} + c*(y' + Omega*x) = 0")
+    (mistake,) = verdict.mistakes
+    assert (mistake.name, mistake.step) == ("damper_other_velocity", 6)
+    assert "along x" in str(mistake.what) and "along y" in str(mistake.what)
+
+
+def test_a_force_along_fixed_axes() -> None:
+    verdict = turntable().check(f"{X} + c*x' = f*cos(Omega*t)\n{Y} + c*y' = -f*sin(Omega*t)")
+    assert {m.step for m in verdict.mistakes} == {6}
+    assert {m.element for m in verdict.mistakes} == {"force 'actuator'"}
+
+
+def test_a_damper_with_the_velocity_of_the_body_that_swings() -> None:
+    verdict = derivation("cart-pole").check(
+        "(M+m)*x'' + b*(x' + l*theta'*cos(theta)) + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F\n"
+        "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) + b*l*cos(theta)*(x' + l*theta'*cos(theta)) = 0"
+    )
+    (mistake,) = verdict.mistakes
+    assert (mistake.name, mistake.step) == ("damper_other_velocity", 6)
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "element"),
+    [
+        ("pendulum", "m*L^2*theta'' + m*g*L*sin(theta) + b*theta' + b*sin(theta)*theta'^2 = 0", "damper 'b'"),
+        ("pendulum", "m*L^2*theta'' + m*g*L*sin(theta) + b*theta' + 7*b*theta^2 = 0", "damper 'b'"),
+    ],
+)
+def test_a_term_with_a_letter_of_a_damper_belongs_to_step_6(name: str, answer: str, element: str) -> None:
+    (mistake,) = derivation(name).check(answer).mistakes
+    assert (mistake.step, mistake.element) == (6, element)
+    assert "A damper feels" in str(mistake.why)
+
+
+def test_a_mistake_concerns_its_own_elements() -> None:
+    verdict = derivation("cart-pole").check(
+        "(M+m)*x'' - b*x' + m*l*cos(theta)*theta'' = F\n(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"
+    )
+    assert len(verdict.mistakes) == 2
+    (about,) = [line for line in " ".join(str(verdict).split()).split("This belongs to ") if line.startswith("step 5")]
+    assert "damper" not in about.split(".")[0]
+
+
+@pytest.mark.parametrize(("arm", "said"), [("", "The arm R is missing"), ("/R", "R is not squared")])
+def test_an_arm_is_not_squared_only_where_it_stands(arm: str, said: str) -> None:
+    (mistake,) = derivation("rolling-cylinder").check(f"(J{arm} + m)*x'' = m*g*sin(alpha)").mistakes
+    assert mistake.name == "arm_not_squared"
+    assert str(mistake.what).startswith(said)
+
+
+def test_a_force_that_does_no_work_is_counted_where_it_does_none() -> None:
+    answer = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F\n"
+    answer += "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = F/l"
+    (mistake,) = derivation("cart-pole").check(answer).mistakes
+    assert mistake.element == "force 'F'" and mistake.step == 6
+    assert "is counted in the equation of theta, where it does no work" in str(mistake.what)
