@@ -82,9 +82,17 @@ def test_what_is_not_multiplied_out_is_said_on_the_page() -> None:
 
 def test_a_derivation_ends_when_its_products_are_spent(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(algebra, "WORK", 100)
+    system = lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n')
     with pytest.raises(ModelError, match="takes more than 100 products of terms") as caught:
-        lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
+        system.derive(form="expanded")
     assert caught.value.fix is not None and "compile()" in caught.value.fix
+
+
+def test_a_derivation_whose_products_are_spent_is_written_in_named_quantities(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(algebra, "WORK", 1_000)
+    made = lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
+    assert made.form == "structured" and all(c.holds for c in made.verified)
+    assert any("more than 1000 products of terms" in str(note) for note in made.notes)
 
 
 def test_a_system_without_finite_forces_is_told_so() -> None:
