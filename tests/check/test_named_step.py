@@ -109,3 +109,28 @@ def test_a_force_that_does_no_work_is_counted_where_it_does_none() -> None:
     (mistake,) = derivation("cart-pole").check(answer).mistakes
     assert mistake.element == "force 'F'" and mistake.step == 6
     assert "is counted in the equation of theta, where it does no work" in str(mistake.what)
+
+
+def test_speeds_on_one_line_are_not_called_vectors() -> None:
+    s = lg.System("two on a line")
+    x, y = s.coordinates("x y")
+    m, k = s.parameters("m k")
+    s.particle(m, at=s.origin + (x, 0), name="one")
+    s.particle(m, at=s.origin + (x + y, 0), name="two")
+    s.spring(k, deflection=x + y)
+    (mistake,) = s.derive().check("V = k*(x + y)^2/2\nT = m*x'^2/2 + m*(x' - y')^2/2").mistakes
+    assert (mistake.name, mistake.element) == ("velocity_part_sign", "particle 'two'")
+    assert "y' has the wrong sign" in str(mistake.what)
+
+
+def test_units_are_no_reason_for_a_sine_that_is_missing() -> None:
+    (mistake,) = derivation("bead-on-hoop").check("T = m*R^2*theta'^2/2 + m*R^2*Omega^2/2").mistakes
+    assert "sin" in str(mistake.what) and "units" not in str(mistake.why)
+
+
+def test_a_wrong_number_is_shown_in_the_form_of_the_right_term() -> None:
+    verdict = derivation("bead-on-hoop").check(
+        "m*R^2*theta'' - m*R^2*Omega^2*sin(theta)*cos(theta)/2 + m*g*R*sin(theta) = 0"
+    )
+    (difference,) = verdict.findings[0].differences
+    assert 2 * difference.written == difference.term

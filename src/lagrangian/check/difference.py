@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 import sympy as sp
 
@@ -86,6 +87,8 @@ def differences(
             if term.is_zero:
                 kind, term = "extra", written
         as_written, written_so = (_scaled(x, factor) for x in (term, written))
+        if kind == "coefficient" and (number := _number(written, term)) is not None:
+            written_so = number * as_written  # in the same form, so that the factor is seen
         found.append(TermDifference(kind, as_written, written_so, name, _origins(truth, term, index)))
         if len(found) == MAX_DIFFERENCES:
             break
@@ -107,6 +110,20 @@ def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
         return Form(form.algebra, parts, form.den)
 
     return kept(ours), kept(theirs)
+
+
+def _coefficients(form: Form) -> dict[tuple[object, object], Fraction]:
+    """The coefficient of every monomial of every harmonic."""
+    return {(h, m): Fraction(c, form.den) for h, p in form.parts.items() for m, c in p.items()}
+
+
+def _number(form: Form, other: Form) -> sp.Expr | None:
+    """The number by which one form is a multiple of another; None if it is none."""
+    mine, theirs = (_coefficients(f) for f in (form, other))
+    if not theirs or mine.keys() != theirs.keys():
+        return None
+    (first, *more) = {mine[k] / theirs[k] for k in mine}
+    return None if more else sp.Rational(first.numerator, first.denominator)
 
 
 def _groups(form: Form) -> list[frozenset[Key]]:

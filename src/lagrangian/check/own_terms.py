@@ -31,7 +31,7 @@ WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by 
 WHY_IDLE = text(
     "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
 )
-WHY_ENERGY = text("Go through this line once more, term by term, and compare the units of its terms.")
+WHY_ENERGY = text("Go through this line once more, term by term: what it stands for, and what it is at special angles.")
 WHY_FORCE = text(
     "Ξ = Σ F·∂r/∂ξ: only the part of a force along the motion does work, and only in coordinates that move its point."
 )

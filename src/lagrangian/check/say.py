@@ -209,9 +209,20 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     else:
         name, what, brief = _part(change, site, times)
         why = WHY_PART.get(site.step, WHY_PART[5])
+    if why == UNITS and _has_no_unit(change):
+        why = ANGLES
     coordinate = model.coordinates[site.coordinate].name if site.coordinate is not None else None
     element = site.element.title if site.element is not None else None
     return Mistake(name, what, text(why), site.step, element, coordinate, brief)
+
+
+def _has_no_unit(change: LocalChange) -> bool:
+    """Whether the factor that is wrong is made of sines and cosines alone, so that units say nothing about it."""
+    factors = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
+    bases = [f.as_base_exp()[0] for x in factors for f in sp.Mul.make_args(x)]
+    return any(isinstance(x, (sp.sin, sp.cos)) for x in bases) and all(
+        x.is_number or isinstance(x, (sp.sin, sp.cos)) for x in bases
+    )
 
 
 def _in_scale(site: Site, factor: sp.Expr | None) -> Site:

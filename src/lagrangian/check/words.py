@@ -19,6 +19,8 @@ STEPS = {
     6: "Non-conservative forces",
 }
 """The steps of the lecture."""
+UNSEEN = frozenset({"not_squared", "lost", "lost_in_a_sum", "wrong_number"})
+"""Kinds that say nothing new of an equation as second choices: a term is missing there, or has a wrong number."""
 
 
 def report(verdict: Verdict, model: Model) -> Report:
@@ -108,13 +110,27 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         yield text("Why that is not so: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
         yield text(*_where(mistake, verdict))
     if verdict.mistakes:
-        if verdict.alternatives and verdict.hint >= 3:
-            yield text("It could also be this: ", *verdict.alternatives[0].what.parts)
+        first = verdict.first_wrong
+        row = first is not None and first.line.kind == "equation"
+        others = [m for m in verdict.alternatives if not any(_repeats(m, told, row) for told in verdict.mistakes)]
+        if others and verdict.hint >= 3:
+            yield text("It could also be this: ", *others[0].what.parts)
         return
     yield text("No mistake was found that explains all of it; these are the places to look at.")
     for f in verdict.findings:
         if not f.status.right and not f.follows:
             yield from _right_and_differing(f)
+
+
+def _repeats(mistake: Mistake, told: Mistake, row: bool) -> bool:
+    """Whether a mistake says nothing beside one that is told: of the same element, and in words that the other has too.
+
+    Of an equation (``row``), neither does a number or a power that nobody wrote: "ẋ stands once, and belongs squared".
+    """
+    if mistake.element not in (None, told.element):
+        return False
+    one, other = ({w.strip(".,;:").lower() for w in str(m.what).split()} for m in (mistake, told))
+    return one <= other or other <= one or (row and mistake.name in UNSEEN)
 
 
 def _right_and_differing(finding: Finding) -> Iterator[Item]:

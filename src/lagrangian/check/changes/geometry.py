@@ -115,7 +115,8 @@ class GeometryChanges:
                 new = own + mass / 2 * part**2
                 yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, part)
                 words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
-                for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", 1.6)):
+                sign = 1.61 if len(rates) > 1 and v == rates[0] else 1.6  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
+                for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", sign)):
                     changed = list(velocity)
                     changed[c] = cast("sp.Expr", x + number * part)
                     yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
@@ -129,7 +130,9 @@ class GeometryChanges:
     def _as_numbers(
         self, b: Any, velocity: list[sp.Expr], rates: list[Any], own: sp.Expr, mass: sp.Expr, brief: Words
     ) -> Iterator[LocalChange]:
-        """½ m (Σ ± |∂v/∂ξ̇| ξ̇)²: the speeds added as numbers instead of as vectors."""
+        """½ m (Σ ± |∂v/∂ξ̇| ξ̇)²: the speeds added as numbers instead of as vectors; on one line they are numbers."""
+        if sum(x.has(*rates) for x in velocity) < 2:
+            return
         speeds: list[sp.Expr] = []
         for v in rates:
             square = self.sites.sum(sp.Add(*[x.diff(v) ** 2 for x in velocity]))
