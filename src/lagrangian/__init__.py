@@ -18,7 +18,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
     from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities
-    from lagrangian.linear.along import LinearizationAlong
+    from lagrangian.linear.along import MotionLinearization
     from lagrangian.linear.linearization import Linearization
     from lagrangian.linear.modes import Mode
     from lagrangian.linear.regulator import Regulator
@@ -52,7 +52,7 @@ else:
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
             "invariants.canonical_forms": "Hamiltonian Routhian",
             "invariants.conserved_quantities": "Conserved ConservedQuantities",
-            "linear.along": "LinearizationAlong",
+            "linear.along": "MotionLinearization",
             "linear.linearization": "Linearization",
             "linear.modes": "Mode",
             "linear.regulator": "Regulator",
@@ -99,10 +99,10 @@ __all__ = [
     "InverseDerivatives",
     "LedgerRow",
     "Linearization",
-    "LinearizationAlong",
     "MissingExtra",
     "Mode",
     "ModelError",
+    "MotionLinearization",
     "Notice",
     "Origin",
     "ParseError",

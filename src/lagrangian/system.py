@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
     from lagrangian.equilibria.points import Equilibria
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
     from lagrangian.invariants.conserved_quantities import ConservedQuantities
-    from lagrangian.linear.along import LinearizationAlong
+    from lagrangian.linear.along import MotionLinearization
     from lagrangian.linear.linearization import Linearization
     from lagrangian.page.formula import Check
     from lagrangian.picture import Picture
@@ -209,7 +209,7 @@ class System(Simulated):
         inputs: Mapping[Any, Any] | None = None,
         params: Mapping[Any, Any] | None = None,
         outputs: Any = None,
-    ) -> LinearizationAlong:
+    ) -> MotionLinearization:
         """Return A(t), B(t), C(t), D(t) along a run, or along given ``(times, states)``."""
         from lagrangian.linear.along import linearize_along
 

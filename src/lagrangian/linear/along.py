@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class LinearizationAlong(Brief):
+class MotionLinearization(Brief):
     """The linearization at the times ``t`` (S,) of a trajectory ``x`` (S, n) with inputs ``u`` (S, m).
 
     ``A`` (S, n, n), ``B`` (S, n, m), ``C`` (S, k, n), ``D`` (S, k, m); ``y`` (S, k) are the outputs. Names are in
@@ -72,7 +72,7 @@ def linearize_along(
     inputs: Mapping[Any, Any] | None = None,
     params: Named | None = None,
     outputs: Any = None,
-) -> LinearizationAlong:
+) -> MotionLinearization:
     """Return the linearization along a trajectory: a run, or a pair of times (S,) and states (S, n).
 
     A run has its own inputs and parameters. ``inputs``: name or symbol → number, text with a unit, or a value for each
@@ -95,7 +95,7 @@ def linearize_along(
         states = tuple(states[k] for k in kept)
         found = {"A": found["A"][:, kept] @ basis, "B": found["B"][:, kept]}
         seen = {**seen, "C": seen["C"] @ basis}
-    return LinearizationAlong(
+    return MotionLinearization(
         model=model,
         t=t,
         x=x,
