@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cache
 
 import pytest
 
 import lagrangian as lg
 from built_in import derivation
+from lagrangian.check import say
+from lagrangian.check.changes.pool import pool_of
+from lagrangian.check.reference import truth_of
 
 
 @cache
@@ -134,3 +138,24 @@ def test_a_wrong_number_is_shown_in_the_form_of_the_right_term() -> None:
     )
     (difference,) = verdict.findings[0].differences
     assert 2 * difference.written == difference.term
+
+
+def test_the_root_of_a_deflection_is_drawn() -> None:
+    d = lg.loads("""
+name = "a mass on a spring that swings"
+coordinates.r = { unit = "m", positive = true }
+coordinates.theta = ""
+parameters = { m = "1 kg", k = "30 N/m", l = "0.4 m" }
+points.B = ["r*sin(theta)", "-r*cos(theta)"]
+[[particle]]
+mass = "m"
+at = "B"
+[[spring]]
+k = "k"
+between = ["origin", "B"]
+rest = "l"
+""").derive()
+    changes = [p.change for p in pool_of(truth_of(d)).all if p.change is not None]
+    said = [str(say.mistake(c, Fraction(1), d.model).what) for c in changes if c.kind == "deflection_left_out"]
+    assert any("is taken as r; it is" in words for words in said)
+    assert not any("sqrt" in words for words in said)

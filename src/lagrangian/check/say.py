@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
@@ -282,11 +282,17 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
         "Brief": _capital(site.brief),
     }
     for key, value in (("right", change.right), ("written", change.written)):
-        values[key] = value if isinstance(value, tuple) else (value,) if value is not None else ()
+        values[key] = value if isinstance(value, tuple) else (_short(value),) if value is not None else ()
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):
         parts += values[piece] if k % 2 else [piece] if piece else []
     return _text(*parts)
+
+
+def _short(value: sp.Expr) -> sp.Expr:
+    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ)."""
+    roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]
+    return cast("sp.Expr", value.xreplace({f: sp.sqrt(bounded.trigsimp(f.base)) for f in roots}))
 
 
 def _text(*parts: str | Left) -> Text:

@@ -11,7 +11,7 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 3
-WHY = text("The height h is relative to an arbitrary but fixed reference; a parent that moves is not fixed.")
+WHY = text("The height h is relative to an arbitrary but fixed reference: the whole way from there to the body counts.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
