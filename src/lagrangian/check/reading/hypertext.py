@@ -9,11 +9,13 @@ from html.entities import html5
 from lagrangian.check.reading.traced_text import TracedText
 
 _TAGS = "p|sub|sup|br|i|b|em|strong|u|div|span|var|math|td|tr|th|table|tbody|thead|ul|ol|li|h[1-6]|pre|code|html|body"
-_TAG = re.compile(rf"<\s*(?P<close>/?)\s*(?P<tag>{_TAGS})(?:\s[^<>\n]{{0,200}})?\s*/?\s*>", re.IGNORECASE)
+_UNQUOTED = "align|valign|width|height|class|id|style|colspan|rowspan|border|clear"
+_VALUE = r"""(?:"[^"<>\n]{0,200}"|'[^'<>\n]{0,200}')"""
+_ATTRIBUTES = rf"(?:\s{{1,20}}(?:[a-z][\w:.-]{{0,40}}={_VALUE}|(?:{_UNQUOTED})=[^\s\"'<>=]{{1,100}})){{0,20}}"
+"""name="value"; without quotation marks only after a name that mathematics does not have."""
+_TAG = re.compile(rf"<(?P<close>/?)(?P<tag>{_TAGS}){_ATTRIBUTES}\s?/?>", re.IGNORECASE)
 _COMMENT = re.compile(r"<!--(?:(?!-->).){0,2000}-->", re.DOTALL)
-_RAISED = re.compile(
-    r"<\s*(?P<tag>su[bp])(?:\s[^<>\n]{0,200})?\s*>(?P<inside>[^<>]{1,200})<\s*/\s*(?P=tag)\s*>", re.IGNORECASE
-)
+_RAISED = re.compile(rf"<(?P<tag>su[bp]){_ATTRIBUTES}\s?>(?P<inside>[^<>]{{1,200}})</(?P=tag)\s?>", re.IGNORECASE)
 _ENTITY = re.compile(r"&(?:#(?:[xX][0-9A-Fa-f]{1,6}|[0-9]{1,7})|[A-Za-z][A-Za-z0-9]{1,31});")
 _SHORT = re.compile(r"\w+\Z")
 _ROWS = frozenset(["p", "br", "div", "tr", "li", "table", "pre", "h1", "h2", "h3", "h4", "h5", "h6", "ul", "ol"])

@@ -47,8 +47,8 @@ _AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_
 _AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")
 _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _DONE = re.compile(r"(?<=[\w)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z")
-_STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\)).*\Z|\s(?:<-+|←)\s.*\Z")
-"""What is done to an equation next, | : m, and what points at it, <- here."""
+_STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|←)\s[^=]*\Z")
+"""What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
 _UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
