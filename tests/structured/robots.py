@@ -86,3 +86,48 @@ def platform() -> lg.System:
     s.damper(b, between=(centre, s.origin))
     s.gravity(direction=(0, 0, -1))
     return s
+
+
+def crooked_chain(n: int) -> lg.System:
+    """Links in the plane whose next joint lies beside their axis: velocities hold heights."""
+    s = lg.System(f"{n} crooked links")
+    frame, joint = None, s.origin
+    m, a, b = s.parameters("m a b")
+    for i in range(1, n + 1):
+        q = s.coordinate(f"q{i}")
+        if frame is not None:
+            joint = frame.point(a, b, at=joint)
+        frame = s.frame(q, parent=frame, origin=joint)
+        s.particle(m, at=frame.point(a, -b, at=joint), name=f"body {i}")
+    s.gravity()
+    return s
+
+
+def numeric_arm() -> lg.System:
+    """Four joints with numbers for lengths: rounded in different places in different formulas."""
+    s = lg.System("numbers")
+    frame, joint = None, s.origin
+    for k, axis in enumerate("zyyx", 1):
+        q = s.coordinate(f"q{k}")
+        if frame is not None:
+            joint = frame.point(sp.Float("0.43"), sp.Float("0.1501"), sp.Rational(1, 5), at=joint)
+        frame = s.frame(q, axis=AXES[axis], parent=frame, origin=joint)
+        s.rigid_body(1.3, [0.21, 0.17, 0.09], frame.point(0.07, 0.013, 0.031, at=joint), frame, name=f"link {k}")
+    s.gravity(direction=(0, 0, -1))
+    return s
+
+
+def two_gravities() -> lg.System:
+    """A link and its payload in one frame, a second link, and weights along two directions."""
+    s = lg.System("two gravities")
+    m, M, n, L, J, K, g, h = s.parameters("m M n L J K g h")
+    q1, q2 = s.coordinates("q1 q2")
+    one = s.frame(q1)
+    s.rigid_body(m, J, one.point(L, 0), one, name="link")
+    s.rigid_body(M, K, one.point(2 * L, L), one, name="payload")
+    two = s.frame(q2, parent=one, origin=one.point(2 * L, 0))
+    s.particle(n, at=two.point(L, 0, at=two.origin), name="tip")
+    s.gravity(direction=(0, -1), g=g)
+    s.gravity(direction=(1, 0), g=h, name="wind")
+    s.damper(law=lambda rate: 2 * rate * sp.Abs(rate), deflection=q2)
+    return s

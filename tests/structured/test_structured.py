@@ -67,6 +67,39 @@ def test_arms_chains_and_platforms_are_proved(make: Any) -> None:
     assert proved(derive_structured(make().model))
 
 
+def test_quantities_stand_before_what_needs_them_in_every_chain() -> None:
+    d = derive_structured(robots.crooked_chain(4).model)
+    known = {p.symbol for p in d.model.parameters}
+    for x in d.definitions:
+        assert x.expression.free_symbols - {sp.Symbol("t")} <= known
+        known.add(x.symbol)
+    kinds = {x.symbol: x.kind for x in d.definitions}
+    assert any(
+        kinds.get(s) == "height" for x in d.definitions if x.kind == "velocity" for s in x.expression.free_symbols
+    )
+    assert proved(d)
+
+
+def test_numbers_that_are_rounded_differently_are_compared_as_numbers() -> None:
+    d = derive_structured(robots.numeric_arm().model)
+    checks = verify_lines(d, states=3, seed=1)
+    assert all(c.holds for c in checks)
+    wrong = dataclasses.replace(d, T=d.T + sp.Float("0.001"), V=d.V * sp.Float("1.001"))
+    assert not verify_lines(wrong, states=3, seed=1)[3].holds
+
+
+def test_bodies_in_one_frame_and_two_gravities_keep_their_own_names() -> None:
+    d = derive_structured(robots.two_gravities().model)
+    checks = verify_lines(d, states=3, seed=1)
+    assert all(c.holds for c in checks)
+    lines = [str(i) for step in d.steps[2:4] for i in step.items]
+    names = [line.split(" = ")[0] for line in lines if line.startswith(("T*_", "V_"))]
+    assert len(names) == len(set(names)) == 3 + 6
+    broken = dataclasses.replace(d, Xi={q: 7 * x + 1 for q, x in d.Xi.items()})
+    forces = next(c for c in verify_lines(broken, states=3, seed=1) if "power of the forces" in str(c.what))
+    assert forces.holds is False and "random states" in forces.figure  # |δ̇| has no value in a field
+
+
 @pytest.mark.parametrize(
     "name", ["double-pendulum-relative", "robot-arm", "furuta-pendulum", "planar-quadrotor", "crane"]
 )

@@ -137,6 +137,7 @@ def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
     reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
     found: dict[sp.Expr, MeasuredFrom] = {}
     lengths, turns = _lengths(model, symbols), _turns(model, symbols)
+    number = {s: i for i, s in enumerate(symbols)}
     for s in symbols:
         holding = [d for d in directions if s in d]
         if s in carried:
@@ -145,13 +146,13 @@ def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
             to = _carried_by(model, s, symbols, reach)
             found[s] = MeasuredFrom(to is None and s in turns, to)
         elif holding:
-            smallest = min(holding, key=lambda d: (len(d), [symbols.index(x) for x in d]))
+            smallest = min(holding, key=lambda d: (len(d), [number[x] for x in d]))
             others = [x for x in smallest if x is not s]
-            later = [x for x in others if symbols.index(x) > symbols.index(s)]
+            later = [x for x in others if number[x] > number[s]]
             # of two coordinates that only ever appear together, the first one declared is the one measured from
             rest = others if len(holding) > 1 or not later else [x for x in others if x not in later]
             if len(rest) and all(set(smallest) <= set(d) for d in holding):
-                found[s] = MeasuredFrom(True, min(rest, key=lambda x: (reach[x], -symbols.index(x))))
+                found[s] = MeasuredFrom(True, min(rest, key=lambda x: (reach[x], -number[x])))
             else:
                 found[s] = MeasuredFrom(True, None)
         else:

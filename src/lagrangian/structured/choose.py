@@ -53,8 +53,14 @@ def is_structured(model: Model, form: AskedForm = "auto") -> bool:
 
 
 def is_tangled(model: Model) -> bool:
-    """Whether SymPy may take long over a single point, frame or element, however many there are."""
+    """Whether SymPy may take long: over a single point, frame or element, or because there are very many."""
+    if len(model.coordinates) > MANY_COORDINATES:
+        return True
     return model.remembered("is_tangled", lambda: hard(_pieces(model), plain=LONGEST_PIECES))
+
+
+MANY_COORDINATES = 50
+"""The number of coordinates above which deriving is counted."""
 
 
 LONGEST_PIECES = 20_000

@@ -43,11 +43,17 @@ class Listing:
     gradients: Vector
     rows: Vector
     forces: Vector
-    heights: dict[str, int] = field(default_factory=dict[str, int])
+    heights: dict[str, Vector] = field(default_factory=dict[str, Vector])
 
     def outputs(self) -> list[int]:
         """The nodes that the lines end in."""
-        return [*self.momenta, *self.gradients, *self.rows, *self.forces, *self.heights.values()]
+        return [
+            *self.momenta,
+            *self.gradients,
+            *self.rows,
+            *self.forces,
+            *(h for heights in self.heights.values() for h in heights),
+        ]
 
 
 def listing(model: Model) -> Listing:
@@ -68,7 +74,7 @@ def listing(model: Model) -> Listing:
     velocities = list(moving.velocities())
     slopes = CoordinateSlopes(d, [bare(graph, node) for node, *_ in velocities], momenta)
     heights = dict(_heights(d, bodies))
-    candidates = [*moving.verticals(), *moving.positions(heights), *_lengths(d, m)]
+    candidates = [*moving.verticals(), *moving.positions(), *_lengths(d, m)]
     candidates += [Candidate(node, "velocity", letter, index, words) for node, letter, index, words in velocities]
     candidates += _own(bodies, "momentum")
     candidates += list(_inward(graph, velocities, momenta, "momentum", {"omega": "H", "v": "P"}))
@@ -165,27 +171,30 @@ class _Moving:
                 found.append(Candidate(node, "acceleration", "a", at, _point(index, axes)))
         return sorted(found, key=lambda c: c.node)
 
+    def _upwards(self) -> Iterator[tuple[str, Vector]]:
+        """The directions against the gravities, with a name for each if there are several."""
+        gravities = [e for e in self.d.model.elements if isinstance(e, Gravity)]
+        for gravity in gravities:
+            name = gravity.name if len(gravities) > 1 else ""
+            yield name, [self.d.graph.neg(x) for x in self.d.nodes(gravity.direction)]
+
     def verticals(self) -> list[Candidate]:
         """The upward vertical in the axes of every frame in space."""
-        g, found = self.d.graph, list[Candidate]()
-        if self.flat:
-            return found
-        for gravity in (e for e in self.d.model.elements if isinstance(e, Gravity)):
-            up = [g.neg(x) for x in self.d.nodes(gravity.direction)]
+        found = list[Candidate]()
+        for name, up in self._upwards() if not self.flat else ():
             for axes, index in self.indices.axes.items():
-                turned = times(g, transposed(self.motion.rotation(axes)), up)
+                turned = times(self.d.graph, transposed(self.motion.rotation(axes)), up)
                 for node, letter, at, words in _components(turned, "e", index, f"frame {index}", False):
-                    found.append(Candidate(node, "vertical", letter, at, words))
+                    found.append(Candidate(node, "vertical", letter, (*at, name), words))
         return found
 
-    def positions(self, heights: dict[str, int]) -> list[Candidate]:
+    def positions(self) -> list[Candidate]:
         """The heights of places and bodies."""
-        g, found = self.d.graph, list[Candidate]()
-        for gravity in (e for e in self.d.model.elements if isinstance(e, Gravity)):
-            up = [g.neg(x) for x in self.d.nodes(gravity.direction)]
+        found = list[Candidate]()
+        for name, up in self._upwards():
             for place, index in self.indices.places.items():
-                node = dot(g, up, self.motion.position(place))
-                found.append(Candidate(node, "height", "h", (index,), f"point {index}"))
+                node = dot(self.d.graph, up, self.motion.position(place))
+                found.append(Candidate(node, "height", "h", (index, name), f"point {index}"))
         return sorted(found, key=lambda c: c.node)
 
 
@@ -235,11 +244,11 @@ def _lengths(d: Description, m: Mechanics) -> Iterator[Candidate]:
                 yield Candidate(node, "length", "delta", (element.name,), element.title, False, (element.title,))
 
 
-def _heights(d: Description, bodies: Sequence[BodyMotion]) -> Iterator[tuple[str, int]]:
-    """The height of every body above the datum of every gravity."""
+def _heights(d: Description, bodies: Sequence[BodyMotion]) -> Iterator[tuple[str, Vector]]:
+    """For every gravity, by its title, the heights of all bodies above its datum."""
     g = d.graph
     for gravity in (e for e in d.model.elements if isinstance(e, Gravity)):
         up = [g.neg(x) for x in d.nodes(gravity.direction)]
         level = dot(g, up, d.motion.position(d.places[gravity.datum])) if gravity.datum is not None else g.zero
-        for b in bodies:
-            yield b.body.name, g.sub(dot(g, up, d.motion.position(d.places[b.body.at])), level)
+        places = [d.motion.position(d.places[b.body.at]) for b in bodies]
+        yield gravity.title, [g.sub(dot(g, up, place), level) for place in places]

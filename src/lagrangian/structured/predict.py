@@ -33,7 +33,7 @@ _CONSTANT: Support = frozenset([ONE])
 
 
 class _TooManyError(Exception):
-    """The equations are certainly too long."""
+    """The equations may be too long: the count of their functions from above is."""
 
 
 def is_long(model: Model) -> bool:

@@ -49,16 +49,27 @@ def body_motions(d: Description, m: Mechanics, acc: Accelerations, indices: Indi
     P and F are in the axes in which its place is given, H and N in the body's own."""
     g = d.graph
     found: list[BodyMotion] = []
-    for body in d.model.bodies:
+    own = _indices(d, indices)
+    for body, index in zip(d.model.bodies, own, strict=True):
         place, mass = d.places[body.at], d.node(body.mass)
         P, F = scaled(g, mass, place.velocity), scaled(g, mass, acc.a[place])
         J = [d.nodes(row) for row in body.tensor]
         if body.axes is None or not J:
-            found.append(BodyMotion(body, indices.places[place], place.velocity, [], P, [], F, []))
+            found.append(BodyMotion(body, index, place.velocity, [], P, [], F, []))
             continue
         axes = d.axes[body.axes]
         H, N = times(g, J, axes.omega), times(g, J, acc.alpha[axes])
         if len(J) == 3:
             N = plus(g, N, cross(g, axes.omega, H))
-        found.append(BodyMotion(body, indices.axes[axes], place.velocity, list(axes.omega), P, H, F, N))
+        found.append(BodyMotion(body, index, place.velocity, list(axes.omega), P, H, F, N))
+    return found
+
+
+def _indices(d: Description, indices: Indices) -> list[str]:
+    """What the bodies are called: as their frames, as their places where a frame has several, otherwise by name."""
+    places = [indices.places.get(d.places[body.at], body.name) for body in d.model.bodies]  # one may be at the origin
+    frames = [d.axes[body.axes] if body.axes is not None else None for body in d.model.bodies]
+    found = [indices.axes[f] if f is not None else place for f, place in zip(frames, places, strict=True)]
+    for other in (places, [body.name for body in d.model.bodies]):
+        found = [x if found.count(x) == 1 else y for x, y in zip(found, other, strict=True)]
     return found

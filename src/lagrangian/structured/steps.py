@@ -83,11 +83,15 @@ class ListedSteps:
             if q.symbol in done:
                 return
             done.add(q.symbol)
-            kind = kind if q.kind == "shared" else q.kind
+            if q.kind != "shared" and ORDER.index(q.kind) < ORDER.index(kind):
+                kind = q.kind
             for needed in sorted((s for s in q.expression.free_symbols if s in known), key=str):
                 put(known[cast("sp.Symbol", needed)], kind)
             kinds[kind].append(q)
 
+        for kind, values in (("velocity", [x for _, x in self.T]), ("length", [x for _, x in self.V])):
+            for symbol in sorted(set().union(*(x.free_symbols for x in values)) & known.keys(), key=str):
+                put(known[cast("sp.Symbol", symbol)], cast("QuantityKind", kind))
         ordered = sorted(known.values(), key=lambda q: (first[_group(q)], _alphabetic(q)))
         for kind in ORDER:
             for q in ordered:
@@ -150,7 +154,7 @@ class ListedSteps:
         )
         items: list[Item] = [
             text(
-                "Written out in the coordinates these equations would be too long to read. So every quantity that a "
+                "Written out in the coordinates these equations may be too long to read. So every quantity that a "
                 "person would name gets a name, and is defined once. "
                 if is_long(self.model)
                 else "Every quantity that a person would name gets a name, and is defined once. ",
@@ -183,8 +187,9 @@ class ListedSteps:
 
     def _potential(self, element: Element) -> sp.Expr:
         if isinstance(element, Gravity):
-            heights = self.found.heights
-            return sp.Add(*[b.body.mass * element.g * self.write(heights[b.body.name]) for b in self.found.bodies])
+            heights = self.found.heights[element.title]
+            pairs = zip(self.found.bodies, heights, strict=True)
+            return sp.Add(*[b.body.mass * element.g * self.write(h) for b, h in pairs])
         return sp.Add(*[self.write(x) for x in self.found.mechanics.added[element.title].potentials])
 
     def potential(self) -> Step:
@@ -199,9 +204,10 @@ class ListedSteps:
         reasons: list[Text] = []
         for element, value in self.V:
             if isinstance(element, Gravity):
-                for b in self.found.bodies:
-                    names.append(Name("V", b.index))
-                    height = self.write(self.found.heights[b.body.name])
+                many = len(self.found.heights) > 1
+                for b, node in zip(self.found.bodies, self.found.heights[element.title], strict=True):
+                    names.append(Name("V", f"{b.index} {element.name}" if many else b.index))
+                    height = self.write(node)
                     items.append(
                         formula(names[-1], Product((b.body.mass * element.g, height)), note=text(b.body.title))
                     )

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.dynamics.christoffel import coriolis
-from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, jvp, reached, replaced
+from lagrangian.graph import Graph, Output, Program, jvp, reached, replaced
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.values.dimensions import check_dimensions
@@ -163,8 +163,11 @@ def _is_driven(model: Model) -> bool:
     inputs = dynamics.Inputs.of(g, model)
     kinetic = dynamics.describe(model, g, inputs).kinetic()
     (at_rest,) = replaced(g, [kinetic], dict.fromkeys(inputs.v, g.zero))
-    values = PrimePoint(g).values([at_rest])
-    return isinstance(values, NotAlgebraic) or values != [0]
+    if at_rest == g.zero:
+        return False
+    program = Program("at rest", g, dynamics.forward(model).inputs, {"T": Output((at_rest,), ())})
+    states = random_states(model, dynamics.forward(model), 2, 1)
+    return any(float(evaluated(program, state)["T"]) != 0 for state in states)
 
 
 def _reads_time(model: Model) -> bool:

@@ -31,7 +31,8 @@ function stretch(motion, job, solver) {
     if (where < 0) point(run.states[i]);
     else if (passes(run.states[i - 1], run.states[i], job)) point(crossing(run.states[i - 1], run.states[i], run.t[i - 1], run.t[i], job, solver));
   }
-  motion.ended = run.status !== 0 || run.t.length < 2 || (motion.t > job.longest && !motion.count);
+  if (found.length) motion.last = run.reached;
+  motion.ended = run.status !== 0 || run.t.length < 2 || motion.t - (motion.last || 0) > job.longest;
   [motion.x, motion.t] = [run.final, run.reached];
   return Float64Array.from(found);
 }

@@ -24,7 +24,12 @@ const BUSY = 15;
       }
       return current === job.id;
     };
-    if (current === job.id) jobs[job.kind](job, solver, tell);
+    if (current !== job.id) return;
+    try {
+      await jobs[job.kind](job, solver, tell);
+    } catch (error) {
+      setTimeout(() => { throw error; }); // the page listens to errors of the worker, not to rejected promises
+    }
   });
 })();
 
