@@ -3,14 +3,19 @@
 Oracle: the equation of the pendulum, m L² θ̈ + b θ̇ + m g L sin θ = 0; with something more on a side it is not right.
 """
 
+from collections.abc import Iterator
+
 import pytest
+import sympy as sp
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
+from lagrangian.check.reading import parse_answer
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.traced_text import TracedText
 
 LEFT = "m L² θ'' + b θ' + m g L sin θ"
+T = "1/2 m L² θ'²"
 
 
 def judged_right(written: str, name: str = "pendulum") -> bool:
@@ -39,3 +44,89 @@ def test_tags_are_taken_off() -> None:
     written = """<p class="a b">x<sub>1</sub> <b style='c'>y</b><br/><td align=center>z<br /><span id="q" lang="de">"""
     assert without_tags(TracedText(written)).text.split() == ["x_1", "y", "z"]
     assert not judged_right("m L² θ'' + b θ' <b g> + m g L sin θ = 0")
+
+
+@pytest.mark.parametrize("unknown", ["∂A_1/∂θ - ∂B_1/∂θ'", "∂A_1/∂m - ∂B_1/∂m", "∂A_1/∂θ - ∂A_1/∂θ'"])
+def test_derivatives_of_different_unknown_quantities_do_not_cancel(unknown: str) -> None:
+    verdict = derivation("pendulum").check(f"{LEFT} = {unknown}")
+    assert not verdict.right and "was not judged" in str(verdict.notes[0])
+    told = derivation("pendulum").check(f"{LEFT} = 0\n{LEFT} = {unknown}").notes
+    assert [str(note) for note in told] == [str(verdict.notes[0])]
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("T = T_1 + 5 T_2", "'T_1 + 5 T_2' was not judged: nothing says what T_1 and T_2 are."),
+        ("T = T_1 + 3", "'T_1 + 3' was not judged: nothing says what T_1 is."),
+        (f"T = ½ m v² = {T}", "'½ m v²' was not judged: nothing says what v is."),
+        (f"m L² θ'' = M_r = -b θ' - {LEFT.split('+')[2]}", "'M_r' was not judged: nothing says what M_r is."),
+        ("∑M = 5 θ''", "'∑M = 5 θ''' was not judged: nothing says what ∑ adds up."),
+        ("5 b θ' + ∑M = m L² θ'' = -b θ' - m g L sin θ", "'5 b θ' + ∑M' was not judged: nothing says what ∑ adds up."),
+    ],
+)
+def test_a_side_that_is_not_judged_is_told(written: str, said: str) -> None:
+    verdict = derivation("pendulum").check(f"{written}\n{LEFT} = 0")
+    assert verdict.right and said in map(str, verdict.notes), verdict.to_text()
+
+
+def test_a_sum_of_moments_at_the_head_of_an_equation_needs_no_note() -> None:
+    verdict = derivation("pendulum").check("∑M = m L² θ'' = -b θ' - m g L sin θ")
+    assert verdict.right and not verdict.notes
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        f"T = T_1 + T_2 = 99 Z = {T}\n{LEFT} = 0",
+        "m L² θ'' = Q + Z = -b θ' - m g L sin θ = W = -b θ' - m g L sin θ",
+    ],
+)
+def test_a_side_with_another_name_is_no_side_to_leave_out(written: str) -> None:
+    verdict = derivation("pendulum").check(written)
+    assert not verdict.right and "The system has no 'Z'." in map(str, verdict.notes), verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    ("matrix", "entries"),
+    [
+        (r"\left(\begin{pmatrix}1&2\\3&4\end{pmatrix}\right)^T", [1, 3, 2, 4]),
+        ("([1, 2; 3, 4])^T", [1, 3, 2, 4]),
+        ("[1, 2; 3, 4]^T", [1, 3, 2, 4]),
+        ("Matrix([[1,2],[3,4]])^T", [1, 3, 2, 4]),
+    ],
+)
+def test_a_matrix_in_brackets_is_transposed(matrix: str, entries: list[int]) -> None:
+    assert list(_multiplied(matrix)) == entries
+
+
+@pytest.mark.parametrize(
+    ("matrix", "width"),
+    [("[3, 4]^T", 1), ("((3, 4))^T", 1), (r"\left(3, 4\right)^\top", 1), ("[3; 4]^T", 2), ("[[3], [4]]^T", 2)],
+)
+def test_a_list_is_a_column_and_a_column_is_transposed(matrix: str, width: int) -> None:
+    other = "[1, 0; 0, 1]" if "\\" not in matrix else r"\begin{pmatrix}1&0\\0&1\end{pmatrix}"
+    if width == 2:
+        assert list(_multiplied(f"{matrix}*{other}")) == [3, 4]
+    else:
+        assert list(_multiplied(f"{other} {matrix}" if "\\" in matrix else f"{other}*{matrix}")) == [3, 4]
+
+
+def _multiplied(matrix: str) -> Iterator[sp.Expr]:
+    """The entries of a matrix, row by row, which the equations matrix · θ'' = 0 show."""
+    model = derivation("pendulum").model
+    written = rf"${matrix} \ddot\theta = 0$" if "\\" in matrix else f"{matrix}*theta'' = 0"
+    for line in parse_answer(written, model).equations:
+        assert line.lhs is not None
+        yield line.lhs / model.coordinates[0].symbol.diff("t", 2)
+
+
+def test_names_of_the_system_are_no_rates() -> None:
+    s = System("driven")
+    x = s.coordinates("x")
+    m, k, x_p = s.parameters("m k x_p")
+    s.particle(m, at=s.origin + (x, 0))
+    s.spring(k, deflection=x - x_p)
+    answer = parse_answer("m*x_pp + k*(x - x_p) = 0", s.model)
+    assert answer.lines[0].lhs == parse_answer("m*x'' + k*(x - x_p) = 0", s.model).lines[0].lhs
+    assert s.derive().check("m*x_pp + k*(x - x_p) = 0").right

@@ -12,8 +12,10 @@ from lagrangian.check.reading.latex_fractions import CLOSING, LatexFractions
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import (
     Node,
+    column,
     diagonal,
     inside,
+    is_column,
     leaf,
     matrix,
     matrix_entries,
@@ -90,14 +92,13 @@ class LatexParser(LatexFractions):
     def _powered(self, made: Tree, start: int) -> Tree:
         """Read what follows an operand: primes, powers, a transposition."""
         raised = False
-        listed = self.tokens[self.i - 1].kind in (")", "]")  # (x, y)^T is the column that (x, y) is
         while True:
             if (primes := self.accept("primes")) is not None:
                 made = node("rate", primes.start, made, sum(_ORDERS[c] for c in primes.text))
             elif (digits := self.accept("raised")) is not None:
                 made = node("postfix", start, made, leaf("SUPERSCRIPT", digits.text, digits.start))
             elif self.next.kind == "^" and inside(made).data == "matrix" and self._transposed():
-                made = made if listed else wrapped("transpose", start, made)
+                made = made if is_column(made) else wrapped("transpose", start, made)  # (x, y) is a column with ^T too
             elif self.next.kind == "^" and not raised:
                 power = self.take()
                 made = node("power", start, made, leaf("POWER", "^", power.start), None, self._argument())
@@ -142,7 +143,7 @@ class LatexParser(LatexFractions):
             raise self.stopped(False)
         self._bars = bars
         self.opened.pop()
-        return listed[0] if len(listed) == 1 else matrix(start, [[x] for x in listed])
+        return listed[0] if len(listed) == 1 else column(start, listed)
 
     def _atom(self) -> Tree:
         token = self.next

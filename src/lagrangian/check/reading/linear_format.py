@@ -11,7 +11,7 @@ Every replacement is as long as what it replaces, so that all places stay the sa
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from lagrangian.check.reading.latex_tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
@@ -79,15 +79,18 @@ def _drawn(line: str) -> str:
     return f"{line[: match.start()]}{opened}{inside}{closed}{line[match.end() :]}"
 
 
-def dots_in_letters(text: str, coordinates: Sequence[str]) -> str:
-    """Return an answer that writes accelerations as x_pp, xpp or x_punktpunkt with primes, x_p and xp included."""
-    names = {key(name) for name in coordinates}
-    words = {m.group(): m for m in _LETTERED.finditer(text)}
+def dots_in_letters(text: str, coordinates: Sequence[str], given: Iterable[str]) -> str:
+    """Return an answer that writes accelerations as x_pp, xpp or x_punktpunkt with primes, x_p and xp included.
+
+    The names ``given`` are those of the system, which stay.
+    """
+    names, own = ({key(name) for name in listed} for listed in (coordinates, given))
+    words = {m.group(): m for m in _LETTERED.finditer(text) if key(m.group()) not in own}
     twice = {key(m["stem"]) for m in words.values() if len(m["dots"]) in (2, 10)}
     meant = twice & names
 
     def primed(match: re.Match[str]) -> str:
-        if key(match["stem"]) not in meant:
+        if match.group() not in words or key(match["stem"]) not in meant:
             return match.group()
         made = match["stem"].rstrip("_") + ("''" if len(match["dots"]) in (2, 10) else "'")
         return made.ljust(len(match.group()))

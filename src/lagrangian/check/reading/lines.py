@@ -15,7 +15,14 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import Names, Value, names_in
 from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
-from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
+from lagrangian.check.reading.placeholders import (
+    ENERGIES,
+    generalized_force,
+    is_force,
+    is_placeholder,
+    is_slope,
+    is_vector,
+)
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects
 from lagrangian.errors import ParseError
@@ -29,6 +36,12 @@ MAX_CHAIN = 20
 
 _PARTS = "TVUEKPW"
 """The letters with which names of a part of an energy begin."""
+
+_INSIDE = "JIΘΩ"
+"""The capital letters that stand for inertias and speeds in an energy; small ones stand for speeds and positions."""
+
+_FORCES = "FMNQRS"
+"""The letters with which names of forces and moments begin."""
 
 MAX_ERRORS = 5
 """The largest number of errors that are reported at once."""
@@ -144,7 +157,10 @@ class Lines:
         above: Value = None
         values = [reader.value(side) for side in sides[1:]]
         told = [self._tells(subject, value, values[k + 1 :]) for k, value in enumerate(values)]
-        for side, value in [(s, v) for s, v, tells in zip(sides[1:], values, told, strict=True) if tells]:
+        for side, value, tells in zip(sides[1:], values, told, strict=True):
+            if not tells:
+                self._left_out(side, value, reader)
+                continue
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
             elif above is not None and subject.kind == "p-rate" and _accelerates(above) and not _accelerates(value):
@@ -155,12 +171,14 @@ class Lines:
         return lines
 
     def _tells(self, subject: Subject, value: Value, after: Sequence[Value]) -> bool:
-        """Whether a side of an energy is to be judged: not T_1 + T_2 or m (x'^2 + y'^2)/2 with names that the answer
-        does not explain, if another side after it has none of them, or if it consists of nothing else."""
+        """Whether a side of an energy is to be judged: not T_1 + T_2 or m (x'^2 + y'^2)/2 with names of parts, speeds
+        and inertias that the answer does not explain, if another side after it has none of them, or if it consists of
+        nothing else."""
         if subject.kind not in ENERGIES or not isinstance(value, sp.Expr):
             return True
         new = self._new_in(value)
-        if new and any(isinstance(x, sp.Expr) and not self._new_in(x) for x in after):
+        usual = all(str(x)[0] in _PARTS + _INSIDE or str(x)[0].islower() for x in new)
+        if new and usual and any(isinstance(x, sp.Expr) and not self._new_in(x) for x in after):
             return False
         whole = value.free_symbols | value.atoms(AppliedUndef)
         return not new or not all(str(x)[:1] in _PARTS for x in new) or bool(whole - new)
@@ -168,6 +186,17 @@ class Lines:
     def _new_in(self, value: sp.Expr) -> set[sp.Basic]:
         """The names in an expression that neither the system nor the answer explains."""
         return {x for x in value.free_symbols | value.atoms(AppliedUndef) if self.names.is_unknown(x)}
+
+    def _left_out(self, side: Tree, value: sp.Expr, reader: Meaning) -> None:
+        """Tell that a side is not judged, and because of which names."""
+        text, at = reader.source.text, start_of(side)
+        begin, end = text.rfind("=", 0, at) + 1, text.find("=", at)
+        written = " ".join((text[begin:] if end < 0 else text[begin:end]).split())
+        new = self._new_in(value)
+        names = [u.name for u in self.names.unknown.values() if u.symbol in new]
+        what = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+        verb = "are" if len(names) > 1 else "is"
+        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {what} {verb}.")
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
         value = reader.finite(value, side)
@@ -239,10 +268,13 @@ class Lines:
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
         if len(values) > 2:  # m x'' = F_s = -k x, where nothing says what F_s is
-            plain = [not isinstance(x, sp.Expr) or not self._new_in(x) for x in values]
-            keep = [plain[0] and plain[-1] and not known for known in plain]
-            values = [x for x, drop in zip(values, keep, strict=True) if not drop]
-            sides = [x for x, drop in zip(sides, keep, strict=True) if not drop]
+            new = [self._new_in(x) if isinstance(x, sp.Expr) else set[sp.Basic]() for x in values]
+            usual = [all(str(x)[0] in _PARTS + _FORCES for x in names) for names in new]
+            drop = [not new[0] and not new[-1] and bool(n) and u for n, u in zip(new, usual, strict=True)]
+            for side, value in [(s, v) for s, v, out in zip(sides, values, drop, strict=True) if out]:
+                self._left_out(side, value, reader)
+            values = [x for x, out in zip(values, drop, strict=True) if not out]
+            sides = [x for x, out in zip(sides, drop, strict=True) if not out]
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
             lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)
@@ -263,11 +295,20 @@ class Lines:
                 return self._make("left", None, value, subject.name, a, b, reader)
         if _general(left) or _general(right):
             kind = "statement"
+            if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
+                self._unjudged(left, right, reader)
         elif (found := only_name(a)) is not None and not found[1] and self._change(found[0], right):
             return self._make("definition", None, right, str(found[0]), a, b, reader)
         elif (given := self._parameter(a, right) or self._parameter(b, left)) is not None:
             return self._make("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
         return self._make(kind, left, right, None, a, b, reader)
+
+    def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:
+        """Tell that an equation of this system is not judged, because it derives something that has no value."""
+        rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
+        if any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
+            written = " ".join(reader.source.text.split())
+            self.names.notes.setdefault(f"'{written}' was not judged: nothing says what is differentiated there.")
 
     def _parameter(self, side: Tree, value: sp.Expr) -> str | None:
         """The parameter that a side consists of, if the other side is its value: J = m*R^2/2."""

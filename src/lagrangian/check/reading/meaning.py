@@ -13,7 +13,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, only_name
-from lagrangian.check.reading.placeholders import ENERGIES, is_vector, variation
+from lagrangian.check.reading.placeholders import ENERGIES, is_vector, slope, variation
 from lagrangian.check.reading.words import RECIPROCALS
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
@@ -108,15 +108,17 @@ class Meaning(ExpressionReader):
         return self.names.derivatives[value, by]
 
     def _partial(self, node: Node) -> sp.Expr:
-        """∂L/∂ξ or ∂L/∂ξ̇; it is left unevaluated for an energy without a value, and for a general ξ_i."""
+        """∂L/∂ξ or ∂L/∂ξ̇; it is left unevaluated for an energy without a value, and for a general ξ_i.
+
+        Each derivative of something else without a value, ∂A/∂θ, has a symbol of its own, so that no two cancel.
+        """
         what, by = node.children
         kind = {"ℒ": "L"}.get(what, str(what))
         energy = self.names.energy(kind)
         if energy is None and kind not in ENERGIES:
             energy = self._meaning(what)[1]
             if self.names.is_unknown(energy):  # ∂c_r/∂ξ̇_i: a part of something that has no value here
-                self.value(by)
-                return cast("sp.Expr", sp.Derivative(ENERGIES["L"], ENERGIES["T"]))
+                return slope(key(kind), self.value(by))
             if not energy.args or isinstance(energy, AppliedUndef):
                 self.fail(
                     f"'{what}' is not an energy that your answer gives",
@@ -128,7 +130,9 @@ class Meaning(ExpressionReader):
             self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
         if energy is None or not moving or self.names.is_unknown(variable):
-            return cast("sp.Expr", sp.Derivative(ENERGIES.get(kind, ENERGIES["L"]), variable))
+            if kind not in ENERGIES:
+                return slope(key(kind), variable)
+            return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
         return self._differentiated(self.names.model.expand(energy), variable, node)
 
     def _variation(self, node: Node) -> sp.Expr:

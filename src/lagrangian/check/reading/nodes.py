@@ -60,6 +60,16 @@ def matrix(start: int, rows: Sequence[Sequence[Tree]]) -> Tree:
     return node("matrix", start, leaf("MARK", "matrix", start), *(node("row", start, *row) for row in rows))
 
 
+def column(start: int, entries: Sequence[Tree]) -> Tree:
+    """Return the node of a list, which is a column, transposed or not."""
+    return node("matrix", start, leaf("MARK", "list", start), *(node("row", start, entry) for entry in entries))
+
+
+def is_column(tree: Node) -> bool:
+    """Whether a tree is a list, (x, y) or [x, y]."""
+    return is_matrix(tree) and inside(tree).children[0] == "list"
+
+
 def diagonal(start: int, entries: Sequence[Tree]) -> Tree:
     """Return the node of a matrix with these entries on its diagonal; of a matrix that is too large, enough that it is
     refused."""

@@ -26,6 +26,11 @@ def vector(name: str) -> AppliedUndef:
     return moving_symbol(f"\u27e8vector {name}\u27e9")
 
 
+def slope(what: str, by: object) -> AppliedUndef:
+    """Return the placeholder for the derivative of a quantity without a value by a name: ∂A/∂θ."""
+    return moving_symbol(f"\u27e8slope {what} {by}\u27e9")
+
+
 def is_vector(value: object) -> bool:
     """Whether an expression contains the placeholder of a matrix."""
     return isinstance(value, sp.Expr) and any(
@@ -39,5 +44,10 @@ def is_force(symbol: sp.Basic) -> bool:
 
 
 def is_placeholder(symbol: sp.Basic) -> bool:
-    """Whether a symbol is the placeholder of an energy, a Ξ, a variation or a matrix."""
+    """Whether a symbol is the placeholder of an energy, a Ξ, a variation, a matrix or a derivative."""
     return isinstance(symbol, AppliedUndef) and symbol.func.__name__.startswith("\u27e8")
+
+
+def is_slope(symbol: sp.Basic) -> bool:
+    """Whether a symbol is the placeholder of the derivative of a quantity without a value."""
+    return isinstance(symbol, AppliedUndef) and symbol.func.__name__.startswith("\u27e8slope ")

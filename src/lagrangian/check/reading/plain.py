@@ -14,7 +14,9 @@ from lark import Tree
 from lagrangian.check.reading.arguments import written
 from lagrangian.check.reading.nodes import (
     Node,
+    column,
     diagonal,
+    is_column,
     is_matrix,
     leaf,
     matrix,
@@ -23,6 +25,7 @@ from lagrangian.check.reading.nodes import (
     node,
     number,
     only_name,
+    wrapped,
 )
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_conditions import AND, NOT, OR
@@ -113,6 +116,8 @@ class PlainParser(PlainDerivatives):
         while (power := self.accept("power")) is not None:
             if self.next.kind == "name" and self.next.text == "T" and self._listed(children[0]):
                 self.take()
+                if is_matrix(children[0]) and not is_column(children[0]):
+                    children = [wrapped("transpose", start, children[0])]
                 continue  # a list in brackets is already a column
             if only_name(children[0]) == ("e", 0) and len(children) == 1 and not self.words.is_name("e"):
                 sign = self._sign()
@@ -176,6 +181,7 @@ class PlainParser(PlainDerivatives):
         start = self.take().start
         self.deeper(start)
         entries: list[list[Tree | None]] = [[]]
+        lists = self.next.kind == "["
         while True:
             entries[-1].append(self._entry())
             if self.accept(","):
@@ -194,6 +200,8 @@ class PlainParser(PlainDerivatives):
             if len(inner) == 1:
                 return inner[0]
             nested = [matrix_entries(x) for x in inner]
+            if not lists:
+                return column(start, inner)
             rows = [n if n is not None else [x] for n, x in zip(nested, inner, strict=True)]
         return matrix(start, rows)
 

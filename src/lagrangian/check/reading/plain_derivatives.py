@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lark import Tree
 
-from lagrangian.check.reading.nodes import Node, inside, matrix, name, node, only_name
+from lagrangian.check.reading.nodes import Node, column, inside, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_conditions import PlainConditions
 from lagrangian.check.reading.plain_tokens import TOKEN
@@ -43,7 +43,7 @@ class PlainDerivatives(PlainConditions):
         if not self.accept(closing):
             raise self.stopped(False)
         self.opened.pop()
-        return listed[0] if len(listed) == 1 else matrix(start, [[x] for x in listed])
+        return listed[0] if len(listed) == 1 else column(start, listed)
 
     def _fraction_rate(self) -> Tree:
         token = self.take()

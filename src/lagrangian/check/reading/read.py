@@ -85,7 +85,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     plain = _without_notations(typed.text, lines)
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
-    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates])
+    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     listed = all_bullets(text, marked=text != plain.text and not latex) if reading.listed is None else reading.listed
     choice = bool(bullets(text))
     text = without_bullets(text) if listed else text

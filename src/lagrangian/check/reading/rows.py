@@ -43,6 +43,7 @@ _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
+_SUM_ALONE = re.compile(r"\s*[↑→↓←↻↺⟲⟳⤵]?\s*∑\s*[^\W\d]?\w{0,11}(?:\^\w{1,4}|\(\w{1,4}\))?\s*")
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
@@ -77,7 +78,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
-    split = [row for row in map(_without_sums, split) if row.text.strip()]
+    split = [row for row in (_without_sums(row, words) for row in split) if row.text.strip()]
     found = [AnswerRow(row.start, without_tail(without_lead(row.text, words), words)) for row in split]
     stated = [row for row in found if not is_prose(row.text, words)]
     return stated or found[:1]
@@ -136,8 +137,9 @@ def incomplete(text: str) -> bool:
     )
 
 
-def _without_sums(row: AnswerRow) -> AnswerRow:
-    """A row without the side that only says what is added up, ∑M = J φ'' = …; empty if there is no other equation."""
+def _without_sums(row: AnswerRow, words: Words) -> AnswerRow:
+    """A row without the side that only says what is added up, ∑M = J φ'' = …; empty, which a note tells, if there is no
+    other equation."""
     if "∑" not in row.text:
         return row
     sides = row.text.split("=")
@@ -147,6 +149,9 @@ def _without_sums(row: AnswerRow) -> AnswerRow:
         if "∑" in side:
             start = sum(len(x) + 1 for x in sides[:k])
             text = blank(text, max(0, start - (k == len(sides) - 1)), min(len(text), start + len(side) + 1))
+        if "∑" in side and (len(kept) < 2 or not _SUM_ALONE.fullmatch(side)):
+            told = row.text if len(kept) < 2 else side
+            words.names.notes.setdefault(f"'{' '.join(told.split())}' was not judged: nothing says what ∑ adds up.")
     return AnswerRow(row.start, text if len(kept) > 1 else "")
 
 
