@@ -34,7 +34,15 @@ def test_a_side_behind_a_stroke_or_an_arrow_stays(behind: str) -> None:
 
 @pytest.mark.parametrize(
     "written",
-    ["θ' <b g> x", "x < b and y > 0", "x <i t> y", "x < sub > 2 < /sub> 3", "a <b g=0> c", "m <b/2> u < / b > v"],
+    [
+        "θ' <b g> x",
+        "x < b and y > 0",
+        "x <i t> y",
+        "x < sub > 2 < /sub> 3",
+        "a <b g=0> c",
+        "m <b/2> u < / b > v",
+        "x' <b> 0",
+    ],
 )
 def test_comparisons_are_no_tags(written: str) -> None:
     assert without_tags(TracedText(written)).text == written

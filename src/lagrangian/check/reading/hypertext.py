@@ -19,6 +19,7 @@ _RAISED = re.compile(rf"<(?P<tag>su[bp]){_ATTRIBUTES}\s?>(?P<inside>[^<>]{{1,200
 _ENTITY = re.compile(r"&(?:#(?:[xX][0-9A-Fa-f]{1,6}|[0-9]{1,7})|[A-Za-z][A-Za-z0-9]{1,31});")
 _SHORT = re.compile(r"\w+\Z")
 _ROWS = frozenset(["p", "br", "div", "tr", "li", "table", "pre", "h1", "h2", "h3", "h4", "h5", "h6", "ul", "ol"])
+_LETTERS = frozenset("biu")
 _PARTS = frozenset(["td", "th"])
 
 
@@ -40,7 +41,10 @@ def _raised(match: re.Match[str]) -> str:
 
 
 def _tag(match: re.Match[str]) -> str:
+    """What a tag stands for; <b>, <i> and <u> that nothing closes are letters between signs, and stay."""
     tag = match["tag"].lower()
+    if tag in _LETTERS and not match["close"] and f"</{match['tag']}" not in match.string:
+        return match.group()
     return "\n" if tag in _ROWS else " " if tag in _PARTS else ""
 
 
