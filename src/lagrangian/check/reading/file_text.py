@@ -21,6 +21,7 @@ _MARKED = (
 )
 _SIGNS = frozenset("½¼¾²³¹·×÷±°–—‘’‚“”„…•§´ \t™®©")
 _LETTERS = frozenset("äöüÄÖÜßéèêëàâçôîïûùœæñóíúáÉÈÀÇ")
+_KNOWN = _SIGNS | _LETTERS
 _WORD = re.compile(r"[^\W\d_¹²³¼½¾]+")
 _BEFORE = "^_²³*/+-−–=([)]|<>"
 _BEHIND = "'’′″\"^_²³*/+-−–=([)]|<>"
@@ -77,16 +78,24 @@ def _of_windows(data: bytes) -> str | None:
 
 def _is_sure(line: str) -> bool:
     """Whether all characters of a line that are not ASCII are signs, or letters in words of a sentence."""
-    if any(not c.isascii() and c not in _SIGNS | _LETTERS for c in line):
+    if any(not c.isascii() and c not in _KNOWN for c in line):
         return False
-    return all(_is_word(line, word) for word in _WORD.finditer(line) if not word.group().isascii())
+    words = list(_WORD.finditer(line))
+    ends = [0, *(word.end() for word in words)]
+    starts = [*(word.start() for word in words), len(line)]
+    equals, colon = line.find("="), line.rfind(":")
+    for k, word in enumerate(words):
+        if word.group().isascii():
+            continue
+        before, behind = line[ends[k] : word.start()].rstrip()[-1:], line[word.end() : starts[k + 1]].lstrip()[:1]
+        stated = 0 <= equals < word.start() and colon < word.end()
+        if stated or (before and before in _BEFORE) or (behind and behind in _BEHIND) or not _is_word(word.group()):
+            return False
+    return True
 
 
-def _is_word(line: str, word: re.Match[str]) -> bool:
-    """Whether letters are a word of a sentence and no name: several, not beside an operator, and no function."""
-    letters = word.group()
-    before, behind = line[: word.start()].rstrip()[-1:], line[word.end() :].lstrip()[:1]
-    if len(letters) < _SHORTEST or (before and before in _BEFORE) or (behind and behind in _BEHIND):
+def _is_word(letters: str) -> bool:
+    """Whether letters are a word of a sentence and no name: several, and no function."""
+    if len(letters) < _SHORTEST:
         return False
-    named = any(name in letters.lower() for name in FUNCTIONS if len(name) >= _SHORTEST)
-    return not named and ("=" not in line[: word.start()] or ":" in line[word.end() :])
+    return not any(name in letters.lower() for name in FUNCTIONS if len(name) >= _SHORTEST)

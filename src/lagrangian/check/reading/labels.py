@@ -24,8 +24,8 @@ _NEXT = r"(?=\s+(?:=+>|[^\s*/^=+]))"
 _SPOKEN = re.compile(rf"\s*(?P<words>(?:[^\W\d_]{{2,12}}\.?\s+){{1,2}}){_SHORT}\s?\)[.:]?{_NEXT}")
 """A word or two before a letter with a bracket that nothing opens: ad a), zu 1)."""
 _CALLED = re.compile(
-    r"\s*(?:ad|zu|to|re|for|für|from|aus|in|teil|part|punkt|point|question|frage|task|aufgabe|item|nr|no)\.?\s*"
-    rf"[(\[]?\s*{_SHORT}\s*(?:[)\]][.:]?|[.:]){_NEXT}",
+    r"\s*(?:ad|zu|to|re|for|für|from|aus|in|teil|part|punkt|point|question|frage|task|aufgabe|item|nr|no)\.?\s*+"
+    rf"[(\[]?\s*+{_SHORT}\s*+(?:[)\]][.:]?|[.:]){_NEXT}",
     re.IGNORECASE,
 )
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
@@ -33,15 +33,15 @@ _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
-_LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*\s*[\w(][\w\s().,#'’-]{0,60}:(?!=)")
+_LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
-_TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])\s*,?\s+{_WORDS}\s*[,:]?\s*\Z", re.IGNORECASE)
-_LEADERS = r"\s*(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]*"
+_TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
+_LEADERS = r"\s*+(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]{0,300}+"
 _MARK = r"\d{1,3}[a-z]?['′*]{0,2}|[ivx]{1,4}|[IVX]{2,4}|[A-Z]\.?-?\d{1,2}|\*{1,3}"
 _BEHIND = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?(?:{_MARK})\s*[)\]]"
 _DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
-_END = r"\s*[.,;]?\s*\Z"
-_BEFORE_END = r"(?<=[\w)\]'’′″²³])(?:\s*[.,;])?"
+_END = r"\s*+[.,;]?\s*+\Z"
+_BEFORE_END = r"(?<=[\w)\]'’′″²³])(?:\s*+[.,;])?"
 _NAMED = rf"[(\[]\s*{_EQUATION}\.?\s*{_NUMBER}\s*[)\]]"
 _AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
 _AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")

@@ -6,6 +6,7 @@ r"""Writes out macros in LaTeX: those that an answer defines, \newcommand{\st}{\
 from __future__ import annotations
 
 import re
+from collections import Counter
 from dataclasses import dataclass
 
 from lagrangian.check.reading.latex_layout import closing
@@ -22,8 +23,9 @@ MAX_INSIDE = 8
 """How deep macros may be inside others."""
 
 _DEFINES = re.compile(
-    r"\\(?:(?:re)?newcommand|providecommand|DeclareRobustCommand|DeclareMathOperator|def|gdef)\*?\s*"
-    r"\{?\s*\\(?P<name>[A-Za-z]+|[^A-Za-z\s])\s*\}?\s*(?:\[(?P<count>\d)\]\s*(?:\[(?P<first>[^\]]{0,80})\])?|(?P<hashes>(?:#\d)*))\s*\{"
+    r"\\(?:(?:re)?newcommand|providecommand|DeclareRobustCommand|DeclareMathOperator|def|gdef)\*?\s*+"
+    r"\{?\s*+\\(?P<name>[A-Za-z]++|[^A-Za-z\s])\s*+\}?\s*+"
+    r"(?:\[(?P<count>\d)\]\s*+(?:\[(?P<first>[^\]]{0,80})\])?|(?P<hashes>(?:#\d)*+))\s*+\{"
 )
 _USED = re.compile(r"\\(?P<name>[A-Za-z]+|[^A-Za-z\s])(?P<star>\*?)")
 _PARAMETER = re.compile(r"#(\d)")
@@ -114,22 +116,23 @@ def _once(text: str, origins: list[int], macros: dict[str, Macro], source: Sourc
     for match in _USED.finditer(text):
         if match.start() < at or (macro := macros.get(match["name"])) is None:
             continue
-        made, end = _body(macro, text, match.end("name") if not match["star"] else match.end())
+        body, values, end = _arguments(macro, text, match.end("name") if not match["star"] else match.end())
+        size += _length(body, values)  # looked at before anything of that length is made
+        if size + len(text) > MAX_WRITTEN:
+            raise _too_long(source, origins[match.start()])
+        made = _with_arguments(body, values)
         gap = " " if made[-1:].isalpha() or made[:1].isalpha() else ""
         made = f"{gap}{made}{gap}"
         pieces += [text[at : match.start()], made]
         places += [*origins[at : match.start()], *([origins[match.start()]] * len(made))]
         at = end
-        size += len(made)
-        if size + len(text) > MAX_WRITTEN:
-            raise _too_long(source, origins[match.start()])
     if not pieces:
         return None
     return "".join([*pieces, text[at:]]), [*places, *origins[at:]]
 
 
-def _body(macro: Macro, text: str, at: int) -> tuple[str, int]:
-    """What a macro that ends at a place means with its arguments, and where these end."""
+def _arguments(macro: Macro, text: str, at: int) -> tuple[str, list[str], int]:
+    """The body of a macro that ends at a place, its arguments, and where these end."""
     values: list[str] = []
     if macro.first is not None:
         start = _end(_SPACED, text, at)
@@ -144,8 +147,19 @@ def _body(macro: Macro, text: str, at: int) -> tuple[str, int]:
             break
         value, at = _argument(text, start)
         values.append(value)
+    return body, values, at
+
+
+def _length(body: str, values: list[str]) -> int:
+    """An upper bound of the characters of a body with its arguments: at least its own, for so many are gone through."""
+    uses = Counter(map(int, _PARAMETER.findall(body))) if len(body) <= MAX_WRITTEN else {}
+    inserted = sum(uses.get(number, 0) * len(value) for number, value in enumerate(values, 1))
+    return len(body) + inserted + 2
+
+
+def _with_arguments(body: str, values: list[str]) -> str:
     made = _PARAMETER.sub(lambda m: values[int(m[1]) - 1] if 0 < int(m[1]) <= len(values) else "", body)
-    return made.replace("^{}", ""), at
+    return made.replace("^{}", "")
 
 
 def _argument(text: str, at: int) -> tuple[str, int]:

@@ -12,6 +12,7 @@ from lagrangian.check.reading.latex_tokens import tokenize
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.parser import AnswerToken, Parser
 from lagrangian.check.reading.splits import splits
+from lagrangian.model.names import MAX_LENGTH
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import normal
 
@@ -102,7 +103,7 @@ class LatexSymbols(Parser):
             if self.next.kind not in ("letters", "number", "symbol", "upright"):
                 raise self.stopped(True)
             if self.next.kind == "letters":
-                self._cut(self._subscript_length(underscore))
+                self._cut(self._subscript_length())
             return self.take().text.removeprefix("bold ")
         text, depth = "", 0
         while True:
@@ -122,12 +123,17 @@ class LatexSymbols(Parser):
             if not depth:
                 return text
 
-    def _subscript_length(self, underscore: AnswerToken) -> int:
+    def _subscript_length(self) -> int:
         """How many of the letters after _ belong to it: one if that makes a known name, as TeX does, otherwise all."""
         letters = self.next.text
-        before = next((x.text for x in reversed(self.tokens[: self.tokens.index(underscore)]) if x.kind != "}"), "")
+        at = self.i - 2  # before _, which was taken last
+        while at >= 0 and self.tokens[at].kind == "}":
+            at -= 1
+        before = self.tokens[at].text[-MAX_LENGTH:] if at >= 0 else ""
         for length in (len(letters), 1):
-            if any(self.known(f"{before[at:]}_{letters[:length]}") for at in range(len(before))):
+            if length <= MAX_LENGTH and any(
+                self.known(f"{before[at:]}_{letters[:length]}") for at in range(len(before))
+            ):
                 return length
         return len(letters)
 

@@ -43,9 +43,9 @@ _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
 _EQUALS = re.compile(r"^(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE)
 _RATE = re.compile(rf"(?<![\w\\])D(?P<two>2)?(?P<of>{_NAME})(?!\w)")
 _LINE_OF_CODE = re.compile(
-    r"^[ \t]*(?:from\s+\w[\w.]*\s+import\b[^=\n]*|import\s+\w[\w. ,]*|syms\s[^=\n]*|using\s+[\w, ]+|clear|clc|restart:?"
-    r"|with\(\w+\)[:;]|#(?:import|let|set|include)\b.*"
-    r"|[\w, ]+=\s*(?:\w{1,6}\.)?(?:symbols|dynamicsymbols|Symbol|Function|var)\(.*)$",
+    r"^[ \t]*+(?:from\s+\w[\w.]*\s+import\b[^=\n]*|import\s+\w[\w. ,]*|syms\s[^=\n]*|using\s+[\w, ]+|clear|clc"
+    r"|restart:?|with\(\w+\)[:;]|#(?:import|let|set|include)\b.*"
+    r"|[\w, ]++=\s*+(?:\w{1,6}\.)?(?:symbols|dynamicsymbols|Symbol|Function|var)\(.*)$",
     re.MULTILINE,
 )
 """Lines of programs that state nothing: imports, and declarations of symbols."""

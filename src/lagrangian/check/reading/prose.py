@@ -13,15 +13,16 @@ _IDENTIFIER = re.compile(r"[^\W\d]\w*")
 _WORD = re.compile(r"[^\W\d_]+(?:['’-][^\W\d_]+)*")
 _BRACKETS = re.compile(r"[()\n]")
 _INSIDE = re.compile(
-    r"\((?:with|where|mit|wobei|let|and|so|denn|because|also|i\.e\.|d\.h\.|da|\s|,)*[^\W\d]\w*['′²]*\s*=(?!=)[^=]"
+    r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
+    r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
 _ONE = r"[^\W\d_]+(?:['’-][^\W\d_]+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
 _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
 """What a definition means: ψ = θ − β : angle between pendulum and normal."""
-_ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*[.,;:]?\s*\Z")
-_NUMBER_ALONE = re.compile(r"\s*[(\[]?\s*\d{0,3}[a-z]?\s*[)\]]?\s*[.,;:]?\s*\Z")
+_ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
+_NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
 _LISTED = (

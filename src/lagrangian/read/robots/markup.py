@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from bisect import bisect_right
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 from xml.parsers import expat
@@ -22,7 +23,11 @@ MAX_TAGS = 50_000
 MAX_DEPTH = 64
 """The largest depth of elements within elements, above which a chain of MuJoCo's bodies is too deep, too."""
 
+MAX_ANGLE = 1000.0
+"""The largest angle [rad] of a pose: what is far above a turn is a mistake, and its digits do not say where it ends."""
+
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,5})?\Z")
+_SURROGATE = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(eq=False)
@@ -38,7 +43,6 @@ class Tag:
     start: int
     file: MarkupFile = field(repr=False)
     children: list[Tag] = field(default_factory=list["Tag"], repr=False)
-    text: str = field(default="", repr=False)
     seen: set[str] = field(default_factory=set[str], repr=False)
     read: bool = field(default=False, repr=False)
 
@@ -114,6 +118,13 @@ class Tag:
             raise self.error(f"'{key}' has {len(parts)} entries", f"give {wanted}, separated by spaces", "E414", key)
         return numbers
 
+    def check_angles(self, key: str, angles: Iterable[float]) -> None:
+        """Raise an error if an angle [rad] in an attribute is too large for its digits to say where it ends."""
+        for angle in angles:
+            if abs(angle) > MAX_ANGLE:
+                what = f"an angle in '{key}' is {angle:.4g} rad; at most {MAX_ANGLE:g} rad are read"
+                raise self.error(what, "give it within a turn, −π to π", "E703", key)
+
     def _number(self, text: str, key: str, wanted: str) -> float:
         if _NUMBER.match(text) and math.isfinite(value := float(text)):
             return value
@@ -141,6 +152,7 @@ class MarkupFile:
     def __init__(self, text: str, name: str) -> None:
         self.text, self.name = text.replace("\r\n", "\n").replace("\r", "\n"), name
         self._lines = [0, *(m.end() for m in re.finditer("\n", self.text))]
+        self._shown: dict[int, str | None] = {}
         self._open: list[Tag] = []
         self._count = 0
         self._root: Tag | None = None
@@ -148,10 +160,16 @@ class MarkupFile:
 
     def parse(self) -> Tag:
         """Return the root of the tree, or raise `ParseError` with the place of what is wrong."""
+        if (surrogate := _SURROGATE.search(self.text)) is not None:
+            raise ParseError(
+                f"U+{ord(surrogate.group()):04X} is half of a character",
+                place=self.place(surrogate.start()),
+                fix="save the file as UTF-8",
+                code="E702",
+            )
         parser = self._parser = expat.ParserCreate()
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
-        parser.CharacterDataHandler = self._characters
         parser.StartDoctypeDeclHandler = self._refuse_doctype
         parser.EntityDeclHandler = self._refuse_entity
         parser.ExternalEntityRefHandler = self._refuse_entity
@@ -175,9 +193,10 @@ class MarkupFile:
         offset = max(0, min(offset, len(self.text)))
         row = bisect_right(self._lines, offset)
         start = self._lines[row - 1]
-        end = self.text.find("\n", offset)
-        line = self.text[start : end if end >= 0 else len(self.text)]
-        return Place(self.name, row, offset - start + 1, printable(line))
+        if row not in self._shown:  # once for all places in a line
+            end = self._lines[row] - 1 if row < len(self._lines) else len(self.text)
+            self._shown[row] = printable(self.text[start:end])
+        return Place(self.name, row, offset - start + 1, self._shown[row])
 
     def _offset(self, line: int, column: int) -> int:
         """The offset of a line and a column that the parser names."""
@@ -203,10 +222,6 @@ class MarkupFile:
 
     def _end(self, name: str) -> None:
         self._open.pop()
-
-    def _characters(self, data: str) -> None:
-        if self._open and len(self._open[-1].text) < 1000:
-            self._open[-1].text += data
 
     def _refuse_doctype(self, *_: object) -> NoReturn:
         self._refuse("a document type is not read", "remove <!DOCTYPE …>: a robot's file needs none", "E701")

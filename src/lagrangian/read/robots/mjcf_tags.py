@@ -84,12 +84,15 @@ class Orientations:
         key = given[0]
         if key == "euler":
             angles = tag.vector(key, ZERO)
+            tag.check_angles(key, [angle * self.degree for angle in angles])
             axes = {"x": X, "y": Y, "z": Z}
             turns = [FixedTurn(axes[c.lower()], a * self.degree) for c, a in zip(self.sequence, angles, strict=True)]
             kept = [turn for turn in (turns[::-1] if self.sequence.isupper() else turns) if not turn.is_none]
             return tuple(kept)
         size = {"quat": 4, "axisangle": 4, "xyaxes": 6, "zaxis": 3}[key]
         values = tag.vector(key, (), (size,))
+        if key == "axisangle":
+            tag.check_angles(key, [values[3] * self.degree])
         made = self._turns(key, values)
         if made is None:
             raise tag.error(f"'{key}' has no direction", "its vectors must not be 0 or parallel", "E409", key)

@@ -11,10 +11,15 @@ from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.robot import MAX_CHAIN, MAX_LINKS, RobotJoint, RobotLink
 
 
+def check_count(tag: Tag, links: int) -> None:
+    """Raise `ParseError` if a robot has more links than are read."""
+    if links > MAX_LINKS:
+        raise tag.error(f"the robot has {links} links; at most {MAX_LINKS} are read", "describe a part", "E703")
+
+
 def checked_tree(tag: Tag, links: Mapping[str, RobotLink], joints: Mapping[str, RobotJoint]) -> str:
     """Return the name of the link that no joint carries; raise `ParseError` if the joints form no tree from there."""
-    if len(links) > MAX_LINKS:
-        raise tag.error(f"the robot has {len(links)} links; at most {MAX_LINKS} are read", "describe a part", "E703")
+    check_count(tag, len(links))
     carried: dict[str, RobotJoint] = {}
     for joint in joints.values():
         if (before := carried.get(joint.child)) is not None:

@@ -12,7 +12,7 @@ from lagrangian.read.robots.left_out import left_out
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.robot import Inertial, JointKind, JointLimits, Mimic, Robot, RobotJoint, RobotLink
 from lagrangian.read.robots.rotations import ZERO, FixedPose, Rows, X, fixed_axes, length, turned_tensor
-from lagrangian.read.robots.tree import checked_tree
+from lagrangian.read.robots.tree import check_count, checked_tree
 
 KINDS = get_args(JointKind)
 NO_AXIS = ("fixed", "floating")
@@ -25,6 +25,7 @@ def read_urdf(root: Tag) -> Robot:
     """Return the robot in the tree of a file; raises `ParseError` with the place of what is wrong."""
     root.read = True
     name = (root.get("name") or "").strip() or "robot"
+    check_count(root, len(root.all("link")))
     links = dict(_once(((tag, _link(tag)) for tag in root.all("link")), "link"))
     joints = dict(_once(((tag, _joint(tag)) for tag in root.all("joint")), "joint"))
     if not links:
@@ -91,6 +92,7 @@ def _pose(tag: Tag) -> FixedPose:
         return FixedPose()
     x, y, z = origin.vector("xyz", ZERO)
     roll, pitch, yaw = origin.vector("rpy", ZERO)
+    origin.check_angles("rpy", (roll, pitch, yaw))
     return FixedPose((x, y, z), fixed_axes(roll, pitch, yaw))
 
 

@@ -1,0 +1,168 @@
+"""Texts of 50 000 characters that cost the square or the cube of their length if they are read carelessly.
+
+A regular expression cannot be counted: there, the test is that it ends. Everything else is counted in calls.
+"""
+
+from __future__ import annotations
+
+import re
+import tracemalloc
+
+import pytest
+
+import built_in
+import lagrangian as lg
+from effort import at_most
+from lagrangian.check.reading import Answer, labels, parse_answer, programs, prose, read
+from lagrangian.check.reading.file_text import decode_answer
+from lagrangian.check.reading.latex_macros import written_out
+from lagrangian.errors import ParseError
+from lagrangian.quantities.source import Source
+from lagrangian.read.robots.markup import MarkupFile
+
+N = 50_000
+BLANK = " " * N
+CARTS = built_in.system("lecture-3b").model
+
+ANSWERS = {
+    "a macro before blanks": "\\def\\a" + BLANK + "x",
+    "a command before blanks": "\\newcommand" + BLANK + "x",
+    "blanks behind an equation": "m = 1" + BLANK + "y",
+    "newlines": "\n" * N + "y",
+    "blanks in front": BLANK + "y",
+    "blanks behind a name": "y" + BLANK + "z = 1",
+    "a line below": "x1'' = 0 " + "_" * N + "y",
+    "words in brackets": "x1'' = 0 (" + "so" * (N // 2) + ")",
+    "a word before blanks": "ad" + BLANK + "y",
+    "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
+}
+
+
+@pytest.mark.parametrize("text", ANSWERS.values(), ids=ANSWERS)
+def test_an_answer_is_read_or_refused(text: str) -> None:
+    with at_most(6_000_000):
+        try:
+            parsed = parse_answer(text, CARTS)
+        except ParseError as error:
+            assert error.place is not None
+        else:
+            assert isinstance(parsed, Answer)
+
+
+def test_subscripts_cost_as_much_each_at_the_end_as_at_the_start() -> None:
+    with at_most(700_000), pytest.raises(ParseError):
+        parse_answer(r"\dot x_1" + "a_b+" * 1200, CARTS)
+
+
+FORMS = {
+    "_TRAIL": (labels._TRAIL, "m=1" + BLANK + "y"),
+    "_LABEL": (labels._LABEL, BLANK + "y"),
+    "_AFTER": (labels._AFTER, "x = 1 " + "_" * N + "y"),
+    "_AFTER of a number": (labels._AFTER, "x = 1 (1)" + BLANK + "y"),
+    "_CALLED": (labels._CALLED, "ad" + BLANK + "y"),
+    "_DEFINED at newlines": (read._DEFINED, "\n" * N + "y"),
+    "_DEFINED at blanks": (read._DEFINED, "y" + BLANK + "y"),
+    "_LINE_OF_CODE": (programs._LINE_OF_CODE, BLANK + "y"),
+    "_INSIDE": (prose._INSIDE, "(" + "so" * (N // 2) + ")"),
+    "_INSIDE with blanks": (prose._INSIDE, "(" + "so " * (N // 3) + ")"),
+    "_ENDS": (prose._ENDS, "1" + BLANK + "+"),
+    "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANK + "yy"),
+}
+
+
+@pytest.mark.parametrize(("form", "text"), FORMS.values(), ids=FORMS)
+def test_a_form_is_not_found_and_ends(form: re.Pattern[str], text: str) -> None:
+    at_the_start = form in (labels._LABEL, labels._CALLED, prose._NUMBER_ALONE)
+    assert (form.match(text) if at_the_start else form.search(text)) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        r"\newcommand{\a}[1]{" + "#1" * 2000 + r"}\a{" + "x" * 4000 + "}",
+        r"\newcommand{\a}[1]{" + "#1" * 10_000 + "}" + r"\a{}" * 5000,
+    ],
+    ids=["long", "empty"],
+)
+def test_macros_that_become_too_long_are_refused_before_they_are_written(text: str) -> None:
+    tracemalloc.start()
+    try:
+        with at_most(200_000), pytest.raises(ParseError) as caught:
+            written_out(Source(text, "an answer"))
+        most = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert caught.value.code == "E703"
+    assert most < 100 * N  # bytes; the formula would have 8 million characters
+
+
+def test_a_macro_keeps_its_arguments() -> None:
+    text = written_out(Source(r"\newcommand{\a}[2]{#1+#2+#1}\a{x}{y} \def \b #1 {(#1)}\b{z}", "an answer")).text
+    assert text.replace(" ", "") == "x+y+x(z)"
+
+
+@pytest.mark.parametrize(
+    ("text", "sure"),
+    [
+        ("Lösung: für " * 5000, True),
+        ("x = 1 " + "für " * 5000, False),
+        ("x = 1 " + "für " * 5000 + ": y", True),
+        ("Lösung" + BLANK + "+ 1", False),
+    ],
+    ids=["sentence", "equation", "label", "operator"],
+)
+def test_a_long_line_of_windows(text: str, sure: bool) -> None:
+    data = text.encode("cp1252")
+    with at_most(400_000):
+        if sure:
+            assert decode_answer(data, "answer.txt") == text
+        else:
+            with pytest.raises(ParseError):
+                decode_answer(data, "answer.txt")
+
+
+def robot(inside: str) -> str:
+    return f"<robot name='r'>{inside}</robot>"
+
+
+def test_places_in_one_line_share_what_is_shown_of_it() -> None:
+    root = MarkupFile(robot("".join(f"<link name='l{i}'/>" for i in range(2000))), "robot.urdf").parse()
+    first, last = root.children[0].place, root.children[-1].place
+    assert first.line == last.line == 1
+    assert first.column != last.column
+    assert first.text is last.text
+
+
+def test_links_are_counted_before_they_are_read() -> None:
+    with at_most(60_000), pytest.raises(ParseError, match="at most 1000 are read") as caught:
+        lg.loads(robot("\n".join(f"<link name='l{i}'/>" for i in range(3000))))
+    assert caught.value.code == "E703"
+
+
+JOINT = "<joint name='j' type='revolute'><parent link='a'/><child link='b'/><origin rpy='{} 0 0'/></joint>"
+BODY = "<mujoco><worldbody><body {}><joint/><geom size='1'/></body></worldbody></mujoco>"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        robot("<link name='a'/><link name='b'/>" + JOINT.format("1e308")),
+        robot("<link name='a'/><link name='b'/>" + JOINT.format("-1e300")),
+        BODY.format("euler='1e300 0 0'"),
+        BODY.format("axisangle='0 0 1 1e308'"),
+    ],
+)
+def test_an_angle_whose_digits_say_nothing_is_refused(text: str) -> None:
+    with pytest.raises(ParseError, match="at most 1000 rad") as caught:
+        lg.loads(text)
+    assert caught.value.code == "E703"
+    assert caught.value.place is not None
+    assert caught.value.place.line == 1
+
+
+def test_half_a_character_is_refused() -> None:
+    with pytest.raises(ParseError, match=r"U\+D800 is half of a character") as caught:
+        lg.loads("<robot name='\ud800'/>")
+    assert caught.value.code == "E702"
+    assert caught.value.place is not None
+    assert caught.value.place.column == 14
