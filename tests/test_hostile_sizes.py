@@ -64,12 +64,12 @@ def test_a_file_is_read_or_refused_in_a_bounded_number_of_calls(name: str) -> No
 def test_a_derivation_is_written_or_refused_in_a_bounded_number_of_calls(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """After fewer steps and products than users are given, 6 and 5 million: the first and the third are written."""
+    """After fewer steps and products than users are given, 6 and 5 million: all but two are written."""
     monkeypatch.setattr(questions, "QUESTION", 2_500_000)
     monkeypatch.setattr(algebra, "WORK", 1_000_000)
     with at_most(10_000_000):
         found = _or_a_word(lg.loads(FILES[name]).derive)
-    assert isinstance(found, lg.Derivation) == (name in ("axis", "max"))
+    assert isinstance(found, lg.Derivation) == (name not in ("gravity", "nested"))
 
 
 def test_what_is_not_multiplied_out_is_said_on_the_page() -> None:

@@ -74,6 +74,8 @@ def derived_residual(case: Case, q: Any, v: Any, a: Any, u: Any, t: float) -> li
     values |= {**dict(zip(x, q, strict=True)), s.t: t, sp.Symbol("g"): 9.81}
     values |= {i.symbol: w for i, w in zip(s.model.inputs, u, strict=True)}
     put = {name: sp.Float(value) for name, value in values.items()}
+    for known in d.definitions:  # long equations are written in named quantities
+        put[known.symbol] = known.expression.xreplace(put).evalf()
     return [float((e.lhs - e.rhs).xreplace(put).evalf()) for e in d.equations]
 
 

@@ -159,9 +159,9 @@ def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
 def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:
     """The elements from which differences come, in the equation and the ledger of a mistake, less those of other ones.
 
-    Left-hand sides hold what comes from T* and V, never what comes from Ξ.
+    L and the left-hand sides hold what comes from T* and V, never what comes from Ξ.
     """
-    ledgers = {5: (2, 3)}.get(mistake.step, (mistake.step,))
+    ledgers = {0: (2, 3, 6), 1: (2, 3, 6), 4: (2, 3), 5: (2, 3)}.get(mistake.step, (mistake.step,))
     others = {(m.element, m.step) for m in verdict.mistakes if m is not mistake and m.element}
     found: list[str] = []
     for f in verdict.findings:
