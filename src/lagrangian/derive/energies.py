@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -16,7 +16,20 @@ from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derived import Step
 from lagrangian.model import Body, Element, Gravity, Model, Spring, time
 from lagrangian.model.elements.vectors import diagonal
-from lagrangian.page.formula import Formula, Heading, Item, Left, Minus, Name, Product, Square, Terms, formula, text
+from lagrangian.page.formula import (
+    Formula,
+    Heading,
+    Item,
+    Left,
+    Minus,
+    Name,
+    Product,
+    Square,
+    Terms,
+    Text,
+    formula,
+    text,
+)
 
 AXES = ("x", "y", "z")
 
@@ -223,6 +236,9 @@ def _energy(context: Context, body: Body, share: Share, index: dict[Body, str]) 
 # -- step 3 ---------------------------------------------------------------------------------------------------------
 
 
+NOTHING_STORED = text("Nothing stores energy by its position: no spring, no gravity.")
+
+
 def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
     """V = Σ ½ k (δ − δ₀)² + Σ m g h."""
     model = context.model
@@ -245,9 +261,14 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
         live = [s for s in mine if s.expr != 0] or mine
         items.append(formula(*_chain(Name("V"), _sum(live, "V"), _added(context, live)), brief=True))
     else:
-        items.append(text("Nothing stores energy by its position: no spring, no gravity."))
+        items.append(NOTHING_STORED)
         items.append(formula(Name("V"), sp.S.Zero, brief=True))
     reasons = tuple(text(s.name, f": {s.element.title} ", _stored(s)) for s in mine)
+    return potential_step(items, readable, reasons)
+
+
+def potential_step(items: Sequence[Item], V: sp.Expr, reasons: Sequence[Text]) -> Step:
+    """Step 3 with its items, V and the reason for each of its parts."""
     return Step(
         3,
         "Potential energy",
@@ -259,8 +280,8 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
             ".",
         ),
         tuple(items),
-        {"V": readable},
-        reasons,
+        {"V": V},
+        tuple(reasons),
     )
 
 
@@ -324,7 +345,11 @@ def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
     readable = context.algebra.total([s.form if s.column == "T*" else -s.form for s in pieces]).expr()
     signed = [x for s in pieces if s.column == "T*" for x in sp.Add.make_args(context.readable(s.expr))]
     signed += [-x for s in pieces if s.column == "V" for x in sp.Add.make_args(context.readable(s.expr))]
-    written = fit_terms(tuple(x for x in signed if x != 0))
+    return lagrangian_step(readable, fit_terms(tuple(x for x in signed if x != 0)))
+
+
+def lagrangian_step(L: sp.Expr, *written: Left) -> Step:
+    """Step 4: L = T* − V, and what it is as ``written``, if it is shown."""
     return Step(
         4,
         "Lagrangian",
@@ -333,7 +358,7 @@ def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
             "Inertia and all conservative forces follow from this one scalar by differentiation; no force between two "
             "bodies has to be found."
         ),
-        (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), written, brief=True),),
-        {"L": readable},
+        (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), *written, brief=True),),
+        {"L": L},
         (text(Name("L"), " = ", Name("T*"), " − ", Name("V"), ": kinetic co-energy minus potential energy"),),
     )

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -97,6 +97,13 @@ def left_hand_sides(
                 " the springs, gravity and what turns with the geometry",
             )
         )
+    return left_hand_sides_step(items, {"left_hand_sides": expressions}, reasons)
+
+
+def left_hand_sides_step(
+    items: Sequence[Item], expressions: Mapping[str, dict[sp.Expr, sp.Expr]], reasons: Sequence[Text]
+) -> Step:
+    """Step 5 with its items, its results by name and the reason for each equation."""
     return Step(
         5,
         "Left-hand sides",
@@ -110,7 +117,7 @@ def left_hand_sides(
             " is the rest.",
         ),
         tuple(items),
-        {"left_hand_sides": expressions},
+        expressions,
         tuple(reasons),
     )
 

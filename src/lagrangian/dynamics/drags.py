@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from lagrangian.dynamics.rows import Drag
-from lagrangian.dynamics.vectors import Matrix, Vector
+from lagrangian.dynamics.vectors import Matrix, Vector, bare
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 
@@ -40,10 +40,9 @@ class AttachedDrag:
         """A friction with its rate's own node, whatever its sign; ``rows`` are the names of the rows that are kept."""
         if drag.row not in rows:
             raise undetermined(drag.row)
-        node = graph.nodes[drag.rate]
-        negative = node[0] == "neg"
+        node, negative = bare(graph, drag.rate)
         sign = graph.negative if negative else graph.one
-        return cls(node[1] if negative else drag.rate, sign, slip_factor(drag), rows.index(drag.row))
+        return cls(node, sign, slip_factor(drag), rows.index(drag.row))
 
 
 def slip_factor(drag: Drag) -> int:

@@ -24,7 +24,7 @@ from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
 from lagrangian.dynamics.rows import Added, ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
-from lagrangian.dynamics.vectors import dot, minus, plus, zeros
+from lagrangian.dynamics.vectors import bare, dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
 from lagrangian.model.spare import SpareRows
 
@@ -179,7 +179,7 @@ class Mechanics:
         moving = set(moving_nodes(g, {i for pair in triples for i in pair[:2]}, self.v))
         for i, k, h in triples:
             if i in moving and k in moving:
-                (i, si), (k, sk) = self._bare(i), self._bare(k)
+                (i, si), (k, sk) = bare(g, i), bare(g, k)
                 H.couple(i, k, h if si == sk else g.neg(h))
         if self.kinetics:
             nodes = maximal_linear_nodes(g, self.raw_kinetic, self.v)
@@ -187,11 +187,6 @@ class Mechanics:
                 if i <= k:
                     H.add(nodes[i], nodes[k], h)
         return H
-
-    def _bare(self, node: int) -> tuple[int, bool]:
-        """The node without its sign, and whether it had one."""
-        n = self.graph.nodes[node]
-        return (n[1], True) if n[0] == "neg" else (node, False)
 
     def mass_matrix(self) -> list[list[int]]:
         """M, row after row, by columns or by condensing the tape, whichever is cheaper."""
@@ -395,6 +390,6 @@ class Mechanics:
         linear: dict[int, int] = {}
         for rate, effort in pairs:
             if effort != g.zero and rate in moving:
-                node, negative = self._bare(rate)
+                node, negative = bare(g, rate)
                 linear[node] = g.add(linear.get(node, g.zero), g.neg(effort) if negative else effort)
         return linear

@@ -20,6 +20,7 @@ from lagrangian.dynamics.rotations import swing
 from lagrangian.dynamics.vectors import (
     Matrix,
     Vector,
+    bare,
     cross,
     identity,
     minus,
@@ -256,10 +257,9 @@ class Motion:
         """a + change, component by component, or 0 if the velocity that drives it is free: then v̇ = ∓a."""
         g, total = self.graph, []
         for x, drive, c in zip(a, driven, change, strict=True):
-            node = g.nodes[drive]
-            bare, negative = (node[1], True) if node[0] == "neg" else (drive, False)
-            if bare in free:
-                found.vdot[free[bare]] = x if negative else g.neg(x)
+            driver, negative = bare(g, drive)
+            if driver in free:
+                found.vdot[free[driver]] = x if negative else g.neg(x)
                 total.append(g.zero)
             else:
                 total.append(g.add(x, c))
@@ -269,16 +269,15 @@ class Motion:
         """Velocities that drive only one component of one thing (such as a joint's own rotation) → their number."""
         if self.dimension == 2:
             return {}
-        nodes = self.graph.nodes
         entries = [x for axes in self.axes for x in axes.own]
         entries += [x for place in self.places for x in (place.slide or place.offset_rate)]
         number = {v: i for i, v in enumerate(self.v)}
         alone: dict[int, int] = {}
         mixed: list[int] = []
         for x in entries:
-            bare = nodes[x][1] if nodes[x][0] == "neg" else x
-            if bare in number:
-                alone[bare] = alone.get(bare, 0) + 1
+            driver, _ = bare(self.graph, x)
+            if driver in number:
+                alone[driver] = alone.get(driver, 0) + 1
             else:
                 mixed.append(x)
         shared = set(reached(self.graph, mixed))

@@ -26,6 +26,7 @@ from lagrangian.dynamics.drags import AttachedDrag, Pressing
 from lagrangian.dynamics.guard import Guard, Spared
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import EliminationTape, Form
+from lagrangian.dynamics.vectors import bare
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 from lagrangian.model.spare import SpareRows
@@ -61,9 +62,8 @@ class AttachedRow:
     @classmethod
     def of(cls, graph: Graph, row: ConstraintRow, value: int) -> AttachedRow:
         """A row with its rate's own node, whatever its sign."""
-        node = graph.nodes[row.rate]
-        negative = node[0] == "neg"
-        return cls(row, node[1] if negative else row.rate, graph.negative if negative else graph.one, value)
+        node, negative = bare(graph, row.rate)
+        return cls(row, node, graph.negative if negative else graph.one, value)
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,12 @@ Vector = list[int]
 Matrix = list[list[int]]
 
 
+def bare(g: Graph, node: int) -> tuple[int, bool]:
+    """The node without its sign, and whether it had one."""
+    n = g.nodes[node]
+    return (n[1], True) if n[0] == "neg" else (node, False)
+
+
 def plus(g: Graph, a: Sequence[int], b: Sequence[int]) -> Vector:
     """a + b."""
     return [g.add(x, y) for x, y in zip(a, b, strict=True)]

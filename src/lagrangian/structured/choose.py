@@ -48,7 +48,7 @@ def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "
 def is_structured(model: Model, form: AskedForm = "auto") -> bool:
     """Whether a derivation in this form is written in named quantities from the start."""
     if form == "auto":
-        return model.remembered("written in names", lambda: not refusal(model) and is_long(model))
+        return not refusal(model) and is_long(model)
     return form == "structured"
 
 

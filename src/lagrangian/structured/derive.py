@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import cast
 
@@ -22,10 +22,10 @@ from lagrangian.derive.result import ledger_items
 from lagrangian.derive.wiggle import study
 from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.model import Model
-from lagrangian.page.formula import EquationTerm, Heading, Item, text
+from lagrangian.page.formula import EquationTerm, Heading, Item, formula, text
 from lagrangian.structured.listing import Listing, listing
 from lagrangian.structured.shares import ListedShares
-from lagrangian.structured.steps import ListedSteps, boxed, equalities
+from lagrangian.structured.steps import ListedSteps, equalities
 from lagrangian.structured.writing import ListingWriter
 
 _log = logging.getLogger(__name__)
@@ -61,7 +61,7 @@ def derive_structured(model: Model) -> Derived:
         equations=equations,
         terms=tuple(_terms(found, equation) for equation in equations),
         matrices=ListedMatrices(found),
-        result=(*_closing(found, write), *ledger_items(book)),
+        result=(*_closing(equations), *ledger_items(book)),
         ledger=book,
         shares=ListedShares(found, write),
         form="structured",
@@ -80,10 +80,10 @@ def _summands(side: sp.Basic) -> tuple[sp.Expr, ...]:
     return tuple(sp.Add.make_args(cast("sp.Expr", side)))
 
 
-def _closing(found: Listing, write: ListingWriter) -> list[Item]:
+def _closing(equations: Sequence[sp.Eq]) -> list[Item]:
     return [
         Heading(text("Equations of motion")),
-        *boxed(found, write),
+        *(formula(cast("sp.Expr", e.lhs), cast("sp.Expr", e.rhs), brief=True, boxed=True) for e in equations),
         text("The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with one ξ̈ at 1."),
     ]
 

@@ -16,7 +16,7 @@ from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
-from lagrangian.dynamics.vectors import Vector, dot, times, transposed
+from lagrangian.dynamics.vectors import Vector, bare, dot, times, transposed
 from lagrangian.graph import Graph, backwards, reached
 from lagrangian.model import Gravity, Model
 from lagrangian.structured.names import COMPONENTS, Indices
@@ -65,14 +65,14 @@ def listing(model: Model) -> Listing:
     acc = m.accelerations(vdot)
     indices = Indices(d)
     bodies = body_motions(d, m, acc, indices)
-    kinetic = [pair for b in bodies for pair in (*zip(b.velocity, b.P, strict=True), *zip(b.omega, b.H, strict=True))]
-    inertial = [pair for b in bodies for pair in (*zip(b.velocity, b.F, strict=True), *zip(b.omega, b.N, strict=True))]
+    kinetic = [pair for b in bodies for pair in b.momenta()]
+    inertial = [pair for b in bodies for pair in b.inertial()]
     stored = [(rate, graph.neg(effort)) for rate, effort in m.stores]
     momenta = _backwards(graph, kinetic, [*m.v, *m.q])  # a prescribed velocity has momentum, too
     forces = _backwards(graph, [*inertial, *stored], m.v)
-    moving = _Moving(d, m, indices)
+    moving = _Moving(d, indices)
     velocities = list(moving.velocities())
-    slopes = CoordinateSlopes(d, [bare(graph, node) for node, *_ in velocities], momenta)
+    slopes = CoordinateSlopes(d, [bare(graph, node)[0] for node, *_ in velocities], momenta)
     heights = dict(_heights(d, bodies))
     candidates = [*moving.verticals(), *moving.positions(), *_lengths(d, m)]
     candidates += [Candidate(node, "velocity", letter, index, words) for node, letter, index, words in velocities]
@@ -104,11 +104,6 @@ def _backwards(g: Graph, pairs: Pairs, v: Sequence[int]) -> dict[int, int]:
     return backwards(g, [node for node, _ in kept], [weight for _, weight in kept], v)
 
 
-def bare(g: Graph, node: int) -> int:
-    """The node without its sign."""
-    return g.nodes[node][1] if g.nodes[node][0] == "neg" else node
-
-
 Named = tuple[int, str, tuple[str, ...], str]
 """A velocity component: its node, its letter, the parts of its index, and what it belongs to in words."""
 
@@ -116,8 +111,8 @@ Named = tuple[int, str, tuple[str, ...], str]
 class _Moving:
     """The velocities, accelerations and places of a description, component by component."""
 
-    def __init__(self, d: Description, m: Mechanics, indices: Indices) -> None:
-        self.d, self.m, self.indices, self.motion = d, m, indices, d.motion
+    def __init__(self, d: Description, indices: Indices) -> None:
+        self.d, self.indices, self.motion = d, indices, d.motion
         self.flat = d.motion.dimension == 2
 
     def _spins(self) -> Iterator[tuple[Axes, str, str]]:
@@ -137,7 +132,7 @@ class _Moving:
             steps.append((max(v), list(self._v(v, self.indices.places[place], self.indices.axes[axes]))))
         for _, found in sorted(steps, key=lambda step: step[0]):
             for named in found:
-                node = bare(self.d.graph, named[0])
+                node, _ = bare(self.d.graph, named[0])
                 if node not in done and self.d.graph.nodes[node][0] != "const":
                     done.add(node)
                     yield named
@@ -225,9 +220,9 @@ def _inward(
 ) -> Iterator[Candidate]:
     """The sums over everything further out: what the pass backwards left at every velocity."""
     for node, letter, index, words in velocities:
-        under = bare(g, node)
+        under, negative = bare(g, node)
         if under in cotangents:
-            natural = cotangents[under] if under == node else g.neg(cotangents[under])
+            natural = g.neg(cotangents[under]) if negative else cotangents[under]
             yield Candidate(natural, kind, letters[letter], index, words, True)
 
 

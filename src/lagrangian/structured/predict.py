@@ -38,6 +38,10 @@ class _TooManyError(Exception):
 
 def is_long(model: Model) -> bool:
     """Whether the equations of a model would have more than `MOST_TERMS` terms, or too long a root or quotient."""
+    return model.remembered("is_long", lambda: _is_long(model))
+
+
+def _is_long(model: Model) -> bool:
     graph = Graph()
     inputs = Inputs.of(graph, model)
     m, d = described(model, graph, inputs)

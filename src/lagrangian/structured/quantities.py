@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from lagrangian.derive import QuantityKind
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.description import Description
-from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.vectors import Vector, cross, plus, scaled, times
 from lagrangian.model import Body
 from lagrangian.structured.names import Indices
@@ -41,6 +41,14 @@ class BodyMotion:
     H: Vector
     F: Vector
     N: Vector
+
+    def momenta(self) -> Pairs:
+        """Its (velocity, momentum) pairs."""
+        return [*zip(self.velocity, self.P, strict=True), *zip(self.omega, self.H, strict=True)]
+
+    def inertial(self) -> Pairs:
+        """Its (velocity, inertial force) pairs."""
+        return [*zip(self.velocity, self.F, strict=True), *zip(self.omega, self.N, strict=True)]
 
 
 def body_motions(d: Description, m: Mechanics, acc: Accelerations, indices: Indices) -> list[BodyMotion]:

@@ -49,7 +49,7 @@ class ListedShares:
         """Every element with its forces on velocities, and the step that counts it."""
         m = self.found.mechanics
         for b in self.found.bodies:
-            yield b.body, [*zip(b.velocity, b.F, strict=True), *zip(b.omega, b.N, strict=True)], 2
+            yield b.body, b.inertial(), 2
         for element in self.found.model.elements:
             stored = [(rate, self.found.graph.neg(effort)) for rate, effort in m.added[element.title].stores]
             if stored:

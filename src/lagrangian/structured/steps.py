@@ -5,16 +5,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from itertools import groupby
 from typing import cast
 
 import sympy as sp
 
 from lagrangian.derive import NamedQuantity, QuantityKind, Step
+from lagrangian.derive.energies import NOTHING_STORED, lagrangian_step, potential_step
+from lagrangian.derive.lagrange import left_hand_sides_step
 from lagrangian.model import Element, Gravity
 from lagrangian.page.formula import (
-    Formula,
     Heading,
     Item,
     Left,
@@ -65,6 +66,7 @@ class ListedSteps:
         self.flat = self.model.dimension == 2
         self.T = [self._kinetic(k) for k in range(len(found.bodies))]
         self.V = [(element, self._potential(element)) for element in self.model.elements if element.ledger == "V"]
+        self.total_T, self.total_V = (sp.Add(*[value for _, value in shares]) for shares in (self.T, self.V))
         self.sections = self._sections()
 
     def _sections(self) -> dict[QuantityKind, list[NamedQuantity]]:
@@ -177,7 +179,7 @@ class ListedSteps:
                 "so each line needs only the one above."
             ),
             tuple(items),
-            {"T": sp.Add(*[value for _, value in self.T])},
+            {"T": self.total_T},
             tuple(
                 text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
             ),
@@ -218,41 +220,15 @@ class ListedSteps:
                 reasons.append(text(names[-1], f": {element.title} {element.stored}"))
         total: Left = Terms(tuple(names)) if names else sp.S.Zero
         if not names:
-            items = [text("Nothing stores energy by its position: no spring, no gravity.")]
+            items = [NOTHING_STORED]
         items.append(formula(Name("V"), total, brief=True))
-        return Step(
-            3,
-            "Potential energy",
-            text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
-            text(
-                "The work of a spring's force or of a weight depends only on where it starts and ends, so it is the "
-                "difference of an energy. Such forces are counted here and never again among the ",
-                Name("Xi"),
-                ".",
-            ),
-            tuple(items),
-            {"V": sp.Add(*[value for _, value in self.V])},
-            tuple(reasons),
-        )
+        return potential_step(items, self.total_V, reasons)
 
     # -- step 4 -------------------------------------------------------------------------------------------------------
 
     def lagrangian(self) -> Step:
         """L = T* − V."""
-        T = sp.Add(*[value for _, value in self.T])
-        V = sp.Add(*[value for _, value in self.V])
-        return Step(
-            4,
-            "Lagrangian",
-            text("Subtracted the potential energy from the kinetic co-energy."),
-            text(
-                "Inertia and all conservative forces follow from this one scalar by differentiation; no force between "
-                "two bodies has to be found."
-            ),
-            (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), brief=True),),
-            {"L": T - V},
-            (text(Name("L"), " = ", Name("T*"), " − ", Name("V"), ": kinetic co-energy minus potential energy"),),
-        )
+        return lagrangian_step(self.total_T - self.total_V)
 
     # -- step 5 -------------------------------------------------------------------------------------------------------
 
@@ -276,27 +252,11 @@ class ListedSteps:
             ]
             shown["momenta"][c.symbol], shown["gradients"][c.symbol] = momentum, slope
             shown["left_hand_sides"][c.symbol] = row
-        return Step(
-            5,
-            "Left-hand sides",
-            text(
-                "Differentiated the Lagrangian for every coordinate: by its rate, then in time, and by the coordinate."
-            ),
-            text(
-                "Wiggle one coordinate alone: by d'Alembert's principle the work of inertia, of the conservative "
-                "forces and of all others adds up to zero. The left-hand side is the part that follows from ",
-                Name("L"),
-                ", ",
-                Name("Xi", "i"),
-                " is the rest.",
-            ),
-            tuple(items),
-            shown,
-            tuple(
-                text(f"equation {i + 1}: all that moves with ", c.symbol, ": its inertia, springs and weights")
-                for i, c in enumerate(self.model.coordinates)
-            ),
-        )
+        reasons = [
+            text(f"equation {i + 1}: all that moves with ", c.symbol, ": its inertia, springs and weights")
+            for i, c in enumerate(self.model.coordinates)
+        ]
+        return left_hand_sides_step(items, shown, reasons)
 
     def _reason(self) -> Iterator[Item]:
         """Why the left-hand side of a coordinate is a force on what moves with it."""
@@ -339,15 +299,7 @@ def _group(q: NamedQuantity) -> tuple[str, str, bool]:
     return "" if q.kind == "turn" else str(q.symbol)[:1], q.of, q.inward
 
 
-def boxed(found: Listing, write: ListingWriter) -> list[Formula]:
-    """The equations of motion, one for every coordinate."""
-    return [
-        formula(write(row), write(force), brief=True, boxed=True)
-        for row, force in zip(found.rows, found.forces, strict=True)
-    ]
-
-
 def equalities(found: Listing, write: ListingWriter) -> tuple[sp.Eq, ...]:
     """The equations of motion as ``Eq(left-hand side, Ξ)``."""
-    pairs: Sequence[tuple[int, int]] = list(zip(found.rows, found.forces, strict=True))
+    pairs = zip(found.rows, found.forces, strict=True)
     return tuple(cast("sp.Eq", sp.Eq(write(row), write(force), evaluate=False)) for row, force in pairs)

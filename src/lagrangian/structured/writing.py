@@ -19,9 +19,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.derive import NamedQuantity
+from lagrangian.dynamics.vectors import bare
 from lagrangian.graph import operands, reached, to_sympy
 from lagrangian.model import time
-from lagrangian.structured.listing import Listing, bare
+from lagrangian.structured.listing import Listing
 from lagrangian.structured.names import FreeNames
 from lagrangian.structured.quantities import Candidate
 from lagrangian.write.expression import INWARD
@@ -116,9 +117,9 @@ class ListingWriter:
         """The candidates that keep their names, by node."""
         first: dict[int, Candidate] = {}
         for c in candidates:
-            node = bare(self.graph, c.node)
+            node, negative = bare(self.graph, c.node)
             if node in self._live and self.graph.nodes[node][0] not in ("input", "const"):
-                first.setdefault(node, replace(c, node=node, negative=node != c.node))
+                first.setdefault(node, replace(c, node=node, negative=negative))
         kept: dict[int, Candidate] = {}
         table: dict[int, sp.Expr] = dict(self.leaves)
         sizes: dict[int, int] = {}

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import sympy as sp
@@ -64,6 +65,11 @@ class _Reading:
         self.table = _table(self.model, self.inputs, self.a)
         for d in derivation.definitions:
             self.table[d.symbol] = self.node(d.expression)
+
+    @cached_property
+    def forward(self) -> Program:
+        """The forward dynamics, which say whether a state has finite forces."""
+        return dynamics.forward(self.model)
 
     def node(self, expr: sp.Basic) -> int:
         """The node of an expression in the coordinates and the defined symbols."""
@@ -159,11 +165,15 @@ def _compared(reading: _Reading, claim: _Claim, states: int, seed: int, why: str
 
 def _worst(reading: _Reading, one: Sequence[int], other: Sequence[int], states: int, seed: int) -> float:
     """The largest relative difference of two lists of nodes at random states."""
-    model = reading.model
     outputs = {k: Output(tuple(x), (len(x),)) for k, x in (("one", one), ("other", other))}
-    program = Program("lines", reading.graph, dynamics.inverse(model).inputs, outputs)
+    program = Program(
+        "lines",
+        reading.graph,
+        {**reading.forward.inputs, "a": tuple(v.rate for v in reading.model.velocities)},
+        outputs,
+    )
     worst = 0.0
-    for state in random_states(model, dynamics.forward(model), states, seed):
+    for state in random_states(reading.model, reading.forward, states, seed):
         got = {k: np.array(x, float) for k, x in evaluated(program, state).items()}
         size = got["other"] if np.any(got["other"]) else np.array(state["a"])
         worst = float(np.maximum(worst, relative(got["one"] - got["other"], got["one"], size)))
