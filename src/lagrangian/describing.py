@@ -12,6 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.calls import SYSTEM, worded
+from lagrangian.circuits import Circuits
 from lagrangian.constraining import Constrained
 from lagrangian.errors import ModelError, Notice
 from lagrangian.model import (
@@ -45,7 +46,7 @@ MOST_NAMES = 10_000
 
 
 @worded
-class Described(Constrained):
+class Described(Constrained, Circuits):
     """The methods that describe a system: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
 
     _guide = SYSTEM

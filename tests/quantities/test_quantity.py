@@ -51,9 +51,10 @@ def test_values(text: str, value: float, unit: str, dimension: str) -> None:
     assert (quantity.unit, str(quantity.dimension)) == (unit, dimension)
 
 
-def test_mechanical_exponents() -> None:
-    assert unit_dimension("N/m") == (1, 0, -2)
-    assert unit_dimension("deg") == (0, 0, 0)
+def test_exponents_of_the_base_units() -> None:
+    assert unit_dimension("N/m") == (1, 0, -2, 0, 0, 0, 0)
+    assert unit_dimension("V/K") == (1, 2, -3, -1, -1, 0, 0)
+    assert unit_dimension("deg") == (0,) * 7
 
 
 REGISTRY = pint.UnitRegistry()

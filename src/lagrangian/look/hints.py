@@ -12,7 +12,7 @@ from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.look.kinematics import Kinematics
 from lagrangian.model import Frame, Model, Point, RigidBody
 from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
-from lagrangian.quantities.quantity import parse_quantity
+from lagrangian.quantities.quantity import parse_quantity, unit_dimension
 from lagrangian.values.values import Given, key_name
 
 MOST = 1000
@@ -185,7 +185,7 @@ def _angle(value: Any, what: str) -> float | None:
 def _length(value: Any, what: str) -> float:
     if isinstance(value, str):
         quantity = parse_quantity(value, what=what)
-        if not quantity.is_bare and tuple(quantity.dimension.mechanical) != (0, 1, 0):
+        if not quantity.is_bare and quantity.dimension.exponents != unit_dimension("m"):
             raise ModelError(f"{what} must be a length (got {value!r:.60})", fix="write '0.2 m'", code="E408")
         value = quantity.value
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):

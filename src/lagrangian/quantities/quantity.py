@@ -99,9 +99,9 @@ def parse_unit(text: str, what: str = "unit", place: Place | None = None) -> Uni
     return _Reader(source).unit()
 
 
-def unit_dimension(text: str) -> tuple[Fraction, Fraction, Fraction]:
-    """Return the exponents of kg, m and s of a unit; other base units are ignored."""
-    return parse_unit(text).dimension.mechanical
+def unit_dimension(text: str) -> tuple[Fraction, ...]:
+    """Return the exponents of the SI base units, in the order of `BASE`, of a unit."""
+    return parse_unit(text).dimension.exponents
 
 
 def unit_and_words(text: str) -> tuple[str | None, str]:

@@ -138,11 +138,6 @@ class Dimension:
         """self · other^power."""
         return Dimension(tuple(a + power * b for a, b in zip(self.exponents, other.exponents, strict=True)))
 
-    @property
-    def mechanical(self) -> tuple[Fraction, Fraction, Fraction]:
-        """The exponents of kg, m and s."""
-        return self.exponents[0], self.exponents[1], self.exponents[2]
-
     def __str__(self) -> str:
         """Return a unit that can be read back: ``kg*m^2/s^2``, or nothing for no dimension."""
         return _product(zip(BASE, self.exponents, strict=True))

@@ -13,7 +13,7 @@ import sympy as sp
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import REGISTRY, Builder
-from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words
+from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words, unit_dimension
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
 from lagrangian.read.file_elements import add_element
@@ -262,8 +262,8 @@ class Loader(Reading):
         if table.duration is not None:
             path = ("simulate", "duration")
             duration = self._quantity(table.duration, path, "the duration")
-            exponents = duration.dimension.mechanical
-            if not duration.is_bare and tuple(exponents) != (0, 0, 1):
+            exponents = duration.dimension.exponents
+            if not duration.is_bare and exponents != unit_dimension("s"):
                 self._refuse(path, f"expected a time, got {shown(duration.unit)}", "write '10 s'", "E408")
             if duration.value < 0:
                 self._refuse(path, f"the duration is negative ({duration.value:g} s)", "give 0 or more", "E406")

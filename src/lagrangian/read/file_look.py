@@ -17,7 +17,7 @@ from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal
 from lagrangian.read.toml_index import Path
 
-NUMBER, LENGTH = (0, 0, 0), (0, 1, 0)
+NUMBER, LENGTH = unit_dimension("rad"), unit_dimension("m")
 """Dimensions by powers of kilogram, metre and second; an angle is a number."""
 
 LARGEST_ANGLE = 4 * math.pi
@@ -76,7 +76,7 @@ class LookReader:
             quantity = self._quantity(value, path, f"the pose of '{name}'")
             unit = units[normal(name)]
             wanted = (LENGTH, NUMBER) if unit is None else (unit_dimension(unit),)
-            if not quantity.is_bare and quantity.dimension.mechanical not in wanted:
+            if not quantity.is_bare and quantity.dimension.exponents not in wanted:
                 asked = "a length or an angle" if unit is None else f"a value in {unit}"
                 self._refuse(
                     path,
@@ -87,14 +87,14 @@ class LookReader:
 
     def _angle(self, value: Any, path: Path, what: str) -> None:
         quantity = self._quantity(value, path, what)
-        if quantity.dimension.mechanical != NUMBER:
+        if quantity.dimension.exponents != NUMBER:
             self._refuse(path, f"expected an angle, got {shown(quantity.unit)}", "write '40 deg'", "E408")
         if abs(quantity.value) > LARGEST_ANGLE:
             self._refuse(path, f"{what} is {quantity.value:.3g} rad", "give an angle within two turns", "E406")
 
     def _length(self, value: Any, path: Path, what: str, *, positive: bool = False) -> None:
         quantity = self._quantity(value, path, what)
-        if not quantity.is_bare and quantity.dimension.mechanical != LENGTH:
+        if not quantity.is_bare and quantity.dimension.exponents != LENGTH:
             self._refuse(path, f"expected a length, got {shown(quantity.unit)}", "write '0.2 m'", "E408")
         if positive and quantity.value <= 0:
             self._refuse(path, f"{what} must be greater than 0 (got {quantity.value:g} m)", "write '0.2 m'", "E406")

@@ -352,7 +352,7 @@ def _listed(spread: Spread, dim: Dim | None) -> Array:
 
 
 def _checked(spread: Spread, quantity: Quantity, dim: Dim | None) -> float:
-    found = Dim(quantity.dimension.mechanical)
+    found = Dim(quantity.dimension.exponents)
     logarithm = spread.kind == "lognormal"
     if dim is not None and not dim.unknown and not quantity.is_bare and not logarithm and found.known != dim.known:
         raise spread.source.error(

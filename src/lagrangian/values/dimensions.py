@@ -1,7 +1,8 @@
 """Checks that units agree, and determines unknown dimensions by solving linear equations.
 
-Every symbol has a dimension kg^a m^b s^c, which is known from its unit or unknown. The model states facts such as "this
-is a mass", "this is added to that" or "this is the argument of a sine", which are linear equations for the exponents.
+Every symbol has a dimension kg^a m^b s^c A^d …, which is known from its unit or unknown. The model states facts such as
+"this is a mass", "this is added to that" or "this is the argument of a sine", which are linear equations for the
+exponents.
 They are solved one after another; the first one that contradicts the others is reported as an error, with its element.
 Angles have no dimension. A bare number may stand for a quantity ("0.5" for half a metre): if that would explain a
 difference, there is no error, and the terms of the equations are not compared.
@@ -23,20 +24,22 @@ from lagrangian.model import Model, Parameter, Point, time
 from lagrangian.model.elements import Measure, answers
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
+from lagrangian.quantities.units import BASE
 
-Exponents = tuple[Fraction, Fraction, Fraction]
+Exponents = tuple[Fraction, ...]
 
 
 @dataclass(frozen=True)
 class Dim:
-    """A dimension kg^a m^b s^c times powers of dimensions that are not known yet (``unknown``: symbol → power)."""
+    """A dimension, the exponents of the SI base units, times powers of dimensions that are not known yet (``unknown``:
+    symbol → power)."""
 
-    known: Exponents = (Fraction(0), Fraction(0), Fraction(0))
+    known: Exponents = (Fraction(0),) * len(BASE)
     unknown: tuple[tuple[Any, Fraction], ...] = ()
 
     @classmethod
-    def of_unit(cls, unit: tuple[int, int, int]) -> Dim:
-        """That of a unit kg^a m^b s^c, by its exponents."""
+    def of_unit(cls, unit: answers.Unit) -> Dim:
+        """That of a unit, by its exponents."""
         return _dim(*unit)
 
     def times(self, other: Dim, power: Fraction = Fraction(1)) -> Dim:
@@ -46,26 +49,42 @@ class Dim:
             table[symbol] = table.get(symbol, Fraction(0)) + power * p
         known = tuple(a + power * b for a, b in zip(self.known, other.known, strict=True))
         left = tuple((s, p) for s, p in sorted(table.items(), key=lambda x: str(x[0])) if p)
-        return Dim(known, left)  # type: ignore[arg-type]
+        return Dim(known, left)
 
     def power(self, exponent: Fraction) -> Dim:
         """self^exponent."""
         return NONE.times(self, exponent)
 
     def __str__(self) -> str:
-        """Return the dimension as a unit: ``kg m^2/s^2``, or ``1`` for none."""
-        over = [_factor(u, e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e > 0]
-        under = [_factor(u, -e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e < 0]
+        """Return the dimension as a unit: ``kg m^2/s^2``, or ``1`` for none; one of electricity by its name."""
+        if self.known in ELECTRIC:
+            return ELECTRIC[self.known]
+        over = [_factor(u, e) for u, e in zip(BASE, self.known, strict=True) if e > 0]
+        under = [_factor(u, -e) for u, e in zip(BASE, self.known, strict=True) if e < 0]
         text = " ".join(over) or "1"
         return text + ("/" + ("(" + " ".join(under) + ")" if len(under) > 1 else under[0]) if under else "")
+
+
+ELECTRIC: dict[Exponents, str] = {
+    tuple(map(Fraction, (*unit, *(0,) * (len(BASE) - len(unit))))): name
+    for unit, name in (
+        (answers.CHARGE, "C"),
+        (answers.VOLTAGE, "V"),
+        (answers.FLUX, "Wb"),
+        (answers.INDUCTANCE, "H"),
+        (answers.CAPACITANCE, "F"),
+        (answers.RESISTANCE, "Ω"),
+    )
+}
+"""The units of electricity that have a name of their own."""
 
 
 def _factor(unit: str, exponent: Fraction) -> str:
     return unit if exponent == 1 else f"{unit}^{exponent}"
 
 
-def _dim(mass: int, length: int, seconds: int) -> Dim:
-    return Dim((Fraction(mass), Fraction(length), Fraction(seconds)))
+def _dim(*exponents: int) -> Dim:
+    return Dim(tuple(map(Fraction, (*exponents, *(0,) * (len(BASE) - len(exponents))))))
 
 
 NONE, LENGTH, SECOND, ENERGY = _dim(0, 0, 0), _dim(0, 1, 0), _dim(0, 0, 1), _dim(*answers.ENERGY)

@@ -40,7 +40,7 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
     """
     if isinstance(value, str):
         quantity = parse_quantity(value, what=what)
-        found = Dim(quantity.dimension.mechanical)
+        found = Dim(quantity.dimension.exponents)
         if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
             raise RunError(
                 f"{what} = {value!r} has the unit {_unit(found)}, but {_unit(dim)} is needed",

@@ -13,8 +13,8 @@ import sympy as sp
 
 from lagrangian.model.geometry import Frame, Point
 
-Unit: TypeAlias = "tuple[int, int, int]"
-"""The exponents of kg, m and s."""
+Unit: TypeAlias = "tuple[int, ...]"
+"""The exponents of the SI base units kg, m, s, A, K, mol and cd, without trailing zeros."""
 
 ANGLE: Unit = (0, 0, 0)
 LENGTH: Unit = (0, 1, 0)
@@ -24,6 +24,13 @@ ACCELERATION: Unit = (0, 1, -2)
 FORCE: Unit = (1, 1, -2)
 ENERGY: Unit = (1, 2, -2)
 POWER: Unit = (1, 2, -3)
+CHARGE: Unit = (0, 0, 1, 1)
+CURRENT: Unit = (0, 0, 0, 1)
+VOLTAGE: Unit = (1, 2, -3, -1)
+FLUX: Unit = (1, 2, -2, -1)
+INDUCTANCE: Unit = (1, 2, -2, -2)
+CAPACITANCE: Unit = (-1, -2, 4, 2)
+RESISTANCE: Unit = (1, 2, -3, -2)
 
 Rows: TypeAlias = "tuple[tuple[sp.Expr, ...], ...]"
 """A matrix, row by row."""
