@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -112,20 +113,30 @@ def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
 
 def _mesh(motions: Motions, parts: list[Player]) -> None:
     """Discs at different fixed centres whose angles keep a ratio are gears: their radii meet between the centres."""
-    discs = [x for x in parts if x.glyph is BodyGlyph.DISC and x.frame is not None]
-    for i, one in enumerate(discs):
-        for two in discs[i + 1 :]:
-            if one.point == two.point:
-                continue
-            a, b = (motions.angle_slopes(x.frame or 0) for x in (one, two))
-            size = float(np.linalg.norm(a)) * float(np.linalg.norm(b))
-            if size < 1e-12 or float(a @ b) > -size * (1 - 1e-9):
-                continue
-            ratio = float(np.linalg.norm(a)) / float(np.linalg.norm(b))
-            gap = float(np.linalg.norm(motions.views.r[0, one.point] - motions.views.r[0, two.point]))
-            first, second = motions.named(gap / (1 + ratio)), motions.named(gap * ratio / (1 + ratio))
-            if first is not None and second is not None:
-                one.radius, two.radius = first, second
+    for one, two in itertools.combinations([x for x in parts if x.glyph is BodyGlyph.DISC], 2):
+        radii = _pitch_radii(motions, one, two)
+        if radii is not None:
+            one.radius, two.radius = radii
+
+
+def geared(motions: Motions, parts: Sequence[Player]) -> list[tuple[Player, Player]]:
+    """The pairs of discs that are gears on one another."""
+    discs = [x for x in parts if x.glyph is BodyGlyph.DISC] if motions.stage.dimension == 2 else []
+    return [pair for pair in itertools.combinations(discs, 2) if _pitch_radii(motions, *pair) is not None]
+
+
+def _pitch_radii(motions: Motions, one: Player, two: Player) -> tuple[sp.Symbol, sp.Symbol] | None:
+    """The parameters that are the radii of two discs which turn in a ratio, each the other way, if they are gears."""
+    if one.frame is None or two.frame is None or one.point == two.point:
+        return None
+    a, b = (motions.angle_slopes(x) for x in (one.frame, two.frame))
+    size = float(np.linalg.norm(a)) * float(np.linalg.norm(b))
+    if size < 1e-12 or float(a @ b) > -size * (1 - 1e-9):
+        return None
+    ratio = float(np.linalg.norm(a)) / float(np.linalg.norm(b))
+    gap = float(np.linalg.norm(motions.views.r[0, one.point] - motions.views.r[0, two.point]))
+    first, second = motions.named(gap / (1 + ratio)), motions.named(gap * ratio / (1 + ratio))
+    return None if first is None or second is None else (first, second)
 
 
 def _part(motions: Motions, body: Body) -> Player:

@@ -15,6 +15,7 @@ from lagrangian.look.cast import BodyGlyph, Player, cast
 from lagrangian.look.constraint_glyphs import draw_constraints
 from lagrangian.look.couplers import couplers
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
+from lagrangian.look.freedoms import say_unjoined
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.kinematics import Kinematics
@@ -97,11 +98,13 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     draw_supports(board, parts, ties, floor_ends(board, parts, laid))
     draw_strings(board, parts, laid)
     draw_unwinding(board, parts)
-    if (on := undrawn_string(motions, parts, strings)) is not None:
+    on = undrawn_string(motions, parts, strings)
+    if on is not None:
         board.lacks(
             f"the string from {on[0]} to {on[1]} is not drawn, because no point of the model is its moving pulley",
             "name the place of the pulley in [points]",
         )
+    say_unjoined(board, parts, hints.lines, strings, set(on or ()))
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from lagrangian.look.board import Board
 from lagrangian.look.cast import BodyGlyph
 from lagrangian.look.constraint_glyphs import draw_one
+from lagrangian.look.freedoms import say_unjoined
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.outlines import draw_hints
@@ -66,6 +67,7 @@ def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, str]
     solids.sort()
     _constraints(board, players)
     draw_hints(board, players, hints)
+    say_unjoined(board, players, hints.lines)
     SpaceTies(bodies, ties).draw()
     SpaceEfforts(bodies, turns, ties, resolver).draw()
     SpaceMeasures(bodies, floating, supports.floor).draw()

@@ -1,0 +1,378 @@
+"""Counts the freedoms of what is drawn, and finds what moves together in the model and not in the picture.
+
+Whoever reads a picture of a mechanism counts what can move: a body on a floor in one way, a rod about its joint in one,
+a body in the air in two. The model has fewer freedoms where something else ties bodies together, such as a string over
+a pulley, a pair of gears or a hidden rod. With v all velocities of points and angular velocities of frames, what is
+drawn says A v = 0, and the model moves along the columns of M, A M = 0. The rows α with α M = 0 on the solutions of
+A v = 0 are the connections that are not drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.look.board import Board
+from lagrangian.look.cast import BodyGlyph, Player, geared
+from lagrangian.look.couplers import couplers
+from lagrangian.look.hints import LookLine
+from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.pose import up_axis
+from lagrangian.look.strings import PulleyString
+from lagrangian.model import Rolling
+
+Array = NDArray[np.float64]
+
+MOST = 4
+"""How many bodies a message names."""
+
+NONE = 1e-7
+"""A number is zero below this share of the largest one beside it."""
+
+
+@dataclass
+class Drawn:
+    """What is drawn, as rows A of A v = 0: ``rows`` are lists of (slice, block), blocks of shape (rows, columns).
+
+    ``points`` and ``frames`` are the places of their velocities in v, ``ground`` those that do not move.
+    """
+
+    motions: Motions
+    points: dict[int, slice] = field(default_factory=dict[int, slice])
+    frames: dict[int, slice] = field(default_factory=dict[int, slice])
+    rows: list[list[tuple[slice, Array]]] = field(default_factory=list[list[tuple[slice, Array]]])
+    size: int = 0
+
+    def point(self, k: int) -> slice:
+        """The place of a point's velocity."""
+        return self._place(self.points, k, self.motions.stage.dimension)
+
+    def frame(self, f: int) -> slice:
+        """The place of a frame's angular velocity."""
+        return self._place(self.frames, f, 1 if self.motions.stage.dimension == 2 else 3)
+
+    def _place(self, known: dict[int, slice], key: int, width: int) -> slice:
+        if key not in known:
+            known[key] = slice(self.size, self.size + width)
+            self.size += width
+        return known[key]
+
+    def say(self, *blocks: tuple[slice, Array]) -> None:
+        """Rows Σ block · v[slice] = 0."""
+        if blocks and blocks[0][1].size:
+            self.rows.append(list(blocks))
+
+    # -- numbers --------------------------------------------------------------------------------------------------
+
+    def matrix(self) -> Array:
+        """A (rows, size)."""
+        stacked: list[Array] = []
+        for blocks in self.rows:
+            row = np.zeros((len(blocks[0][1]), self.size))
+            for place, block in blocks:
+                row[:, place] += block
+            stacked.append(row)
+        return np.vstack(stacked) if stacked else np.zeros((0, self.size))
+
+    def model(self) -> Array:
+        """M (size, n): the velocities for a unit rate of each coordinate."""
+        views = self.motions.views
+        M = np.zeros((self.size, views.J.shape[-1]))
+        for k, place in self.points.items():
+            M[place] = views.J[0, k]
+        for f, place in self.frames.items():
+            M[place] = turning(self.motions, f)
+        return M
+
+
+def turning(motions: Motions, frame: int) -> Array:
+    """The angular velocity of a frame for a unit rate of each coordinate: (1, n) in the plane, (3, n) in space."""
+    R, RJ = motions.views.R[0, frame], motions.views.RJ[0, frame]
+    W = np.einsum("ijn,kj->ikn", RJ, R)
+    W = (W - W.swapaxes(0, 1)) / 2  # a quaternion also changes its length
+    return W[1:2, 0] if len(R) == 2 else np.array([W[2, 1], W[0, 2], W[1, 0]])
+
+
+def say_unjoined(
+    board: Board,
+    parts: Sequence[Player],
+    lines: Iterable[LookLine],
+    strings: Iterable[PulleyString] = (),
+    told: Collection[str] = (),
+) -> None:
+    """Say which bodies move together without a part of the picture that shows why; of ``told`` it is said already."""
+    through = [{board.stage.index(p) for p in line.through} for line in lines]
+    for names in unjoined(board.motions, parts, strings, through):
+        if board.hidden & set(names) or (told and set(told) <= set(names)):
+            continue
+        if len(names) == 1:
+            board.lacks(f"what turns {names[0]} as it moves is not drawn", "name its radius in [parameters]")
+            continue
+        listed = ", ".join(f'"{name}"' for name in names[:MOST])
+        *some, last = names if len(names) <= MOST else (*names[:MOST], "others")
+        board.lacks(
+            f"what makes {', '.join(some)} and {last} move together is not drawn",
+            f'[[look.line]] with through = [{listed}] and kind = "string" or "rod" shows it',
+        )
+
+
+def unjoined(
+    motions: Motions, parts: Sequence[Player], strings: Iterable[PulleyString] = (), lines: Iterable[set[int]] = ()
+) -> list[list[str]]:
+    """Names of bodies that move together in the model and not in the picture, one list for each connection.
+
+    ``strings`` are those that are drawn, ``lines`` the points that the lines of hints go through: what these join
+    counts as drawn.
+    """
+    if not motions.views.J.size or not parts:
+        return []
+    drawn = Drawn(motions)
+    for part in parts:
+        drawn.point(part.point)
+        if part.frame is not None:
+            _framed(drawn, part.frame)
+    for k in list(drawn.points):
+        _held(drawn, k)
+    for part in parts:
+        _owned(drawn, part)
+    _rods(drawn, parts)
+    for string in strings:
+        _strung(drawn, string)
+    for one, two in geared(motions, parts):
+        _meshing(drawn, one, two)
+    _on_floor(drawn)
+    return _told(drawn, parts, [*lines])
+
+
+# -- what is drawn ----------------------------------------------------------------------------------------------------
+
+
+def _framed(drawn: Drawn, f: int) -> None:
+    """A frame turns about the axis of its joint in the frame that carries it."""
+    if f in drawn.frames:
+        return
+    place, frames = drawn.frame(f), drawn.motions.stage.frames
+    parent = frames[f].parent
+    own = turning(drawn.motions, f)
+    if parent is None:
+        drawn.say((place, _complement(own)))
+        return
+    home = frames.index(parent)
+    _framed(drawn, home)
+    rows = _complement(own - turning(drawn.motions, home))
+    drawn.say((place, rows), (drawn.frames[home], -rows))
+
+
+def _known(drawn: Drawn, k: int) -> slice:
+    """The place of a point's velocity, with what holds the point."""
+    if k not in drawn.points:
+        drawn.point(k)
+        _held(drawn, k)
+    return drawn.points[k]
+
+
+def _held(drawn: Drawn, k: int) -> None:
+    """A point moves against what holds it as that lets it."""
+    motions, place = drawn.motions, drawn.point(k)
+    hold, d = motions.holds[k], motions.stage.dimension
+    if not motions.coordinates(k):
+        drawn.say((place, np.eye(d)))
+        return
+    parent = motions.stage.points[k].parent
+    home = 0 if parent is None else motions.stage.index(parent)
+    h = hold.holder if motions.coordinates(k, home) else home
+    other = _known(drawn, h)
+    own = motions.stage.points[k].frame
+    f = None if own is None else motions.stage.frames.index(own)
+    if f is None or hold.how in (HoldKind.FREE, HoldKind.SLIDE):
+        _, D = motions.local(k, h, None)
+        rows = _complement(D[0], motions.size)
+        drawn.say((place, rows), (other, -rows))
+        return
+    _framed(drawn, f)
+    _, X = motions.local(k, h, f)
+    rows = _complement(motions.views.R[0, f] @ X[0], motions.size)
+    lever = motions.views.r[0, k] - motions.views.r[0, h]
+    drawn.say((place, rows), (other, -rows), (drawn.frames[f], -rows @ _cross(lever)))
+
+
+def _owned(drawn: Drawn, part: Player) -> None:
+    """The joints of a rigid body are at rest in it; a wheel rolls, a pulley turns with what hangs on it."""
+    motions = drawn.motions
+    if part.frame is None:
+        return
+    turn = drawn.frames[part.frame]
+    for k in part.points:
+        if k in drawn.points and k != part.point:
+            lever = motions.views.r[0, k] - motions.views.r[0, part.point]
+            I = np.eye(motions.stage.dimension)
+            drawn.say((drawn.points[k], I), (drawn.points[part.point], -I), (turn, -_cross(lever)))
+    if part.glyph is BodyGlyph.WHEEL and motions.stage.dimension == 2:
+        h = motions.holds[part.point].holder
+        moved = motions.views.J[0, part.point] - motions.views.J[0, h]
+        i = int(np.argmax(np.abs(turning(motions, part.frame)[0])))
+        e = moved[:, i] / (float(moved[:, i] @ moved[:, i]) or 1.0) * turning(motions, part.frame)[0, i]
+        drawn.say((turn, np.eye(1)), (drawn.points[part.point], -e[None]), (_known(drawn, h), e[None]))
+
+
+def _rods(drawn: Drawn, parts: Sequence[Player]) -> None:
+    """Rods between bodies, and those that lie on one line from one joint: they are seen as one."""
+    motions, d = drawn.motions, drawn.motions.stage.dimension
+    r = motions.views.r
+    for a, b in couplers(motions, list(parts)):
+        e = (r[0, b] - r[0, a])[None]
+        drawn.say((drawn.points[a], e), (drawn.points[b], -e))
+    rods = [h for k in drawn.points if (h := motions.holds[k]).how is HoldKind.ROD and motions.coordinates(k)]
+    for one, two in permutations(rods, 2):
+        if two.holder != one.point and (two.holder != one.holder or one.point > two.point):
+            continue
+        first, second = r[:, one.point] - r[:, one.holder], r[:, two.point] - r[:, two.holder]
+        ratios = np.einsum("sd,sd->s", second, first) / np.einsum("sd,sd->s", first, first)
+        if np.abs(second - ratios[:, None] * first).max() < NONE * motions.size:
+            I, x = np.eye(d), float(ratios[0])
+            ends = (two.point, 1.0), (two.holder, -1.0), (one.point, -x), (one.holder, x)
+            drawn.say(*((drawn.points[k], c * I) for k, c in ends))
+
+
+def _strung(drawn: Drawn, string: PulleyString) -> None:
+    """What one side of a string gains, the other one loses; its pulley turns with it."""
+    motions, blocks = drawn.motions, list[tuple[slice, Array]]()
+    for end, fold in zip(string.ends, (1.0, float(string.fold)), strict=True):
+        h = string.holder if end.along is not None else motions.holds[end.point].holder
+        d = motions.views.r[0, end.point] - motions.views.r[0, h]
+        e = (d / float(np.linalg.norm(d)) if end.along is None else end.along)[None]
+        blocks += [(_known(drawn, end.point), fold * e), (_known(drawn, h), -fold * e)]
+    drawn.say(*blocks)
+    pulley = string.pulley
+    if pulley is not None and pulley.frame is not None and pulley.frame in drawn.frames:
+        own, run = turning(motions, pulley.frame)[0], string.ends[0].slopes[0]
+        if float(own @ own) > 0:
+            ratio = float(run @ own) / float(own @ own)
+            drawn.say((drawn.frames[pulley.frame], np.full((1, 1), -ratio)), *blocks[:2])
+
+
+def _meshing(drawn: Drawn, one: Player, two: Player) -> None:
+    a, b = drawn.frames[one.frame or 0], drawn.frames[two.frame or 0]
+    first, second = turning(drawn.motions, one.frame or 0)[0], turning(drawn.motions, two.frame or 0)[0]
+    ratio = float(first @ second) / float(first @ first)
+    drawn.say((a, np.full((1, 1), ratio)), (b, np.full((1, 1), -1.0)))
+
+
+def _on_floor(drawn: Drawn) -> None:
+    """Where something rolls on a floor in space, the point of contact keeps its height."""
+    stage = drawn.motions.stage
+    if stage.dimension == 2:
+        return
+    up = up_axis(drawn.motions)[None]
+    for element in stage.model.elements:
+        if isinstance(element, Rolling):
+            k = stage.index(element.at)
+            if np.abs(up @ drawn.motions.views.J[0, k]).max() < NONE:
+                drawn.say((_known(drawn, k), up))
+
+
+def _cross(lever: Array) -> Array:
+    """The matrix of ω × d as a map of ω: (2, 1) in the plane, (3, 3) in space."""
+    if len(lever) == 2:
+        return np.array([[-lever[1]], [lever[0]]])
+    x, y, z = lever
+    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+
+
+def _complement(columns: Array, least: float = 1e-3) -> Array:
+    """Orthonormal rows (d − rank, d) at right angles to all columns; those far below ``least`` are zero."""
+    left, sizes, _ = np.linalg.svd(columns)
+    rank = int((sizes > NONE * max(float(sizes.max(initial=0.0)), least)).sum())
+    return left[:, rank:].T
+
+
+# -- what is not ------------------------------------------------------------------------------------------------------
+
+
+def _told(drawn: Drawn, parts: Sequence[Player], lines: list[set[int]]) -> list[list[str]]:
+    """The bodies of every connection that is missing."""
+    groups = _groups(drawn, lines)
+    joined = [any(sum(drawn.points.get(k) in group for k in line) > 1 for line in lines) for group in groups]
+    A, M = drawn.matrix(), drawn.model()
+    bases: list[Array] = []
+    owners: list[int] = []
+    for number, group in enumerate(groups):
+        columns = np.concatenate([np.arange(drawn.size)[place] for place in group])
+        local = A[:, columns]
+        local = local[np.abs(local).max(axis=1) > NONE] if len(local) else local
+        free = _complement(local.T) if len(local) else np.eye(len(columns))
+        basis = np.zeros((drawn.size, len(free)))
+        basis[columns] = free.T
+        bases.append(basis)
+        owners += [number] * len(free)
+    N = np.hstack(bases)
+    rows = _reduced(_complement(N.T @ M))
+    found: list[list[str]] = []
+    for row in rows:
+        touched = {owners[j] for j in np.flatnonzero(np.abs(row) > NONE)}
+        if len(touched) == 1 and joined[min(touched)]:
+            continue
+        places = [place for number in touched for place in groups[number]]
+        names = [
+            x.name
+            for x in parts
+            if drawn.points[x.point] in places or (x.frame is not None and drawn.frames[x.frame] in places)
+        ]
+        found += [names] if names else []
+    return _merged(found)
+
+
+def _groups(drawn: Drawn, lines: list[set[int]]) -> list[list[slice]]:
+    """The velocities that rows or lines tie together; those of points at rest tie nothing."""
+    motions = drawn.motions
+    fixed = {place.start for k, place in drawn.points.items() if not motions.coordinates(k)}
+    home = {place.start: place.start for place in (*drawn.points.values(), *drawn.frames.values())}
+
+    def root(x: int) -> int:
+        while home[x] != x:
+            x = home[x]
+        return x
+
+    ties = [[place.start for place, block in blocks if np.abs(block).max(initial=0.0) > NONE] for blocks in drawn.rows]
+    ties += [[drawn.points[k].start for k in line if k in drawn.points] for line in lines]
+    for tie in ties:
+        moving = [x for x in tie if x not in fixed]
+        for x in moving[1:]:
+            home[root(x)] = root(moving[0])
+    found: dict[int, list[slice]] = {}
+    for place in (*drawn.points.values(), *drawn.frames.values()):
+        found.setdefault(root(place.start), []).append(place)
+    return [*found.values()]
+
+
+def _reduced(rows: Array) -> Array:
+    """The reduced row echelon form: every row touches as few columns as it can."""
+    A, r = rows.copy(), 0
+    for j in range(A.shape[1]):
+        if r == len(A):
+            break
+        pivot = r + int(np.argmax(np.abs(A[r:, j])))
+        if abs(A[pivot, j]) < NONE:
+            continue
+        A[[r, pivot]] = A[[pivot, r]]
+        A[r] /= A[r, j]
+        for i in range(len(A)):
+            if i != r:
+                A[i] -= A[i, j] * A[r]
+        r += 1
+    return A[:r]
+
+
+def _merged(found: list[list[str]]) -> list[list[str]]:
+    """Connections that have a body in common, as one."""
+    merged: list[list[str]] = []
+    for names in found:
+        shared = [x for x in merged if set(x) & set(names)]
+        for x in shared:
+            merged.remove(x)
+        merged.append(list(dict.fromkeys([n for x in shared for n in x] + names)))
+    return merged
