@@ -146,9 +146,10 @@ class Constrained(Guided):
 
         F [N or N m] is ``mu`` times the ``normal`` force, or ``limit``; ``static`` is the coefficient or the limit at
         rest if it is higher; ``viscous`` is b. ``pressed_by`` is a constraint (or its row) whose multiplier λ_N is the
-        normal force, instead of ``normal``: F = μ |λ_N|, for which λ_N and the friction are solved together. Nothing is
-        smoothed: while it sticks, δ̇ = 0 is a constraint with the multiplier λ, and a run finds the times at which it
-        begins to stick and to slip.
+        normal force, instead of ``normal``: F = μ |λ_N|, for which λ_N and the friction are solved together; two or
+        three rows along perpendicular directions press with F = μ √(λ₁² + λ₂² + …). Nothing is smoothed: while it
+        sticks, δ̇ = 0 is a constraint with the multiplier λ, and a run finds the times at which it begins to stick and
+        to slip.
         """
         return self._builder.add(
             Friction(

@@ -11,7 +11,7 @@ from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.errors import Error
 from lagrangian.model import Model, is_hard
-from lagrangian.model.rows import pressed_rows
+from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Check, text
 from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, is_tangled
 from lagrangian.values.dimensions import check_dimensions
@@ -168,7 +168,7 @@ def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     from lagrangian.compiled import Compiled, sources
     from lagrangian.verify.products import verify_products  # imported here because deriving needs none of these
 
-    if pressed_rows(model):
+    if pressing_rows(model):
         why = "not made: they are functions of the system whose regime says what slips and what sticks"
         return (Check(text("compiled functions"), None, why),)
     return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)

@@ -59,7 +59,7 @@ def compared_motions(source: Model, into: Model, change: Change, tags: tuple[str
     Raises `ModelError` if no states are found that satisfy the constraints, or for friction and floating frames.
     """
     for model in (source, into):
-        check_no_friction(model, "motions with constraints cannot be compared")
+        check_no_friction(model, "motions are compared by their accelerations")
         if model.floating:
             raise ModelError(
                 f"system '{model.name}' has a floating frame: its velocities are not the rates of its coordinates",
@@ -99,7 +99,7 @@ def _ways_seen(side: _Side, path: Program, source: Model, state: State) -> bool:
         return np.array([cast("float", found[f"v {c.name}"]) for c in source.coordinates])
 
     free, still = side.directions(state), rates(0 * v)
-    images = np.array([rates(e) - still for e in free]).reshape(len(free), -1)
+    images = np.array([rates(e) - still for e in free]).reshape(len(free), len(still))
     return len(free) == int(np.linalg.matrix_rank(images, tol=SOMETHING)) if len(free) else True
 
 

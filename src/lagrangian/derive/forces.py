@@ -230,13 +230,14 @@ def _two_regimes(context: Context, friction: Friction) -> list[Item]:
 
 def _pressed(context: Context, friction: Friction) -> list[Item]:
     """What the normal force is, if it is a multiplier."""
-    if not friction.pressed_by:
+    if not friction.pressing:
         return []
+    kept = f"the constraint{'s' * (len(friction.pressing) > 1)} " + " and ".join(f"'{r}'" for r in friction.pressing)
     return [
         text(
             "Its normal force ",
             fit(context.readable(friction.normal_force)),
-            f" is what keeps the constraint '{friction.pressed_by}', and depends on the friction in its turn: the "
+            f" is what keeps {kept}, and depends on the friction in its turn: the "
             "equations and the rows are solved for both together.",
         )
     ]

@@ -24,7 +24,7 @@ from lagrangian.dynamics.vectors import zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program
 from lagrangian.model import Friction, Model
-from lagrangian.model.rows import pressed_rows
+from lagrangian.model.rows import pressed_rows, pressing_rows
 
 DEPENDENT = 1e-9
 """A row whose margin is below this follows from others."""
@@ -49,8 +49,9 @@ def regime(model: Model, modes: Modes) -> Model:
 
 def slips(model: Model) -> Model:
     """The model itself, or where a multiplier presses on friction a regime of it, whose states have the same names."""
-    rows = pressed_rows(model)
-    return regime(model, (1,) * (len(model.frictions) + len(rows))) if rows else model
+    if not pressing_rows(model):
+        return model
+    return regime(model, (1,) * (len(model.frictions) + len(pressed_rows(model))))
 
 
 def _sided(model: Model, modes: Modes) -> list[Any]:
@@ -60,9 +61,9 @@ def _sided(model: Model, modes: Modes) -> list[Any]:
 
 
 def _sides(model: Model, modes: Modes) -> list[tuple[Friction, int]]:
-    """The frictions with the sides of what presses on them, 0 where that is no multiplier."""
+    """The frictions with the sides of what presses on them, 0 where that is not one multiplier."""
     sides = dict(zip(pressed_rows(model), modes[len(model.frictions) :], strict=True))
-    return [(f, sides.get(f.pressed_by, 0)) for f in model.frictions]
+    return [(f, sides[f.pressing[0]] if len(f.pressing) == 1 else 0) for f in model.frictions]
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ def watches(model: Model, modes: Modes) -> tuple[Watch, ...]:
     found: list[Watch] = []
     for i, mode in enumerate(modes):
         found += [Watch(i)] if mode else [Watch(i, -1), Watch(i, 1)]
-    return (*found, PARADOX) if pressed_rows(model) else tuple(found)
+    return (*found, PARADOX) if pressing_rows(model) else tuple(found)
 
 
 def watched(
@@ -105,7 +106,7 @@ def watched(
         else:
             g += [graph.sub(state.most, state.effort), graph.add(state.most, state.effort)]
     g += [graph.add(force, graph.const(rest)) for force in _normals(seen, model, modes)]
-    if pressed_rows(model):
+    if pressing_rows(model):
         g.append(graph.sub(_regularity(seen.mechanics), graph.const(LEAST_REGULARITY)))
     outputs = {"g": Output(tuple(g), (len(g),))}
     return with_feedback(seen, outputs, feedback, "ends of a regime", (SUPPLY,) if supply else ())
@@ -201,7 +202,7 @@ def _states(seen: Observed, model: Model, modes: Modes) -> list[_State]:
 def _check_split(model: Model, modes: Modes, left_out: Sequence[str]) -> None:
     """Refuse frictions whose shares of one force cannot be told."""
     stuck = [f for f, mode in zip(model.frictions, modes, strict=False) if not mode]
-    if left_out and not set(pressed_rows(model)).isdisjoint(left_out):
+    if left_out and not set(pressing_rows(model)).isdisjoint(left_out):
         raise undetermined(left_out[0])
     if stuck and left_out:
         names = " and ".join(f"'{name}'" for name in (*(f.name for f in stuck), *left_out))

@@ -17,7 +17,7 @@ from lagrangian.dynamics.accelerations import Quadratic, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.dependent import Known, without_dependent
-from lagrangian.dynamics.drags import AttachedDrag, slip_factor
+from lagrangian.dynamics.drags import AttachedDrag, pressing_force, slip_factor
 from lagrangian.dynamics.floating import Float, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
@@ -147,7 +147,11 @@ class Mechanics:
 
     def dragged_by(self, multipliers: Mapping[str, int]) -> Pairs:
         """The same with multipliers that are given by the names of their rows."""
-        return [(drag.rate, self.graph.mul(slip_factor(drag), multipliers[drag.row])) for drag in self.drags]
+        g = self.graph
+        return [
+            (drag.rate, g.mul(slip_factor(drag), pressing_force(g, [multipliers[row] for row in drag.rows])))
+            for drag in self.drags
+        ]
 
     def gathered(self, pairs: Pairs) -> list[int]:
         """Σ effort · ∂rate/∂v_i of (rate, effort) pairs."""

@@ -349,7 +349,7 @@ class RowElimination(Elimination):
         if not problem.drags:
             return None
         forces = [problem.drag_key(k) for k in range(len(problem.drags))]
-        keys = {drag.row: -1 - drag.row for drag in problem.drags}
+        keys = {row: -1 - row for drag in problem.drags for row in drag.rows}
         still = self.accelerations(dict.fromkeys(forces, g.zero))
         slopes: list[dict[int, int]] = []
         for force in forces:
@@ -362,8 +362,10 @@ class RowElimination(Elimination):
         g, problem, guard = self.graph, self.problem, self.guard
         pressing, forces = self.pressing(), dict[int, int]()
         if pressing is not None:
-            lam = pressing.solved()
-            forces = {problem.drag_key(k): g.mul(drag.factor, lam[drag.row]) for k, drag in enumerate(problem.drags)}
+            normal = pressing.solved()
+            forces = {
+                problem.drag_key(k): g.mul(drag.factor, normal[drag.rows]) for k, drag in enumerate(problem.drags)
+            }
         value = self.accelerations(forces)
         keys = [-1 - r for r in range(len(problem.rows))]
         return RowSolution(

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from lagrangian.dynamics.axes import Accelerations
+from lagrangian.model import Friction
 
 
 @dataclass(frozen=True)
@@ -33,14 +34,16 @@ class ConstraintRow:
 
 @dataclass(frozen=True)
 class Drag:
-    """A friction whose normal force is the multiplier λ of a row: its effort is ``factor`` · λ on ``rate``.
+    """A friction whose normal force N is a multiplier: its effort is ``factor`` · N on ``rate``.
 
-    ``factor`` is None where it is not known whether the friction slips, and in which sense.
+    N is λ of the row in ``rows``, with its sign, or √(λ₁² + λ₂² + …) of several. ``factor`` is None where it is not
+    known whether the friction slips, and in which sense. ``friction`` is its element.
     """
 
     rate: int
     factor: int | None
-    row: str
+    rows: tuple[str, ...]
+    friction: Friction
 
 
 @dataclass(frozen=True)

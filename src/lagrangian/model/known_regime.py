@@ -52,14 +52,15 @@ def in_regime(builder: Builder, modes: Mapping[Any, Any]) -> None:
 
 def _slipping(friction: Friction, sense: int, given: Mapping[Any, Any]) -> Friction:
     slipping = friction.slipping(sense)
-    if friction.pressed_by is None:
+    if len(friction.pressing) != 1:
         return slipping
-    if friction.pressed_by not in given:
+    (row,) = friction.pressing
+    if row not in given:
         raise ModelError(
-            f"'{friction.pressed_by}' presses on it, and the sign of its multiplier decides on the friction",
+            f"'{row}' presses on it, and the sign of its multiplier decides on the friction",
             element=friction.title,
             place=friction.place,
-            fix=f"regime({{'{friction.name}': {sense}, '{friction.pressed_by}': 1}}), or -1",
+            fix=f"regime({{'{friction.name}': {sense}, '{row}': 1}}), or -1",
             code="E401",
         )
-    return slipping.on_side(int(given[friction.pressed_by]))
+    return slipping.on_side(int(given[row]))

@@ -69,46 +69,76 @@ def drive_symbol(name: str) -> sp.Symbol:
 
 
 def pressed_rows(model: Model) -> tuple[str, ...]:
-    """The rows whose multipliers are normal forces of friction, each once, in the order of the frictions."""
-    return tuple(dict.fromkeys(f.pressed_by for f in model.frictions if f.pressed_by))
+    """The rows that press on friction alone, so that the signs of their multipliers matter, each once, in the order of
+    the frictions."""
+    return tuple(dict.fromkeys(f.pressing[0] for f in model.frictions if len(f.pressing) == 1))
+
+
+def pressing_rows(model: Model) -> tuple[str, ...]:
+    """All rows whose multipliers press on friction, alone or together with others."""
+    return tuple(dict.fromkeys(row for f in model.frictions for row in f.pressing))
 
 
 def with_pressing_rows(model: Model) -> Model:
     """The model in which every friction that is pressed by a constraint names the row.
 
-    Raises `ModelError` (E402) if there is no such row, or several.
+    Raises `ModelError` if there is no such row (E402), or several for one name (E412).
     """
-    if not pressed_rows(model):
+    if not pressing_rows(model):
         return model
     rows: dict[str, list[str]] = {}
+    units: dict[str, Unit | None] = {}
     for named in named_conditions(model):
         rows.setdefault(named.element.name, []).append(named.name)
+        units[named.name] = named.condition.unit
     known = {name: [name] for names in rows.values() for name in names}
     elements = tuple(
-        _pressed(e, {**rows, **known}) if isinstance(e, Friction) and e.pressed_by else e for e in model.elements
+        _pressed(e, {**rows, **known}, units) if isinstance(e, Friction) and e.pressed_by else e for e in model.elements
     )
     return replace(model, elements=elements, _memo={})
 
 
-def _pressed(friction: Friction, rows: dict[str, list[str]]) -> Friction:
-    found = rows.get(friction.pressed_by)
-    if found is None:
+def _pressed(friction: Friction, rows: dict[str, list[str]], units: dict[str, Unit | None]) -> Friction:
+    names = tuple(_row_that_presses(friction, name, rows) for name in friction.pressing)
+    if len(set(names)) < len(names):
         raise ModelError(
-            f"no row of a constraint is named '{friction.pressed_by}'",
+            f"the row '{next(n for n in names if names.count(n) > 1)}' is listed twice in pressed_by",
             element=friction.title,
             place=friction.place,
-            fix=did_you_mean(friction.pressed_by, rows) or "known: " + (", ".join(rows) or "none"),
+            fix="list rows along perpendicular directions",
+            code="E412",
+        )
+    if len({units[name] for name in names}) > 1:
+        raise ModelError(
+            "some of the rows that press are forces, others torques: " + ", ".join(f"'{name}'" for name in names),
+            element=friction.title,
+            place=friction.place,
+            fix="list rows along perpendicular directions, all of them forces",
+            code="E412",
+        )
+    return friction.pressed(names[0] if len(names) == 1 else names)
+
+
+def _row_that_presses(friction: Friction, name: str, rows: dict[str, list[str]]) -> str:
+    found = rows.get(name)
+    if found is None:
+        raise ModelError(
+            f"no row of a constraint is named '{name}'",
+            element=friction.title,
+            place=friction.place,
+            fix=did_you_mean(name, rows) or "known: " + (", ".join(rows) or "none"),
             code="E402",
         )
     if len(found) > 1:
+        listed = ", ".join(f"'{row}'" for row in found[:3])
         raise ModelError(
-            f"the constraint '{friction.pressed_by}' has {len(found)} rows, and one of them is the normal force",
+            f"the constraint '{name}' has {len(found)} rows, and it is not said which of them press",
             element=friction.title,
             place=friction.place,
-            fix=f"pressed_by='{found[0]}', or one friction for each of {', '.join(found)}",
+            fix=f"pressed_by='{found[0]}' for one of them, pressed_by=[{listed}] for the size of their force",
             code="E412",
         )
-    return friction.pressed(found[0])
+    return found[0]
 
 
 def check_rows(model: Model) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from lagrangian.errors import ModelError
+from lagrangian.model.elements import Friction
 from lagrangian.model.model import Model
 
 
@@ -15,8 +16,22 @@ def check_no_friction(model: Model, what: str) -> None:
         f"it sticks or slips, and accelerations at rest are no smooth function of the state: {what}",
         element=friction.title,
         place=friction.place,
-        fix="use simulate, ensemble or sweep; or a regime in which nothing jumps: "
-        f"regime({{'{friction.name}': 1}}) while it slips and its deflection grows, -1 while it slips the other way, "
-        "0 while it sticks",
+        fix=advice_for(friction),
         code="E311",
+    )
+
+
+def advice_for(friction: Friction) -> str:
+    """What to do where it must be known whether a friction slips or sticks."""
+    first = "use simulate, ensemble or sweep; or a regime in which nothing jumps: "
+    if len(friction.pressing) == 1:
+        (row,) = friction.pressing
+        return (
+            f"{first}regime({{'{friction.name}': 1, '{row}': 1}}) while it slips, its deflection grows and the "
+            f"multiplier of '{row}' is positive, each -1 in the other sense; regime({{'{friction.name}': 0}}) while it "
+            "sticks"
+        )
+    return (
+        f"{first}regime({{'{friction.name}': 1}}) while it slips and its deflection grows, -1 while it slips the other "
+        "way, 0 while it sticks"
     )

@@ -116,8 +116,8 @@ class _Reader:
             )
         return bodies[value]
 
-    def row(self, key: str, value: Any, entry: Entry) -> Any:
-        """Read the name of a row; constraints may follow in the file, so it is looked up when all are there."""
+    def rows(self, key: str, value: Any, entry: Entry) -> Any:
+        """Read names of rows; constraints may follow in the file, so they are looked up when all are there."""
         return value
 
     def directions(self, key: str, value: Any, entry: Entry) -> Any:
@@ -158,7 +158,7 @@ _FIELDS: dict[FieldKind, Callable[[_Reader, str, Any, Entry], Any]] = {
     FieldKind.POINTS: _Reader.points,
     FieldKind.FRAMES: _Reader.frames,
     FieldKind.BODY: _Reader.body,
-    FieldKind.ROW: _Reader.row,
+    FieldKind.ROWS: _Reader.rows,
     FieldKind.DIRECTIONS: _Reader.directions,
 }
 

@@ -56,6 +56,11 @@ Between: TypeAlias = Annotated[list[str], Field(min_length=2, max_length=2, desc
 
 Points: TypeAlias = Annotated[list[str], Field(min_length=2, max_length=1000, description="Points, in order.")]
 Frames: TypeAlias = Annotated[list[str], Field(min_length=1, max_length=2, description="One frame or two.")]
+RowNames: TypeAlias = Annotated[
+    _Text | Annotated[list[str], Field(min_length=1, max_length=3), Tag("list")],
+    _ByForm,
+]
+"""A constraint or one of its rows, or two or three rows."""
 Directions: TypeAlias = Annotated[list[Annotated[_Text | _Number | _List, _ByForm]], Field(min_length=1, max_length=3)]
 """A vector, or a list of vectors."""
 
@@ -141,7 +146,7 @@ _TYPES: dict[FieldKind, Any] = {
     FieldKind.POINTS: Points,
     FieldKind.FRAMES: Frames,
     FieldKind.BODY: str,
-    FieldKind.ROW: str,
+    FieldKind.ROWS: RowNames,
     FieldKind.DIRECTIONS: Directions,
     FieldKind.STRENGTH_OF_GRAVITY: Expression,
 }

@@ -148,7 +148,7 @@ class Crossroads:
 
     def _check(self, most: Array, least: Array) -> None:
         for friction, high, low in zip(self.regimes.model.frictions, most, least, strict=True):
-            if low < (-NEAR * max(1.0, float(np.abs(most).max())) if friction.pressed_by else 0.0):
+            if low < (-NEAR * max(1.0, float(np.abs(most).max())) if friction.pressing else 0.0):
                 raise RunError(
                     f"{friction.title} has the limit {low:.6g} at t = {self.t:.6g} s, and friction is not negative",
                     fix="positive mu, normal and limit",

@@ -21,7 +21,9 @@ from sympy.functions.elementary.miscellaneous import MinMaxBase
 
 from lagrangian.errors import ModelError, Place
 from lagrangian.model import Model, Parameter, Point, time
-from lagrangian.model.elements import Measure, answers
+from lagrangian.model.elements import Friction, Measure, answers
+from lagrangian.model.elements.conditions import Stated
+from lagrangian.model.rows import NamedCondition, named_conditions
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
 from lagrangian.quantities.units import BASE
@@ -324,6 +326,34 @@ def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
             dims.solved[measure.expr] = _unit(dims, element, measure)
         else:
             yield measure.what, measure.expr, _unit(dims, element, measure)
+    if isinstance(element, Friction) and element.pressing:
+        yield from _pressed(model, element, dims)
+
+
+def _pressed(model: Model, friction: Friction, dims: Dimensions) -> Iterator[Claim]:
+    """Coefficients of friction that rows press on: mu λ is energy / δ."""
+    along = LENGTH if friction.between else _inside(dims, friction, "deflection", friction.deflection)
+    if along is None:
+        return
+    for named in named_conditions(model):
+        if named.name in friction.pressing and (force := _multiplier(dims, named)) is not None:
+            unit = ENERGY.times(along, Fraction(-1)).times(force, Fraction(-1))
+            yield "coefficient", friction.mu, unit
+            if friction.static is not None:
+                yield "coefficient at rest", friction.static, unit
+
+
+def _multiplier(dims: Dimensions, row: NamedCondition) -> Dim | None:
+    """The unit of λ: energy / f, or power / c; None if that of an expression is not known."""
+    if row.condition.unit is not None:
+        return Dim.of_unit(row.condition.unit)
+    if not isinstance(row.condition, Stated):
+        return None
+    found = _inside(dims, row.element, "expression", row.condition.value)
+    if found is None:
+        return None
+    whole = ENERGY.times(SECOND, Fraction(-1)) if row.condition.velocity else ENERGY
+    return whole.times(found, Fraction(-1))
 
 
 def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:

@@ -11,13 +11,11 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import numpy as np
-
 from lagrangian import dynamics
 from lagrangian.derive import Derived
 from lagrangian.graph import Program
 from lagrangian.model import Friction, Model
-from lagrangian.model.rows import pressed_rows, rows_of
+from lagrangian.model.rows import pressed_rows, pressing_rows, rows_of
 from lagrangian.verify.states import evaluated
 
 Groups = Mapping[str, list[float]]
@@ -57,14 +55,15 @@ class InRegimes:
     def __init__(self, derivation: Derived) -> None:
         self.model = derivation.model
         self._pressed = pressed_rows(self.model)
-        self._known = any(isinstance(e, Friction) and e.side is not None for e in self.model.elements)
+        self._known = any(isinstance(e, Friction) and e.sense is not None and e.pressing for e in self.model.elements)
+        self._open = bool(pressing_rows(self.model))
         self._symbols = {name: known.symbol for name, known in derivation.multipliers.items()}
 
     def at(self, state: Values, groups: Groups) -> tuple[Values, Routes] | None:
         """The state, with the multipliers that belong to it, and the routes there; None where no regime fits."""
-        if not self._pressed and not self._known:
+        if not self._open and not self._known:
             return state, Routes.of(self.model)
-        modes = self._modes(groups) if self._pressed else ()
+        modes = self._modes(groups) if self._open else ()
         if modes is None:
             return None
         routes = Routes.of(dynamics.regime(self.model, modes) if modes else self.model)
@@ -82,7 +81,7 @@ class InRegimes:
             found = evaluated(self._verdict((*senses, *sides)), given)
             if (senses := tuple(1 if rate >= 0 else -1 for rate in found["rate"])) != (1,) * count:
                 found = evaluated(self._verdict((*senses, *sides)), given)
-            if found["regularity"] > dynamics.LEAST_REGULARITY and np.min(found["normal"]) >= 0:
+            if found["regularity"] > dynamics.LEAST_REGULARITY and min(found["normal"], default=0.0) >= 0:
                 return (*senses, *sides)
             senses = (1,) * count
         return None

@@ -51,7 +51,9 @@ def without_multipliers(
     ``lengths`` tells which coordinates are lengths.
     """
     if pressed := next((f for f in context.model.elements if isinstance(f, Friction) and f.pressed_by), None):
-        reason = text(f"The multipliers stay: {pressed.title} holds the one of '{pressed.pressed_by}'.")
+        whose = " and ".join(f"'{row}'" for row in pressed.pressing)
+        held = "the one" if len(pressed.pressing) == 1 else "those"
+        reason = text(f"The multipliers stay: {pressed.title} holds {held} of {whose}.")
         return Found(None, reason, (Heading(text(TITLE)), reason))
     try:
         rates = [c.rate for c in context.model.coordinates if lengths[c.symbol]]

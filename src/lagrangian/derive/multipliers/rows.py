@@ -66,11 +66,11 @@ def multiplier_symbols(model: Model) -> dict[str, sp.Expr]:
 
 def with_multipliers(model: Model) -> Model:
     """The model in which friction that a multiplier presses on holds that multiplier by its symbol on the page."""
-    if not any(isinstance(e, Friction) and e.pressed_by for e in model.elements):
+    if not any(isinstance(e, Friction) and e.pressing for e in model.elements):
         return model
     symbols = multiplier_symbols(model)
     elements = tuple(
-        e.with_multiplier(symbols[e.pressed_by]) if isinstance(e, Friction) and e.pressed_by else e
+        e.with_multipliers([symbols[row] for row in e.pressing]) if isinstance(e, Friction) and e.pressing else e
         for e in model.elements
     )
     return replace(model, elements=elements, _memo={})

@@ -58,7 +58,7 @@ class FieldKind(Enum):
     """A rigid body, by its name."""
     DIRECTIONS = auto()
     """A vector, or a list of them."""
-    ROW = auto()
+    ROWS = auto()
     """A row of a constraint, by its name."""
     STRENGTH_OF_GRAVITY = auto()
     """An expression; the default is the parameter g."""

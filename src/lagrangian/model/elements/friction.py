@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -30,8 +30,11 @@ from lagrangian.model.elements.base import (
 )
 from lagrangian.model.elements.conditions import Unmoved
 from lagrangian.model.elements.constraint import Restriction
-from lagrangian.model.geometry import Point, as_expr
+from lagrangian.model.geometry import Point, as_expr, is_listed
 from lagrangian.model.names import is_text, multiplier_symbol, time
+
+MOST_ROWS = 3
+"""The largest number of rows that press together: the directions of space."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -40,7 +43,8 @@ class Friction(Element):
 
     F [N or N m] is ``limit``, or ``mu`` times ``normal``. Of a ``limit`` or ``normal`` that changes, only the magnitude
     counts; constant ones must not be negative. Instead of ``normal``, ``pressed_by`` names a row of a constraint, whose
-    multiplier λ_N is the normal force: F = μ |λ_N|. That force depends on the friction in its turn.
+    multiplier λ_N is the normal force: F = μ |λ_N|; or two or three rows along perpendicular directions, which press
+    with F = μ √(λ₁² + λ₂² + …). That force depends on the friction in its turn.
     While it sticks, its effort is the multiplier λ of the row δ̇ = 0, as long as |λ| ≤ F_s. F_s is F unless ``static``
     is given: the limit at rest if ``limit`` is given, the coefficient at rest if ``mu`` is; it is not below F.
     ``viscous`` is b. With ``sense``, ±1, it is known to slip in that sense, and nothing jumps: then ``side`` is the
@@ -65,7 +69,9 @@ class Friction(Element):
     entries: ClassVar[Mapping[str, Entry]] = {
         "mu": Entry(FieldKind.EXPRESSION, "Its coefficient while it slips; needs normal or pressed_by."),
         "normal": Entry(FieldKind.EXPRESSION, "The normal force, whose magnitude counts."),
-        "pressed_by": Entry(FieldKind.ROW, "The constraint, or its row, whose multiplier is the normal force."),
+        "pressed_by": Entry(
+            FieldKind.ROWS, "The constraint, or its row, whose multiplier is the normal force; or a list of rows."
+        ),
         "limit": Entry(FieldKind.EXPRESSION, "The friction force or torque F while it slips, instead of mu."),
         "static": Entry(FieldKind.EXPRESSION, "The coefficient at rest (with mu), or the limit at rest (with limit)."),
         "viscous": Entry(FieldKind.EXPRESSION, "The coefficient b of a viscous part b δ̇."),
@@ -77,8 +83,8 @@ class Friction(Element):
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
     because = ("it takes energy out while it slips and does no work while it sticks: no potential, so it is in ", XI)
     resists = True
-    normal_multiplier: ClassVar[sp.Expr | None] = None
-    """λ_N of ``pressed_by``, by another symbol than that of runs."""
+    normal_multipliers: ClassVar[tuple[sp.Expr, ...]] = ()
+    """λ_N of the rows that press, by other symbols than those of runs."""
 
     def __post_init__(self) -> None:
         given = [key for key in ("mu", "normal", "pressed_by", "limit") if getattr(self, key) is not None]
@@ -96,22 +102,15 @@ class Friction(Element):
                 code="E406",
             )
         if self.pressed_by is not None:
-            row = self.pressed_by.name if isinstance(self.pressed_by, Restriction) else self.pressed_by
-            if not is_text(row) or not row:
-                raise self._error(
-                    "pressed_by must be a constraint or the name of one of its rows",
-                    fix="pressed_by='floor'",
-                    code="E406",
-                )
-            self._set(pressed_by=row)
+            self._set(pressed_by=self._rows(self.pressed_by))
         self._set(between=check_ends(self, self.between, self.deflection))
         for key in ("sense", "side"):
             value = getattr(self, key)
             if value is not None and (isinstance(value, bool) or value not in (1, -1)):
                 raise self._error(f"{key} is {value!r:.40}", fix=f"{key}=1 or {key}=-1", code="E406")
-        if (self.side is None) != (self.sense is None or self.pressed_by is None):
+        if (self.side is None) != (self.sense is None or len(self.pressing) != 1):
             raise self._error(
-                "side, the sign of the multiplier that presses, is given with sense and pressed_by",
+                "side, the sign of the one multiplier that presses, is given with sense and pressed_by",
                 fix="sense=1, side=1",
                 code="E412",
             )
@@ -119,6 +118,33 @@ class Friction(Element):
             value = getattr(self, key)
             if value is not None:
                 self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
+
+    def _rows(self, given: Any) -> str | tuple[str, ...]:
+        """The name of the row that presses, or the names of several."""
+        listed = given if is_listed(given) else (given,)
+        found = [x.name if isinstance(x, Restriction) else x for x in listed]
+        names = [name for name in found if is_text(name) and name]
+        if not names or len(names) < len(found):
+            raise self._error(
+                "pressed_by must be a constraint or the name of one of its rows, or a list of rows",
+                fix="pressed_by='floor', or pressed_by=['collar.across1', 'collar.across2']",
+                code="E406",
+            )
+        if len(names) > MOST_ROWS or len(set(names)) < len(names):
+            raise self._error(
+                f"pressed_by lists {len(names)} rows, and two or three different ones press along perpendicular "
+                "directions",
+                fix="pressed_by=['collar.across1', 'collar.across2']",
+                code="E412",
+            )
+        return names[0] if len(names) == 1 else tuple(names)
+
+    @property
+    def pressing(self) -> tuple[str, ...]:
+        """The rows whose multipliers press on it."""
+        if self.pressed_by is None:
+            return ()
+        return (self.pressed_by,) if isinstance(self.pressed_by, str) else self.pressed_by
 
     def suggested_name(self) -> str:
         """The symbol of its coefficient or limit."""
@@ -137,20 +163,20 @@ class Friction(Element):
             yield Use("deflection", "deflection", self.deflection, Level.POSITION)
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:
-        """With the unit [δ]: limit and normal force J/[δ], viscous coefficient J s/[δ]²; mu is a number."""
+        """With the unit [δ]: limit and normal force J/[δ], viscous coefficient J s/[δ]²; mu is a number.
+
+        Pressed by a row, mu λ is in J/[δ]: where the unit of λ is known, that of mu is.
+        """
         along = None if self.between else self.deflection
-        if self.mu is not None:
-            # λ of a row has its own unit: coefficients of lengths, such as the radius of a bearing, are left to users
-            yield from () if self.pressed_by else (Measure("coefficient", self.mu, (0, 0, 0)),)
-            yield from () if self.pressed_by else (Measure("normal force", self.normal, ENERGY, along, -1),)
-        else:
+        if self.mu is None:
             yield Measure("limit", self.limit, ENERGY, along, -1)
-        if self.static is not None and self.pressed_by:
-            pass
-        elif self.static is not None and self.mu is not None:
-            yield Measure("coefficient at rest", self.static, (0, 0, 0))
-        elif self.static is not None:
-            yield Measure("limit at rest", self.static, ENERGY, along, -1)
+            if self.static is not None:
+                yield Measure("limit at rest", self.static, ENERGY, along, -1)
+        elif self.pressed_by is None:
+            yield Measure("coefficient", self.mu, (0, 0, 0))
+            yield Measure("normal force", self.normal, ENERGY, along, -1)
+            if self.static is not None:
+                yield Measure("coefficient at rest", self.static, (0, 0, 0))
         if self.viscous is not None:
             yield Measure("viscous coefficient", self.viscous, (1, 2, -1), along, -2)
 
@@ -179,11 +205,13 @@ class Friction(Element):
 
     @property
     def normal_force(self) -> sp.Expr:
-        """The magnitude of the normal force: |N|, or |λ_N|, which is ± λ_N on a known side."""
+        """The magnitude of the normal force: |N|, or |λ_N|, which is ± λ_N on a known side, or √(λ₁² + λ₂²)."""
         if self.pressed_by is None:
             return _magnitude(self.normal)
-        lam = multiplier_symbol(self.pressed_by) if self.normal_multiplier is None else self.normal_multiplier
-        return sp.Abs(lam) if self.side is None else self.side * lam
+        first, *others = self.normal_multipliers or tuple(map(multiplier_symbol, self.pressing))
+        if others:
+            return sp.sqrt(sp.Add(*(x**2 for x in (first, *others))))
+        return sp.Abs(first) if self.side is None else self.side * first
 
     def displacement(self, model: Surroundings) -> sp.Expr:
         """δ [m or rad]; along one fixed line it is the signed separation."""
@@ -236,10 +264,10 @@ class Friction(Element):
         made._set(sense=sp.Integer(sense))
         return made
 
-    def pressed(self, row: str) -> Friction:
-        """The same friction with the name of the row that presses on it."""
+    def pressed(self, rows: str | tuple[str, ...] | None) -> Friction:
+        """The same friction with the name of the row that presses on it, or the names of several."""
         made = self.named(self.name)
-        made._set(pressed_by=row)
+        made._set(pressed_by=rows)
         return made
 
     def on_side(self, side: int) -> Friction:
@@ -248,10 +276,10 @@ class Friction(Element):
         made._set(side=sp.Integer(side))
         return made
 
-    def with_multiplier(self, symbol: sp.Expr) -> Friction:
-        """The same friction with another symbol for λ_N."""
+    def with_multipliers(self, symbols: Sequence[sp.Expr]) -> Friction:
+        """The same friction with other symbols for the multipliers that press."""
         made = self.named(self.name)
-        made._set(normal_multiplier=symbol)
+        made._set(normal_multipliers=tuple(symbols))
         return made
 
     def sticking(self) -> Stuck:

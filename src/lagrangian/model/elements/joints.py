@@ -11,6 +11,7 @@ from typing import Any, ClassVar, TypeAlias
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.answers import REQUIRED, ActsOn, Entry, FieldKind
 from lagrangian.model.elements.base import Condition, Level, Surroundings, Use
 from lagrangian.model.elements.conditions import LETTERS, OnLine, Perpendicular, SameTurn
@@ -85,15 +86,22 @@ class TurningJoint(Joint):
             yield "bodies", frame
 
 
-def across(along: Direction) -> tuple[Direction, ...]:
-    """Directions perpendicular to a given one: one in the plane, two in space."""
+def of_length_one(along: Direction) -> Direction:
+    """A direction divided by its length, so that the multiplier of a row along it is a force, or a torque."""
+    squared = sp.Add(*(x**2 for x in along))
+    return along if bounded.is_one(squared) else tuple(x / sp.sqrt(squared) for x in along)
+
+
+def across(given: Direction) -> tuple[Direction, ...]:
+    """Directions of length 1 perpendicular to a given one and to each other: one in the plane, two in space."""
+    along = of_length_one(given)
     if len(along) == 2:
         return ((-along[1], along[0]),)
     x, y, z = along
     if x == 0 and y == 0:
         return ((sp.S.One, sp.S.Zero, sp.S.Zero), (sp.S.Zero, sp.S.One, sp.S.Zero))
-    first: Direction = (-y, x, sp.S.Zero)
-    return first, (-x * z, -y * z, x**2 + y**2)  # along × first
+    first = of_length_one((-y, x, sp.S.Zero))
+    return first, (-first[1] * z, first[0] * z, x * first[1] - y * first[0])  # along × first
 
 
 def same_axes(pair: Pair) -> tuple[Condition, ...]:
