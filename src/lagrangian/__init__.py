@@ -32,6 +32,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.simulate.events import Event, event
     from lagrangian.simulate.reaction import Reaction
     from lagrangian.simulate.recorded import Audit
+    from lagrangian.simulate.sensitivities import Sensitivities
     from lagrangian.simulate.settings import Execution, RunSettings
     from lagrangian.simulate.trajectory import Trajectory
     from lagrangian.system import System, example, load, loads
@@ -66,6 +67,7 @@ else:
             "simulate.events": "Event event",
             "simulate.reaction": "Reaction",
             "simulate.recorded": "Audit",
+            "simulate.sensitivities": "Sensitivities",
             "simulate.settings": "Execution RunSettings",
             "simulate.trajectory": "Trajectory",
             "system": "System example load loads",
@@ -115,6 +117,7 @@ __all__ = [
     "Routhian",
     "RunError",
     "RunSettings",
+    "Sensitivities",
     "Stability",
     "Step",
     "SymbolicLinearization",

@@ -162,7 +162,8 @@ SYSTEM: Mapping[str, str] = {
     ),
     **dict.fromkeys(("ground", "world", "O"), "origin"),
     **dict.fromkeys(("forward", "rhs", "lambdify"), "compile().forward(q, v)"),
-    **dict.fromkeys(("derivatives", "jacobian", "sensitivities"), "compile().derivatives(q, v, u)"),
+    **dict.fromkeys(("derivatives", "jacobian"), "compile().derivatives(q, v, u)"),
+    **dict.fromkeys(("sensitivities", "gradient"), "simulate(10.0).sensitivities(['m'])"),
     "plot": "simulate(10.0).plot()",
     "animate": "simulate(10.0).animate()",
     "actuator": "torque(tau, on=angle) or force((F, 0), at=P)",
@@ -188,6 +189,7 @@ TRAJECTORY: Mapping[str, str] = {
     **dict.fromkeys(("x", "q", "states_array", "data", "values"), 'y, one row a state; run["theta"] is one by name'),
     **dict.fromkeys(("savefig", "show"), "plot().savefig(…), or plot() and plt.show()"),
     "parameters": "params",
+    **dict.fromkeys(("gradient", "jacobian", "derivatives"), "sensitivities(['m1', 'theta1'])"),
 }
 """Common names that a run does not have, with advice."""
 

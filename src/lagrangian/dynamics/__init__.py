@@ -53,6 +53,13 @@ from lagrangian.dynamics.programs import (
     rhs,
 )
 from lagrangian.dynamics.reactions import ReactionProgram, check_joint, reaction
+from lagrangian.dynamics.variational import (
+    VariedColumn,
+    VariedPrograms,
+    columns_key,
+    variational,
+    varied_quantities,
+)
 
 __all__ = [
     "LEAST_REGULARITY",
@@ -65,6 +72,8 @@ __all__ = [
     "Modes",
     "Motion",
     "ReactionProgram",
+    "VariedColumn",
+    "VariedPrograms",
     "Watch",
     "balance_terms_closed",
     "bias",
@@ -73,6 +82,7 @@ __all__ = [
     "canonical_impacts",
     "check_joint",
     "closed",
+    "columns_key",
     "configurations",
     "constraint_matrix",
     "coriolis",
@@ -113,6 +123,8 @@ __all__ = [
     "rhs",
     "slips",
     "tangent",
+    "variational",
+    "varied_quantities",
     "velocities",
     "verdict",
     "watched",

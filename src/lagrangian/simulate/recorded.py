@@ -22,7 +22,7 @@ from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import drive_symbol, named_conditions
 from lagrangian.simulate.drift import RunDrift
-from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.integrating import Task, remembered
 from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.reaction import Reaction, worked_out
 from lagrangian.viewed import Brief, Entries
@@ -113,6 +113,7 @@ class Recorded(Guided):
     modes: Mapping[str, NDArray[np.int8]] = field(default_factory=dict[str, NDArray[np.int8]])
     regimes: NDArray[np.int8] = field(default_factory=lambda: np.zeros((0, 0), np.int8))
     reactions: Sequence[str] = ()
+    task: Task | None = field(default=None, repr=False)
 
     # -- quantities ---------------------------------------------------------------------------------------------
 

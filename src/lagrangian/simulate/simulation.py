@@ -212,6 +212,7 @@ def _trajectory(task: Task, model: Model, outcome: Outcome, settings: Mapping[st
         settings=dict(settings),
         drift=None if outcome.drift is None else drift.RunDrift.of_run(outcome.drift),
         reactions=tuple(task.model.settings.get("reactions", ())),
+        task=task,
     )
 
 

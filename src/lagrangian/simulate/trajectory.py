@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from lagrangian.simulate.animating import Pictured
     from lagrangian.simulate.animation import Animation
+    from lagrangian.simulate.sensitivities import Sensitivities
 
 
 @dataclass(eq=False)
@@ -88,6 +89,24 @@ class Trajectory(Recorded):
         from lagrangian.simulate.animating import animate
 
         return animate(self, speed=speed, trail=trail, fps=fps, width=width, look=look)
+
+    def sensitivities(self, wrt: Any = None) -> Sensitivities:
+        """Return how the run changes with parameters, initial values and inputs, as `lagrangian.Sensitivities`.
+
+        >>> from lagrangian import example
+        >>> run = example("pendulum").simulate(2.0, theta=0.5)
+        >>> run.sensitivities(["L", "theta"])["theta"].shape
+        (1001, 2)
+
+        The variational equations δẋ = ∂f/∂x δx + ∂f/∂p are integrated together with the run, to its tolerances, with
+        the jumps that events cause. ``wrt`` names parameters, states (for their initial values) and inputs: one that is
+        constant changes at all times, a table has one column for each of its values. By default all parameters. Raises
+        `RunError` for unknown names, for systems with constraints, for inputs that are Python functions and for
+        accelerations that jump with the state; `ModelError` for dry friction.
+        """
+        from lagrangian.simulate.sensitivities import sensitivities
+
+        return sensitivities(self, wrt)
 
     def _repr_html_(self) -> str:
         from lagrangian.write.views import table_view

@@ -1,0 +1,139 @@
+"""What `Trajectory.sensitivities` returns: how the quantities of a run change with what was varied."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.calls import Guided
+from lagrangian.errors import ModelError, NoSuchEntry, RunError
+from lagrangian.model import Point, as_expr
+from lagrangian.simulate.quantities import quantity
+from lagrangian.simulate.varied import Columns, VariedRun, columns_of, varied_run, with_signals
+from lagrangian.values.values import key_name
+from lagrangian.viewed import Entries
+
+if TYPE_CHECKING:
+    from lagrangian.simulate.integrating import Task
+    from lagrangian.simulate.recorded import Recorded
+
+Array = NDArray[np.float64]
+
+ALSO: Mapping[str, str] = {
+    **dict.fromkeys(("x", "y", "states", "values"), 'changes, (states, samples, names); sensitivities["theta"]'),
+    **dict.fromkeys(("names", "parameters", "params", "columns"), "wrt"),
+    **dict.fromkeys(("jacobian", "J", "gradient"), 'sensitivities["theta"], one column for each of wrt'),
+    **dict.fromkeys(("times", "time"), "t"),
+}
+"""Names that sensitivities have elsewhere, and what they are called here."""
+
+
+@dataclass(eq=False)
+class Sensitivities(Guided):
+    """The derivatives of a run's quantities with respect to parameters, initial values and inputs, by name.
+
+    ``t`` (S,) are the times [s], ``wrt`` the names of the k columns, and ``changes`` (n_states, S, k) the derivatives
+    of the states at these times. ``s["theta1"]`` and ``s["m1*x1'^2/2"]`` are (S, k), derivatives of any quantity that
+    depends on parameters and inputs directly too; ``s["theta1", "m1"]`` is one column, (S,). Units are SI: an entry is
+    the quantity's unit by that of the column. ``events`` has for each event the derivatives of its times,
+    (occurrences, k). Where a terminal event ended the run, the derivatives are those at that fixed time.
+    """
+
+    _guide = ALSO
+
+    t: Array
+    wrt: tuple[str, ...]
+    changes: Array
+    events: Mapping[str, Array]
+    _task: Task = field(repr=False)
+    _columns: Columns = field(repr=False)
+    _run: VariedRun = field(repr=False)
+
+    def __getitem__(self, asked: Any) -> Array:
+        """Return the derivatives of a state, an expression (SymPy or text) or a point's path, (S, …, k)."""
+        if isinstance(asked, tuple):
+            if len(asked) != 2:
+                raise ModelError(
+                    f"sensitivities[…] takes a quantity, or a quantity and a name of wrt (got {len(asked)} entries)",
+                    fix=f"such as [{self._task.states[0]!r}, {self.wrt[0]!r}]",
+                    code="E406",
+                )
+            return self._of(asked[0])[..., self._place(asked[1])]
+        return self._of(asked)
+
+    def _place(self, name: Any) -> int:
+        """The column of a name or symbol."""
+        shown = key_name(name) if isinstance(name, (str, sp.Basic)) else repr(name)
+        if shown not in self.wrt:
+            raise NoSuchEntry.among("sensitivities have no column", shown, self.wrt)
+        return self.wrt.index(shown)
+
+    def _of(self, asked: Any) -> Array:
+        states = self._task.states
+        if isinstance(asked, str) and asked in states:
+            return self.changes[states.index(asked)]
+        if isinstance(asked, str):
+            asked = quantity(self._task.model, asked, "what is asked of the sensitivities")
+        elif not isinstance(asked, (sp.Expr, Point)):
+            raise ModelError(
+                f"sensitivities[…] takes a name or an expression (got {asked!r:.40})",
+                fix=f"such as [{states[0]!r}]",
+                code="E406",
+            )
+        return self.observe({"asked": asked})["asked"]
+
+    def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
+        """Return the derivatives of several expressions or points at once, by name, each (S, …, k)."""
+        asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in outputs.items()}
+        found = observed(self._task, self._columns, self._run, asked)
+        return {name: found[f"change of {name}"] for name in asked}
+
+    def _own_name(self, name: str) -> str | None:
+        """Quantities are accessed as entries, not as attributes."""
+        task = self.__dict__.get("_task")
+        return f'sensitivities["{name}"]' if task is not None and name in task.model.symbols else None
+
+    def __repr__(self) -> str:
+        """Name what was differentiated by what."""
+        return f"<Sensitivities of {', '.join(self._task.states)} to {', '.join(self.wrt)}, {len(self.t)} samples>"
+
+
+def sensitivities(run: Recorded, wrt: Any) -> Sensitivities:
+    """The sensitivities of a run; see `lagrangian.Trajectory.sensitivities`."""
+    task = run.task
+    if task is None:
+        raise RunError("this run does not know how it was made", fix="take one that simulate returned", code="E501")
+    if not run.success:
+        raise RunError(
+            f"the run failed, so that it has no sensitivities: {run.message}",
+            fix="end it before, with a shorter duration",
+            code="E501",
+        )
+    columns = columns_of(task, wrt)
+    made = varied_run(task, columns)
+    events: dict[str, Any] = {}
+    for k, e in enumerate(task.events):
+        events[e.title] = made.delays[[i for i, h in enumerate(made.hits) if h.index == k]]
+    changes = np.ascontiguousarray(made.changes.transpose(1, 0, 2))
+    names = tuple(c.name for c in columns)
+    return Sensitivities(made.t, names, changes, Entries(events, "events"), task, columns, made)
+
+
+def observed(task: Task, columns: Columns, run: VariedRun, asked: Mapping[str, Any]) -> dict[str, Array]:
+    """Each quantity and, as ``"change of …"``, its derivatives, at all times of a varied run."""
+    feedback = task.drive.feedback
+    key = ("varied", dynamics.columns_key(columns), tuple(asked.items()), frozenset(feedback.items()))
+    program = task.model.recent(
+        "compiled", key, lambda: dynamics.varied_quantities(task.model, columns, feedback, asked), 32
+    )
+    kernel = program.remembered("kernel", lambda: machine.compile(program))
+    x = np.concatenate([run.x, run.changes.transpose(0, 2, 1).reshape(len(run.t), -1)], axis=1)
+    answer = kernel(np.ascontiguousarray(x), with_signals(task, columns).drive.at(run.t, run.x), task.p, run.t)
+    return answer if isinstance(answer, dict) else {next(iter(program.outputs)): answer}
