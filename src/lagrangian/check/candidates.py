@@ -46,6 +46,8 @@ class Wrong:
     def step(self) -> int:
         """The step of the lecture in which the mistake was made."""
         v = self.variant
+        if v.step is not None:
+            return v.step
         if v.rows or v.only is not None or ("L" in v.stated and "V" not in v.stated):
             return self.module.STEP
         if v.Xi:

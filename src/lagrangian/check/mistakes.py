@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,8 @@ import sympy as sp
 from lagrangian.check import say
 from lagrangian.check.align import LARGEST, Alignment, alignments
 from lagrangian.check.changes.pool import Pool, Possible, pool_of
-from lagrangian.check.own_terms import own_term, own_terms
+from lagrangian.check.numerators import by_numerators, said_of
+from lagrangian.check.own_terms import OwnTerm, own_term, own_terms
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import (
     EXOTIC,
@@ -22,6 +23,7 @@ from lagrangian.check.search import (
     first_explained,
     singles,
 )
+from lagrangian.check.sheets import sheets
 from lagrangian.check.solved import denominator, solved_from_wrong
 from lagrangian.check.stated import dissipation, index_of
 from lagrangian.check.undivided import undivided
@@ -42,12 +44,13 @@ UNNATURAL = 8.0
 class NamedMistakes:
     """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
-    ``certain``: a single specific mistake explains everything.
+    ``certain``: a single specific mistake explains everything. ``left`` are the wrong equations that they leave open.
     """
 
     told: tuple[Mistake, ...] = ()
     others: tuple[Mistake, ...] = ()
     certain: bool = False
+    left: tuple[AnsweredLine, ...] = ()
 
 
 def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
@@ -67,19 +70,48 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
             found, more = _of_line(pool, line)
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
-    equations = [line for line in lines if line.kind == "equation"]
-    combined = {id(f.line) for f in findings if f.status.right and f.coordinate is None}  # sums of right equations
+    of_equation = [f for f in findings if f.line.kind == "equation"]
+    combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
-        against |= _changing(pool, [line.expr for line in equations if id(line) in combined])
-        own_rows = [line for line in equations if id(line) not in combined]
-        found, more = _of_equations(pool, own_rows, equations, against)
-        groups.append(found)
-        own += more
+        against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
+    left: list[AnsweredLine] = []
+    for sheet in sheets(truth, of_equation):
+        for found, more in _of_sheet(pool, sheet, wrong, combined, against, left):
+            groups.append(found)
+            own += more
     groups = [g for g in groups if g]
-    if not groups:
-        return NamedMistakes(tuple(own))
-    named = _named(pool, groups)
-    return replace(named, told=(*named.told, *_once(own, named.told)), certain=named.certain and not own)
+    named = _named(pool, groups) if groups else NamedMistakes()
+    told = (*named.told, *_once(own, named.told))
+    return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
+
+
+def _of_sheet(
+    pool: Pool,
+    sheet: Sequence[AnsweredLine],
+    wrong: Sequence[AnsweredLine],
+    combined: set[int],
+    against: set[int],
+    left: list[AnsweredLine],
+) -> Iterator[tuple[list[Explanation], list[Mistake]]]:
+    """The explanations of one set of equations together or, where there is none, of each wrong one on its own.
+
+    Wrong equations that nothing explains are added to ``left``.
+    """
+    own = [line for line in sheet if any(line is w for w in wrong)]
+    if not own:
+        return
+    rows = [line for line in sheet if id(line) not in combined]
+    found, more = _of_equations(pool, rows, sheet, against)
+    if found or more:
+        yield found, more
+        return
+    for line in own if len(own) > 1 else ():
+        found, more = _of_equations(pool, [line], [line], against)
+        if found or more:
+            yield found, more
+        else:
+            left.append(line)
+    left += own if len(own) == 1 else []
 
 
 def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
@@ -135,6 +167,8 @@ def _of_equations(
     more = _likely(solved_from_wrong(pool, solved, Q), against)
     if more and more[0].cost < cost:
         explained, cost = more, more[0].cost
+    if (numerators := by_numerators(pool, solved)) and sum(x.cost + 1 for _, x in numerators) - 1 < cost:
+        return [], [_of_numerator(pool.truth, expr, x) for expr, x in numerators]
     own = own_terms(pool, exprs, P, found)
     if own is not None and sum(t.cost for t in own) + len(own) - 1 < cost:
         return [], [t.mistake(pool.truth) for t in own]
@@ -142,6 +176,15 @@ def _of_equations(
     if not explained and (under := denominator(pool.truth, solved, Q)) is not None:
         return [], [under]
     return explained, []
+
+
+def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm) -> Mistake:
+    """A slip in what a row was solved for, in words."""
+    if isinstance(found, OwnTerm):
+        return said_of(truth, found.mistake(truth), expr)
+    first, *more = [_mistake(truth, t, None) for t in found.told]
+    what = text(*first.what.parts, *(x for m in more for x in (" And: ", *m.what.parts)))
+    return said_of(truth, replace(first, what=what), expr)
 
 
 def _contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:

@@ -18,7 +18,7 @@ from lagrangian.check.changes.pool import Pool
 from lagrangian.check.efforts import Effort, effort_of
 from lagrangian.check.misconceptions.base import partner, put
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.right_terms import RightTerm, right_terms
+from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.search import SMALL, simple_number
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -113,7 +113,7 @@ def _replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
     if term == 0:
         return "term_forgotten", text("The term ", right, " is missing.")
     if term == -right:
-        return "sign_of_a_term", text("The term ", right, " has the wrong sign.")
+        return "sign_of_a_term", text("The term ", term, " has the wrong sign.")
     factors = _factors(term, right)
     if factors is None:
         return "term_replaced", text("The term ", term, " stands where ", right, " belongs.")
@@ -198,26 +198,26 @@ def own_term(
     if scale is None:
         return None
     listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use]
-    return _in_place(pool, listed, rest, kind, i, scale, factor)
+    return in_place(pool, listed, rest, kind, i, right_terms(pool, kind, i), scale, factor)
 
 
-def _in_place(
+def in_place(
     pool: Pool,
     written: Sequence[tuple[sp.Expr, Array]],
     rest: Array,
     kind: str,
     i: int | None,
-    scale: sp.Expr,
-    factor: Array | float,
+    right: RightTerms,
+    scale: sp.Expr = sp.S.One,
+    factor: Array | float = 1.0,
 ) -> OwnTerm | None:
     """A right term that is missing or has the wrong sign, or one in whose place another stands: rest = term − right."""
-    right = right_terms(pool, kind, i)
     scaled = right.values * factor
     best: OwnTerm | None = None
     row = i if kind == "equation" else None
     size = np.abs(rest).max()
 
-    def in_place(k: int, t: sp.Expr | None = None, times: Any = 1) -> OwnTerm:
+    def instead_of(k: int, t: sp.Expr | None = None, times: Any = 1) -> OwnTerm:
         one = right.terms[k]
         expr = scale * one.expr if scale in (1, -1) else bounded.expand(scale * one.expr)
         effort = effort_of(pool, kind, row, expr) if one.step == 6 else None
@@ -227,13 +227,13 @@ def _in_place(
     for k, v in enumerate(scaled):
         for number in (-1, -2):
             if np.abs(rest - number * v).max() <= SMALL * size:
-                return in_place(k, times=1 + number)
+                return instead_of(k, times=1 + number)
     for k, p in _multiplied(pool, scaled, rest):
-        return in_place(k, times=p)
+        return instead_of(k, times=p)
     for t, v in written:
         missing = np.abs(scaled - (v - rest)).max(axis=1)
         for k in np.flatnonzero(missing <= SMALL * (size + np.abs(v).max())):
-            found = in_place(int(k), t)
+            found = instead_of(int(k), t)
             if best is None or found.cost < best.cost:
                 best = found
     return best

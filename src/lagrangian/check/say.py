@@ -131,6 +131,16 @@ KINDS: Mapping[str, KindWords] = {
     "segment_sign": KindWords(
         "In {site}, what {right} contributes has the wrong sign.", "There is a wrong sign in {brief}.", WAY
     ),
+    "segment_turned": KindWords(
+        "In {site}, sine and cosine are exchanged in what {right} contributes.",
+        "A sine or cosine in {brief} is not right.",
+        ANGLES,
+    ),
+    "segment_number": KindWords(
+        "In {site}, {written} stands in place of {right}.",
+        "A length in {brief} is not right.",
+        "The centre of mass of a uniform rod is at half its length; look at the sketch.",
+    ),
     "velocity_part_left_out": KindWords(
         "In {site}, {right} is left out.", "Something is left out in {brief}.", VELOCITY
     ),

@@ -60,13 +60,12 @@ class GeometryChanges:
         for c, p in pieces:
             groups.setdefault(_segment(p), []).append((c, p))
         for key, group in groups.items():
-            if len(group) > 1:
-                for number, kind, cost in ((0, "segment_left_out", 1.3), (-1, "segment_sign", 1.9)):
-                    moved = list(position)
-                    for c, p in group:
-                        moved[c] = cast("sp.Expr", moved[c] + (number - 1) * p)
-                    words = (f"the position of {b.title}",)
-                    yield from self._moved(b, moved, kind, cost, words, words, key, None)
+            words = (f"the position of {b.title}",)
+            for instead, kind, cost, right, written in _instead_of_segment(key, [p for _, p in group]):
+                moved = list(position)
+                for (c, p), other in zip(group, instead, strict=True):
+                    moved[c] = cast("sp.Expr", moved[c] - p + other)
+                yield from self._moved(b, moved, kind, cost, words, words, right, written)
 
     def _moved(
         self,
@@ -219,6 +218,8 @@ class GeometryChanges:
         ratios = [a / b for a in self.lengths[:4] for b in self.lengths[:4] if a != b]
         found += [r * x for r in ratios for x in v]
         found += [replaced(right, {x: sp.S.Zero}) for x in v]
+        by = [right.diff(x) for x in v if right.has(x)]
+        found += [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
         return [x for x in dict.fromkeys(found) if x not in (0, right, -right)]
 
     # -- springs ------------------------------------------------------------------------------------------------------
@@ -340,6 +341,27 @@ def _instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
     else:
         yield p / 2, "piece_number", 2.0
         yield 2 * p, "piece_number", 2.2
+
+
+def _instead_of_segment(
+    key: sp.Expr, pieces: Sequence[sp.Expr]
+) -> Iterator[tuple[list[sp.Expr], str, float, Any, Any]]:
+    """What may stand in place of the pieces of one segment, with its kind, its cost, and what to call right and
+    written: nothing, the other direction, sines for cosines, without its number."""
+    if len(pieces) < 2:
+        return
+    yield [sp.S.Zero for _ in pieces], "segment_left_out", 1.3, key, None
+    yield [-p for p in pieces], "segment_sign", 1.9, key, None
+    turned = [replaced(p, {f: partner(f) for f in p.atoms(sp.sin, sp.cos)}) for p in pieces]
+    if turned != list(pieces):
+        yield turned, "segment_turned", 1.9, key, None
+    numbers = {abs(p.as_coeff_Mul()[0]) for p in pieces}
+    if len(numbers) == 1:
+        number = cast("sp.Expr", numbers.pop())
+        others = ((1 / number, 1.6),) if number != 1 else ((sp.S.Half, 1.9), (sp.Integer(2), 2.1))
+        for times, cost in others:
+            written = number * times * key
+            yield [cast("sp.Expr", times * p) for p in pieces], "segment_number", cost, number * key, written
 
 
 def _segment(p: sp.Expr) -> sp.Expr:

@@ -30,7 +30,7 @@ class Variant:
     ``T`` and ``V`` are added to the energies, in the equations ``only`` (all unless given). ``Xi`` is added to the
     generalized forces and ``rows`` to the left-hand sides, by the index of the coordinate. ``stated`` are the kinds of
     lines in which it is visible besides the equations. If two variants explain an answer, the one with less ``doubt``
-    is reported.
+    is reported. ``step`` is where it was made, if that is not the step of the misconception.
     """
 
     what: Text
@@ -43,6 +43,7 @@ class Variant:
     coordinate: int | None = None
     stated: frozenset[str] = ENERGIES
     doubt: int = 0
+    step: int | None = None
 
 
 class Misconception(Protocol):

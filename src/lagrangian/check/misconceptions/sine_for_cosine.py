@@ -41,7 +41,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _in_rows(s: Ingredients) -> Iterator[Variant]:
-    """Exchange them in one term of one equation."""
+    """Exchange them in one term of one equation; what comes from V alone belongs to step 3, from Ξ alone to step 6."""
+    ledgers = {e.title: e.ledger for e in s.model.elements}
     for i, row in enumerate(s.derivation.terms):
         for term in row:
             expr = s.expand(term.expr) * (-1 if term.kind == "input" else 1)
@@ -49,7 +50,9 @@ def _in_rows(s: Ingredients) -> Iterator[Variant]:
                 what = text(
                     "Sine and cosine are exchanged in the term ", term.expr, " of the equation of ", s.q[i], "."
                 )
-                yield Variant(what=what, rows={i: other - expr}, coordinate=i, stated=frozenset())
+                from_ = {ledgers.get(e, "T*") for e in term.elements}
+                step = {"V": 3, "Ξ": 6}.get(from_.pop(), 5) if len(from_) == 1 else 5
+                yield Variant(what=what, rows={i: other - expr}, coordinate=i, stated=frozenset(), step=step)
 
 
 def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:

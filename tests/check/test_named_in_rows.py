@@ -1,0 +1,97 @@
+"""A slip in what one equation is solved for, and equations that are written more than once or beside other lines."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from built_in import derivation
+
+CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
+POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
+DET = "((M+m)*(J+m*l^2) - m^2*l^2*cos(theta)^2)"
+PUSH = "(F - b*x' + m*l*sin(theta)*theta'^2)"
+SOLVED = (
+    f"x'' = ((J+m*l^2)*{PUSH} - m^2*l^2*g*sin(theta)*cos(theta))/{DET}",
+    f"theta'' = ((M+m)*m*g*l*sin(theta) - m*l*cos(theta)*{PUSH})/{DET}",
+)
+
+
+def told(name: str, answer: object) -> tuple[str, str | None, str]:
+    verdict = derivation(name).check(answer)
+    assert not verdict.right
+    (mistake,) = verdict.mistakes
+    return mistake.name, mistake.element, str(mistake.what)
+
+
+def test_solved_rows_are_right_as_they_stand() -> None:
+    assert derivation("cart-pole").check("\n".join(SOLVED)).right
+
+
+@pytest.mark.parametrize(
+    ("row", "right", "wrong", "kind", "words"),
+    [
+        (
+            0,
+            "- m^2*l^2*g",
+            "+ m^2*l^2*g",
+            "sign_of_a_term",
+            "the term g*l^2*m^2*sin(theta)*cos(theta) has the wrong sign.",
+        ),
+        (1, "(M+m)*m*g*l", "m*g*l", "term_replaced", "the term g*l*m*sin(theta) stands where"),
+        (1, " - b*x'", "", "term_forgotten", "the term b*l*m*cos(theta)*x' is missing."),
+        (0, "(F - ", "(2*F - ", "element_twice", "force 'F' is counted twice."),
+    ],
+)
+def test_a_slip_in_a_numerator(row: int, right: str, wrong: str, kind: str, words: str) -> None:
+    rows = list(SOLVED)
+    rows[row] = rows[row].replace(right, wrong)
+    name, _, said = told("cart-pole", "\n".join(rows))
+    symbol = ("x''", "theta''")[row]
+    assert said.startswith(f"In what is solved for {symbol} alone: ") and words in said, said
+    assert name == kind
+
+
+def test_lines_that_are_no_equations_of_motion_hide_no_mistake() -> None:
+    kind, element, _ = told("cart-pole", f"J*theta'^2/2 + m*l\n{CART} = F\n{POLE.replace('J+', '')} = 0")
+    assert kind == "rotation_forgotten" and element == "rigid body 'pole'"
+
+
+def test_equations_that_are_written_twice() -> None:
+    again = f"{CART} = F\n{POLE} = 0\nx'' = (F - b*x' - m*l*cos(theta)*theta'' + m*l*sin(theta)*theta'^2)/M"
+    kind, _, _ = told("cart-pole", again)
+    assert kind == "child_mass_forgotten"
+    rod = "m*L^2*theta'' + b*theta' + m*g*sin(theta) = 0\ntheta'' = -b/(m*L^2)*theta' - g/L^2*sin(theta)"
+    kind, element, _ = told("pendulum", rod)
+    assert kind in ("lost", "factor_missing", "gravity_arm") and element == "gravity 'g'"
+
+
+def slope() -> lg.Derivation:
+    """A disc that rolls down a movable wedge."""
+    s = lg.System("disc on a wedge")
+    x, d = s.coordinates("x s")
+    m, M, J, R, beta = s.parameters("m M J R beta")
+    frame = s.frame(d / R)
+    centre = s.origin + (x + d * sp.cos(beta), -d * sp.sin(beta))
+    s.particle(M, at=s.origin + (x, 0), name="wedge")
+    s.rigid_body(m, J, at=centre, frame=frame, name="disc")
+    s.gravity()
+    return s.derive()
+
+
+def test_a_rate_too_much_in_an_angular_velocity() -> None:
+    answer = "T = M*x'^2/2 + m*(x'^2 + 2*x'*s'*cos(beta) + s'^2)/2 + J*(s' + x')^2/(2*R^2)"
+    (mistake,) = slope().check(answer).mistakes
+    assert mistake.name == "omega" and "s'/R + x'/R" in str(mistake.what)
+
+
+def test_a_length_that_is_wrong_in_both_components_is_one_mistake() -> None:
+    answer = "T = (M+m)*x'^2/2 + m*l*cos(theta)*x'*theta'/2 + (J + m*l^2/4)*theta'^2/2\nV = m*g*l*cos(theta)/2"
+    kind, _, words = told("cart-pole", answer)
+    assert kind == "segment_number" and "l/2 stands in place of l" in words
+
+
+def test_a_sine_in_the_mass_matrix_is_no_matter_of_potential_energy() -> None:
+    verdict = derivation("cart-pole").check(f"{CART.replace('cos', 'sin')} = F\n{POLE.replace('cos', 'sin')} = 0")
+    assert verdict.mistakes and all(m.step != 3 for m in verdict.mistakes)
