@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -12,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
-from lagrangian.codegen.labels import comment
 from lagrangian.differentiated import Differentiated
-from lagrangian.errors import ModelError, RunError
+from lagrangian.errors import RunError
+from lagrangian.export.programs import exported
 from lagrangian.graph import reached
 from lagrangian.queries import by_name as _named
 
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
     from lagrangian.model import Model
 
-_log = logging.getLogger(__name__)
 Values = ArrayLike | Mapping[Any, Any] | None
 """Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for the declared values."""
 
@@ -258,109 +256,3 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
 }
 _STILL = ("mass_matrix", "potential_force")
 _SOLVING = ("forward", "rhs")
-
-EXPORTED = ("forward", "inverse", "mass_matrix", "energy")
-"""The programs that an exported source file contains."""
-
-
-def exported(model: Model) -> tuple[str, ...]:
-    """Return the names of the programs that an exported source file of this model contains."""
-    return (*EXPORTED, "rates") if model.floating else EXPORTED
-
-
-LANGUAGES = {"c": ".c", "python": ".py", "javascript": ".js"}
-"""The languages of exported source, and the endings of their files."""
-
-
-ENDINGS = {**LANGUAGES, "wasm": ".wasm"}
-"""Everything that can be exported, and the endings of the files."""
-
-
-LONGEST_STEM = 200
-"""The largest number of characters before the ending of a source file, so that file systems accept the name."""
-
-
-def exported_files(model: Model, language: str, stem: str) -> dict[str, str | bytes]:
-    """Return everything that an export writes, as file name → text or bytes.
-
-    ``language`` is one of `ENDINGS`. For "wasm" these are the integrator of the default method, its layout, and the
-    script that runs it.
-    """
-    if language != "wasm":
-        return dict(sources(model, language, stem))
-    from lagrangian.simulate.browser import browser_module  # imported here because source code needs no LLVM
-
-    _check_stem(stem)
-    return browser_module(model).files(stem)
-
-
-def _check_stem(stem: str) -> None:
-    """Raise `ModelError` for a name after which functions cannot be called."""
-    if len(stem) > LONGEST_STEM:
-        raise ModelError(
-            f"the name {stem[:20]}… has {len(stem)} characters, and functions are called after it",
-            fix=f"use at most {LONGEST_STEM}",
-            code="E702",
-        )
-    if not (stem.isascii() and stem.isidentifier()):
-        raise ModelError(
-            f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
-        )
-
-
-def sources(model: Model, language: str, stem: str) -> dict[str, str]:
-    """Return source code as file name → text: C99 with its header, Python with NumPy, or JavaScript.
-
-    Each contains forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and the
-    rates of the coordinates if there are floating frames. The code runs without this package.
-    """
-    if language not in LANGUAGES:
-        raise ModelError(f"there is no export to '{language}'", fix=f"use one of {', '.join(LANGUAGES)}", code="E402")
-    _check_stem(stem)
-    _log.info("writing %s", language)
-    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported(model)}
-    if language == "javascript":
-        return {f"{stem}.js": _script(model, programs)}
-    if language == "python":
-        functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]
-        first = f'"""The dynamics of a system with coordinates {", ".join(c.name for c in model.coordinates)}."""'
-        return {f"{stem}.py": f"{first}\n\nimport numpy as np\n\n\n" + "\n\n".join(functions)}
-    codes, headers = [], []
-    for name, program in programs.items():
-        code, header = machine.to_c(program, name=name)
-        codes.append(code.replace(f'#include "{name}.h"', f'#include "{stem}.h"'))
-        headers.append(header)
-    return {f"{stem}.c": "\n".join(codes), f"{stem}.h": "\n".join(headers)}
-
-
-def _script(model: Model, programs: Mapping[str, Program]) -> str:
-    """The programs as a script of JavaScript that is also a module of Node."""
-    names = ", ".join(comment(c.name) for c in model.coordinates)
-    head = [
-        f"/* The dynamics of a system with coordinates {names}.",
-        "",
-        "   A plain script for pages, workers and Node (require), without dependencies. Every function takes arrays in",
-        "   the order listed above it, in SI units, and the time as a number. It returns a Float64Array with all its",
-        "   results, one after another; one that is passed as the last argument is filled and returned. A result that",
-        "   is not finite is thrown as a RangeError.",
-        "",
-        "   `lagrangian verify` runs these functions in Node at random states. It compares them with the formulas they",
-        "   were made from, and these with the equations that were derived by another route. */",
-        '"use strict";',
-        "",
-    ]
-    from lagrangian.simulate.plot import Units  # imported here because only this language names units
-
-    units, table = Units(model), {}
-    for c in model.coordinates:
-        table |= {c.name: units.of(c.symbol), f"{c.name}''": units.of(c.acceleration)}
-    table |= {x.name: units.of(x.symbol) for x in (*model.velocities, *model.inputs, *model.parameters)}
-    functions = [machine.to_javascript(program, name=name, units=table) for name, program in programs.items()]
-    tail = f'if (typeof module !== "undefined") module.exports = {{ {", ".join(programs)} }};'
-    return "\n".join([*head, *functions, tail, ""])
-
-
-def _renamed(module: str, name: str) -> str:
-    """Rename the only function of a module."""
-    body = module[module.index("\ndef ") + 1 :]
-    return f"def {name}" + body[body.index("(") :]

@@ -61,16 +61,17 @@ class Derivation(Guided, derive.Derived):
         """Return plain data that can be written as JSON."""
         return pages.to_dict(self, notation=notation, brief=brief, full=full)
 
-    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+    def verify(self, *, states: int = 50, seed: int = 1, exports: bool = False) -> tuple[Check, ...]:
         """Check the equations, and everything that is made of them, by independent routes at random states.
 
         The equations are compared with virtual work and with automatic differentiation of L; every function of
         `lagrangian.Compiled` with its formulas and with those equations; the exported Python and C by running them; the
         linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
-        checked on this machine, such as C without a compiler. Raises `ModelError` if ``states`` is not a valid number.
+        checked on this machine, such as C without a compiler. ``exports``: the exports to other programs are run in
+        them as well, where they are installed. Raises `ModelError` if ``states`` is not a valid number.
         """
         found = verify_lines(self, states=states, seed=seed)
-        return (*found, *verify_compiled(self.model, states=states, seed=seed))
+        return (*found, *verify_compiled(self.model, states=states, seed=seed, exports=exports))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
         """Return whether an answer is right, in what sense, or where it is wrong and why.
@@ -163,23 +164,25 @@ def verify_lines(derivation: derive.Derived, *, states: int, seed: int) -> tuple
     return verify(derivation, states=states, seed=seed)
 
 
-def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
+def verify_compiled(model: Model, *, states: int, seed: int, exports: bool) -> tuple[Check, ...]:
     """Check the compiled code, the exported code and the linearization of a model."""
-    from lagrangian.compiled import Compiled, sources
+    from lagrangian.compiled import Compiled
+    from lagrangian.export import targets
     from lagrangian.verify.products import verify_products  # imported here because deriving needs none of these
 
     if pressing_rows(model):
         why = "not made: they are functions of the system whose regime says what slips and what sticks"
         return (Check(text("compiled functions"), None, why),)
-    return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
+    sources = partial(targets.sources, model)
+    return verify_products(model, Compiled(model), sources, states=states, seed=seed, exports=exports)
 
 
-def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
+def verify_floating(model: Model, *, states: int, seed: int, exports: bool) -> tuple[Check, ...]:
     """Check a model with floating frames: compare its programs with each other, then check what is made of them."""
     from lagrangian.verify.motion import verify_motion
 
     found = verify_motion(model, states=states, seed=seed)
-    return (*found, *verify_compiled(model, states=states, seed=seed))
+    return (*found, *verify_compiled(model, states=states, seed=seed, exports=exports))
 
 
 def _takes_long(model: Model, *, form: AskedForm = "auto", **_: object) -> bool:

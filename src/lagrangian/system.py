@@ -106,11 +106,12 @@ class System(Simulated):
             shapes=shapes,
         )
 
-    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+    def verify(self, *, states: int = 50, seed: int = 1, exports: bool = False) -> tuple[Check, ...]:
         """Check everything that is computed from the system by independent routes, at random states.
 
         This covers the derived equations, the compiled functions, the exported source and the linearization: see
         `Derivation.verify`. A system with a floating frame has no derived equations; everything else is checked.
+        ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed.
         """
         from lagrangian.values.values import check_sampling
 
@@ -118,8 +119,8 @@ class System(Simulated):
         if self.model.floating:
             from lagrangian.derivation import verify_floating
 
-            return verify_floating(self.model, states=states, seed=seed)
-        return self.derive().verify(states=states, seed=seed)
+            return verify_floating(self.model, states=states, seed=seed, exports=exports)
+        return self.derive().verify(states=states, seed=seed, exports=exports)
 
     def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:
         """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … of arrays of states.
@@ -254,26 +255,21 @@ class System(Simulated):
 
         return worksheet(self.model, seed=seed, notation=notation)
 
-    def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-        """Write the dynamics as source code to ``name.c`` (with ``name.h``), ``name.py`` or ``name.js``.
+    def export(self, path: str | Path, *, to: str | None = None, overwrite: bool = False) -> tuple[Path, ...]:
+        """Write the dynamics for other programs; the ending of the path says for which, or ``to`` does.
 
-        ``name.wasm`` is the integrator for browsers, written with its layout ``name.json`` and the script ``name.js``
-        that runs it. Return the paths of the files.
+        ``name.c`` (with ``name.h``), ``name.py`` and ``name.js`` are source code without dependencies, ``name.m``
+        functions ``name_forward.m``, … for MATLAB and Octave with the script ``name_steps.m``, and ``name.wasm`` the
+        integrator for browsers. `docs/exports.md` lists all targets. Return the paths of the files.
 
-        Raises `Error` if a file exists, unless ``overwrite``, or if it cannot be written.
+        Raises `ModelError` for an ending or a target that is not supported, and `Error` if a file exists, unless
+        ``overwrite``, or if it cannot be written.
         """
-        from lagrangian.compiled import ENDINGS, exported_files
+        from lagrangian.export import exported_files, target_of
 
         check_no_friction(self.model, "there is nothing to export")
         target = _path(path)
-        languages = {suffix: language for language, suffix in ENDINGS.items()}
-        if target.suffix not in languages:
-            raise ModelError(
-                f"the ending of '{target.name}' is not supported",
-                fix=f"use one of {', '.join(languages)}",
-                code="E402",
-            )
-        files = exported_files(self.model, languages[target.suffix], target.stem)
+        files = exported_files(self.model, target_of(target.suffix, to, target.name), target.stem)
         found = {target.parent / name: text for name, text in files.items()}
         for file in found:
             check_free(file, overwrite=overwrite)

@@ -10,7 +10,7 @@ import sympy as sp
 from answers import FAMILIES, SEEDS, Answers, State, computed, is_further, state_of, stored
 from random_systems import Case
 
-from lagrangian.compiled import sources
+from lagrangian.export import sources
 
 TOLERANCE = 1e-9
 

@@ -14,6 +14,7 @@ from lagrangian.cli import main
 from lagrangian.compiled import Compiled
 from lagrangian.dynamics import programs
 from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.export import targets
 from lagrangian.graph import Program
 from lagrangian.linear import jacobians
 from lagrangian.page.formula import Check, text
@@ -226,10 +227,10 @@ def test_an_exported_source_with_a_fault_is_noticed(
 ) -> None:
     if said(sound)[noticed] is None:
         pytest.skip("no C compiler, or no Node, here")
-    right = compiled.sources
+    right = targets.sources
     wrong = flawed(right, old, new)
     monkeypatch.setattr(
-        compiled, "sources", lambda m, to, stem: wrong(m, to, stem) if to == language else right(m, to, stem)
+        targets, "sources", lambda m, to, stem: wrong(m, to, stem) if to == language else right(m, to, stem)
     )
     assert failing(crane().verify(states=2)) == {noticed}
 

@@ -1,4 +1,4 @@
-"""``lagrangian export``: write the dynamics as source code, or runs as WebAssembly."""
+"""``lagrangian export``: write the dynamics for other programs."""
 
 from __future__ import annotations
 
@@ -12,22 +12,23 @@ from lagrangian import write
 from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system
-from lagrangian.compiled import exported_files
 from lagrangian.errors import Error
+from lagrangian.export import exported_files
 from lagrangian.model.without_friction import check_no_friction
 
 
 class Language(StrEnum):
-    """What is written: source code in a language, or the integrator as WebAssembly."""
+    """What is written: source code in a language, files of another program, or the integrator as WebAssembly."""
 
     C = "c"
     PYTHON = "python"
     JAVASCRIPT = "javascript"
     WASM = "wasm"
+    MATLAB = "matlab"
 
 
 def export(
-    to: Annotated[Language, typer.Option("--to", help="The programming language, or wasm.")],
+    to: Annotated[Language, typer.Option("--to", help="The language or the program.")],
     file: OptionalFile = None,
     example: Example = None,
     output: Annotated[
@@ -39,12 +40,15 @@ def export(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the dynamics as source code, or the integrator as WebAssembly; both run without this package.
+    """Write the dynamics for other programs: source code, functions of MATLAB, runs in a browser.
+
+    The files run without this package.
 
     \b
     Examples:
       lagrangian export carts.toml --to c -o out
       lagrangian export --example robot-arm --to python --name arm
+      lagrangian export -e double-pendulum --to matlab --name pendulum -o matlab
       lagrangian export -e double-pendulum --to wasm -o page
     """
     if output.exists() and not output.is_dir():

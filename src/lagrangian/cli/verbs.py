@@ -30,7 +30,7 @@ VERBS = {
     "export": (
         "export",
         "export",
-        "Write the dynamics as source code, or the integrator as WebAssembly; both run without this package.",
+        "Write the dynamics for other programs: source code, functions of MATLAB, runs in a browser.",
     ),
     "compare": (
         "compare",

@@ -16,6 +16,9 @@ def verify(
     example: Example = None,
     states: Annotated[int, typer.Option(help="Number of random states at which to compare.", min=1, max=100_000)] = 100,
     seed: Annotated[int, typer.Option(help="Seed of the random states.")] = 1,
+    exports: Annotated[
+        bool, typer.Option("--exports", help="Also run exports in Octave and other programs that are installed.")
+    ] = False,
     format: FormatOption = None,
     json: Json = False,
     width: Width = None,
@@ -28,11 +31,12 @@ def verify(
     Examples:
       lagrangian verify carts.toml
       lagrangian verify --example double-pendulum --states 1000
+      lagrangian verify carts.toml --exports
       lagrangian verify carts.toml --json
     """
     wanted = chosen(format, json, output, force)
     system = open_system(file, example)
-    checks = system.verify(states=states, seed=seed)
+    checks = system.verify(states=states, seed=seed, exports=exports)
     put_report(verification_report(system.model, checks), wanted, width, output)
     if any(check.holds is False for check in checks):
         raise typer.Exit(1)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from .c99 import to_c
     from .javascript import to_javascript
     from .kernel import Kernel
+    from .matlab import to_matlab
     from .numpy_source import to_numpy
 else:
     __getattr__ = lazily(
@@ -25,6 +26,7 @@ else:
             "c99": "to_c",
             "javascript": "to_javascript",
             "kernel": "Kernel",
+            "matlab": "to_matlab",
             "numpy_source": "to_numpy",
             "buffers": "Look RawFunction aligned",
         },
@@ -40,6 +42,7 @@ __all__ = [
     "compile",
     "to_c",
     "to_javascript",
+    "to_matlab",
     "to_numpy",
 ]
 

@@ -28,3 +28,13 @@ def identifier(prefix: str, name: str, index: int) -> str:
 def word(text: str) -> str:
     """``text`` as part of an identifier: everything except letters and digits becomes an underscore."""
     return re.sub(r"[^A-Za-z0-9]+", "_", text)[:40].strip("_") or "program"
+
+
+def unit(text: str) -> str:
+    """A unit in a comment that ends with its line, where a stroke has no meaning."""
+    return "/".join(comment(part) for part in text.split("/"))
+
+
+def quoted(text: str) -> str:
+    """``text`` as in `comment`, between single quotes in which a quote is written twice."""
+    return "'" + comment(text).replace("'", "''") + "'"

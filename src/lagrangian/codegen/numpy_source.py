@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import keyword
-import math
 from typing import TYPE_CHECKING
 
-from lagrangian.graph import operands, reached
-
 from .arguments import is_scalar
+from .expressions import SourceNotation, assignments
 from .labels import comment, identifier, word
-from .tape import Op
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-WIDTH = 88  # a node that is used once is written inside the expression that uses it if the line stays this short
-
-# operation → (text, its precedence, the precedence that each operand needs); 9 is an atom
+# operation → (text, its precedence, the precedence that each operand needs)
 INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
     "add": ("{0} + {1}", 4, (4, 5)),
     "sub": ("{0} - {1}", 4, (4, 5)),
@@ -38,6 +33,19 @@ CALLS = {
     "exp": "exp", "log": "log", "abs": "abs", "sign": "sign", "atan2": "arctan2", "min": "minimum", "max": "maximum",
     "select": "where",
 }  # fmt: skip
+POWER = ("{0}**{1}", 7, 8)
+
+NUMPY = SourceNotation(
+    INFIX,
+    {kind: f"np.{name}" for kind, name in CALLS.items()},
+    POWER,
+    element="{0}[..., {1}]",
+    first=0,
+    nan="np.nan",
+    infinity="np.inf",
+    assignment="{0} = {1}",
+    remark="  # {0}",
+)
 
 
 def to_numpy(program: Program, *, name: str | None = None) -> str:
@@ -59,7 +67,7 @@ def to_numpy(program: Program, *, name: str | None = None) -> str:
     lines += [
         '    with np.errstate(all="ignore"):  # both sides of a condition are computed; results are checked below'
     ]
-    body, names = _body(program)
+    body, names = assignments(program, NUMPY)
     lines += ["        " + line for line in body]
     for k, output in enumerate(program.outputs.values()):
         lines.append(f"        out{k} = np.empty((*lead, {len(output.ids)}))")
@@ -117,54 +125,3 @@ def _preparation(program: Program, groups: list[tuple[str, str, tuple[str, ...]]
         leads.append(f"{c}.shape[:-1]")
     lines.append(f"    lead = np.broadcast_shapes({', '.join(leads)})")
     return lines
-
-
-def _body(program: Program) -> tuple[list[str], dict[int, str]]:
-    """The assignments, and the text for each output node."""
-    nodes = program.graph.nodes
-    wanted = program.ids
-    uses: dict[int, int] = {}
-    order = reached(program.graph, wanted)
-    for i in (*wanted, *(k for j in order for k in operands(nodes[j]))):
-        uses[i] = uses.get(i, 0) + 1
-    letters = {g: identifier("in_", g, k) for k, g in enumerate(program.inputs)}
-    text: dict[int, tuple[str, int]] = {}
-    lines: list[str] = []
-    for i in order:
-        node = nodes[i]
-        words = _expression(node, text, letters)
-        remark = ""
-        if node[0] == "input":
-            remark = f"  # {comment(program.inputs[node[1]][node[2]])}"
-        elif node[0] == "const" or (uses[i] == 1 and len(words[0]) <= WIDTH // 2):
-            text[i] = words
-            continue
-        lines.append(f"x{i} = {words[0]}{remark}")
-        text[i] = (f"x{i}", 9)
-    return lines, {i: text[i][0] for i in wanted}
-
-
-def _expression(node: Op, text: dict[int, tuple[str, int]], letters: dict[str, str]) -> tuple[str, int]:
-    """The text of a node, and its precedence."""
-    kind = node[0]
-    if kind == "const":
-        return _literal(node[1])
-    if kind == "input":
-        return f"{letters[node[1]]}[..., {node[2]}]", 9
-    if kind == "powi":
-        return f"{_within(text[node[1]], 8)}**{node[2]}", 7
-    if kind in CALLS:
-        return f"np.{CALLS[kind]}({', '.join(text[k][0] for k in node[1:])})", 9
-    form, tightness, needs = INFIX[kind]
-    return form.format(*(_within(text[k], need) for k, need in zip(node[1:], needs, strict=True))), tightness
-
-
-def _within(words: tuple[str, int], need: int) -> str:
-    return words[0] if words[1] >= need else f"({words[0]})"
-
-
-def _literal(x: float) -> tuple[str, int]:
-    if math.isnan(x):
-        return "np.nan", 9
-    words = "np.inf" if math.isinf(x) else repr(float(abs(x)))
-    return (f"-{words}", 6) if math.copysign(1.0, x) < 0 else (words, 9)

@@ -29,6 +29,7 @@ from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.exports import Sources, exported
+from lagrangian.verify.foreign.checks import foreign_checks
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import slopes
 from lagrangian.verify.states import State, cancelling, evaluated, random_states, relative
@@ -91,12 +92,13 @@ class Worst:
 
 
 def verify_products(
-    model: Model, functions: Functions, sources: Sources, *, states: int = 50, seed: int = 1
+    model: Model, functions: Functions, sources: Sources, *, states: int = 50, seed: int = 1, exports: bool = False
 ) -> tuple[Check, ...]:
     """Return the checks of every compiled function, of the exported source and of the linearization.
 
-    Parameters keep their values. If a check cannot be made on this machine, ``holds`` is None and the figure says why.
-    Raises `ModelError` if no random state has finite accelerations.
+    ``exports``: exports to other programs are run in them, too. Parameters keep their values. If a check
+    cannot be made on this machine, ``holds`` is None and the figure says why. Raises `ModelError` if no random state
+    has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
     if model.constraints and not (found := _on_rows(model, found)):
@@ -112,6 +114,8 @@ def verify_products(
         return (Check(text("every compiled function can be evaluated"), False, why),)
     _log.info("verifying: the exported sources and the linearization")
     written = exported(program, functions.exported, sources, found)
+    if exports:
+        written += foreign_checks(model, found)
     return (*compiled, *written, slopes(model, functions.rhs, found))
 
 

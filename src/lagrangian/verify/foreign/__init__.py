@@ -1,0 +1,1 @@
+"""Runs exports in the programs that they were written for, each in a file of its own."""
