@@ -5,6 +5,7 @@ import math
 import os
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -237,38 +238,20 @@ def test_poles_that_differ_stay_apart() -> None:
     assert np.allclose(spectrum(np.diag(apart)).poles, apart, rtol=1e-14)
 
 
-_TEXTS = """
-import lagrangian as lg
-from lagrangian import examples
-for name in examples.names():
-    system = lg.example(name)
-    try:
-        rests = system.equilibria()
-        print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
-        print(name, system.linearize().to_text())
-    except lg.Error as trouble:
-        print(name, trouble)
-    if name == "whipple-bicycle":
-        continue  # minutes of symbols
-    try:
-        print(name, system.conserved_quantities().to_text())
-    except lg.Error as trouble:
-        print(name, trouble)
-"""
-
-
 @pytest.mark.slow
 def test_every_text_is_the_same_whatever_the_processor() -> None:
     """OpenBLAS has kernels for many processors, each with other last digits; where another library is, all agree."""
+    program = Path(__file__).with_name("texts_of_examples.py")
     texts = []
-    for core in ("Haswell", "SkylakeX", "Prescott", "Sandybridge"):
+    for core, shaken in (("Haswell", 0), ("SkylakeX", 1), ("Prescott", 2)):
         known = {**os.environ, "OPENBLAS_CORETYPE": core, "PYTHONIOENCODING": "utf-8"}
-        done = subprocess.run([sys.executable, "-c", _TEXTS], env=known, capture_output=True, check=False)
+        done = subprocess.run([sys.executable, str(program), str(shaken)], env=known, capture_output=True, check=False)
         if done.returncode < 0 and core == "SkylakeX":
             continue  # its instructions are not there
         assert done.returncode == 0, done.stderr.decode()
-        texts.append(done.stdout.decode())
-    assert all(text == texts[0] for text in texts)
+        texts.append(done.stdout.decode().splitlines())
+    for other in texts[1:]:
+        assert [pair for pair in zip(texts[0], other, strict=True) if pair[0] != pair[1]] == []
 
 
 # -- what inputs reach ---------------------------------------------------------------------------------------------

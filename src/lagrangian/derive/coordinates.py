@@ -222,7 +222,8 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     for body in model.bodies:
         for x in _where(model, body):
             bare = bounded.replaced(x, {turning: sp.Dummy() for turning in x.atoms(sp.sin, sp.cos)})
-            outside |= {s for s in symbols if bare.has(s)}
+            there = bounded.names(bare)
+            outside |= {s for s in symbols if s in there}
     return outside
 
 

@@ -190,10 +190,8 @@ def _figure(x: float) -> str:
 
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     """Whether ``expr`` changes with a coordinate, decided by its derivative."""
-    if not expr.has(symbol):
-        return False
     found = model.remembered(("changes with", expr), lambda: _changes_with(model, expr))
-    return bounded.diff(expr, symbol) != 0 if found is None else symbol in found
+    return expr.has(symbol) and bounded.diff(expr, symbol) != 0 if found is None else symbol in found
 
 
 def _changes_with(model: Model, expr: sp.Expr) -> frozenset[sp.Expr] | None:

@@ -8,7 +8,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from lagrangian.equilibria.roots import EXACT
+from lagrangian.equilibria.roots import ENOUGH, EXACT
 from lagrangian.linear.manifold import point_words
 from lagrangian.linear.report import symbol
 from lagrangian.linear.stability import Stability
@@ -95,13 +95,12 @@ def equilibria_report(found: Equilibria) -> Report[Model]:
     letters = [symbol(found.model, name) for name in names]
     items: list[Item] = []
     if found:
-        header = (text(""), *(text(x) for x in letters), text("verdict"), text("starts"))
+        header = (text(""), *(text(x) for x in letters), text("verdict"))
         rows = tuple(
             (
                 text(str(k)),
                 *(text(_shown(found, e, name)) for name in names),
                 text(e.stability.verdict),
-                text(str(e.starts) if e.starts else "–"),
             )
             for k, e in enumerate(found)
         )
@@ -117,10 +116,17 @@ def equilibria_report(found: Equilibria) -> Report[Model]:
     for name, letter in zip(names, letters, strict=True):
         low, high = found.box[name]
         sides += [", " if sides else "", letter, f" from {figure(low)} to {figure(high)}"]
-    items.append(text(f"Sought from {found.starts} starts in the box ", *sides, "."))
+    items.append(text("Sought from many starts in the box ", *sides, f".{_certain(found)}"))
     return Report(
         f"{found.model.name}: equilibria", found.model, (Part(text("Equilibria"), tuple(items)),), data(found)
     )
+
+
+def _certain(found: Equilibria) -> str:
+    """How often the search found them; the counts themselves depend on last digits, so a text does not contain them."""
+    if not found.sure or not found:
+        return ""
+    return f" Each was found from {ENOUGH} starts or more, and the last round of starts found nothing new."
 
 
 def _shown(found: Equilibria, e: Equilibrium, name: str) -> str:

@@ -21,6 +21,9 @@ STEPS = 80
 NEAR = 1e-5
 """Below this residual, relative to the size of h, a point is polished."""
 
+ENOUGH = 5
+"""Every root should be found this number of times."""
+
 EXACT = 1e-11
 """Below this residual, relative to the size of h, a point is a root."""
 

@@ -20,7 +20,7 @@ from lagrangian import dynamics
 from lagrangian.equilibria.box import Box, make_box
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.points import Equilibria, Equilibrium
-from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starting_points
+from lagrangian.equilibria.roots import ENOUGH, EXACT, Forces, Search, distinct, starting_points
 from lagrangian.equilibria.rows import LARGE, HeldForces
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
@@ -41,9 +41,6 @@ ROUND = 256
 """The number of starting points in a round."""
 
 ROUNDS = 16
-ENOUGH = 5
-"""Every root should be found this number of times."""
-
 MAX_EQUILIBRIA = 1000
 """The search ends when there are more equilibria, because nobody reads such a long list."""
 
@@ -116,7 +113,7 @@ class _Task:
         q, inside = self.box.placed(q)
         if not inside or not self._rests_always(q):
             return None
-        q = np.where(np.abs(q) < 1e-14 * self.search.width, 0.0, q)
+        q = self.without_rounding(q)
         x = np.concatenate([q, np.zeros(len(q))])
         names = self.box.names
         return Equilibrium(
@@ -130,6 +127,10 @@ class _Task:
             dimension=0 if family is None else family.dimension,
             multipliers={} if self.held_forces is None else self.held_forces.multipliers(q),
         )
+
+    def without_rounding(self, q: Array) -> Array:
+        """A root with 0 where only rounding is left."""
+        return np.where(np.abs(q) < 1e-14 * self.search.width, 0.0, q)
 
     def _stability(self, x: Array) -> Stability:
         try:
@@ -276,7 +277,9 @@ def _notes(
     """Notes that a reader should know besides the list."""
     listed = []
     if left_out:
-        where = point_words(task.box.names, left_out[0]) + (" and elsewhere" if len(left_out) > 1 else "")
+        where = point_words(task.box.names, task.without_rounding(left_out[0])) + (
+            " and elsewhere" if len(left_out) > 1 else ""
+        )
         moved = task.moves_no_mass(left_out[0])
         listed.append(
             f"the mass matrix is singular at {where}{moved}: these coordinates fail there, and it is left out"

@@ -107,17 +107,19 @@ class Tangents:
         """The tangents of ``outputs``."""
         graph, seen, moving = self._graph, self._seen, self._moving
         nodes = graph.nodes
-        fresh: list[int] = []
+        fresh: list[tuple[int, tuple[int, ...]]] = []
         stack = list(outputs)
         while stack:
             i = stack.pop()
             if i not in seen:
                 seen.add(i)
-                fresh.append(i)
-                stack.extend(operands(nodes[i]))
-        for i in sorted(fresh):
-            t = _tangent(graph, i, nodes[i], moving)
-            if t is not None:
+                if ids := operands(nodes[i]):
+                    fresh.append((i, ids))
+                    stack.extend(ids)
+        fresh.sort()
+        for i, ids in fresh:
+            active = [k for k, a in enumerate(ids) if a in moving]
+            if active and (t := _tangent(graph, i, ids, active, moving)) is not None:
                 moving[i] = t
         return [_value(graph, moving[i]) if i in moving else graph.zero for i in outputs]
 
@@ -149,14 +151,13 @@ def _joined(g: Graph, a: Tangent | None, b: Tangent | None) -> Tangent | None:
     return None if total == g.zero else (g.one, total)
 
 
-def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, Tangent]) -> Tangent | None:
-    """The tangent of node i from those of its operands that vary."""
+def _tangent(
+    g: Graph, i: int, ids: tuple[int, ...], active: Sequence[int], moving: Mapping[int, Tangent]
+) -> Tangent | None:
+    """The tangent of node i from those of its operands that vary: the places ``active`` of ``ids``."""
+    node = g.nodes[i]
     op = node[0]
-    if op in ("const", "input") or op in CONDITIONS:
-        return None
-    ids = operands(node)
-    active = [k for k, a in enumerate(ids) if a in moving]
-    if not active:
+    if op in CONDITIONS:
         return None
     if op in ("select", "min", "max"):
         return _branch(g, node, moving)

@@ -35,16 +35,14 @@ ODD = frozenset({"sin", "tan", "asin", "atan", "sinh", "tanh", "asinh", "atanh"}
 EVEN = frozenset({"cos", "cosh"})
 CONDITIONS = frozenset({"lt", "le", "eq", "and", "or", "not"})
 LEAVES = frozenset({"const", "input"})
+_NOT_ALL_OPERANDS = LEAVES | {"powi"}  # the entries of every other node are its operands
 
 
 def operands(node: Node) -> tuple[int, ...]:
     """The ids that a node reads, in order."""
-    op = node[0]
-    if op == "const" or op == "input":
-        return ()
-    if op == "powi":
-        return (node[1],)
-    return node[1:]
+    if node[0] not in _NOT_ALL_OPERANDS:
+        return node[1:]
+    return (node[1],) if node[0] == "powi" else ()
 
 
 class Graph(Arithmetic):

@@ -8,7 +8,7 @@ dynamics, which gives q̈ explicitly. About an equilibrium this is equivalent to
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -187,11 +187,19 @@ class Linearizer:
         )
 
     def _tangent(self, manifold: Manifold, here: OperatingPoint, t: float, found: Arrays) -> Tangent:
-        """The directions that constraints allow; speeds of coordinates on which no force depends follow others."""
+        """The directions that constraints allow; speeds of coordinates on which no force depends follow others.
+
+        Entries that are nothing but rounding are 0: where a rod stands upright, cos 90° is.
+        """
         n = manifold.size
         slopes = np.abs(found["A"][n:, :n])
         idle = np.flatnonzero(slopes.max(axis=0, initial=0.0) <= 1e-9 * slopes.max(initial=0.0))
-        return manifold.tangent(here.x, here.p, t, idle=idle.tolist())
+        tangent = manifold.tangent(here.x, here.p, t, idle=idle.tolist())
+        settled = np.ones_like(tangent.basis, bool)
+        for x, p in _neighbours(here):
+            change = np.abs(manifold.tangent(x, p, t, tangent.kept).basis - tangent.basis)
+            settled &= change <= UNSETTLED * np.abs(tangent.basis)
+        return replace(tangent, basis=np.where(settled, tangent.basis, 0.0))
 
     def _proper(self, here: OperatingPoint, t: float, found: Arrays, tangent: Tangent | None) -> None:
         """Raise an error if the mass matrix is not positive definite, or if the motion has no derivative at the
@@ -277,12 +285,10 @@ class Linearizer:
         If terms cancel, as at a bifurcation, the errors are much larger than ε times the result. The last result says
         which entries of A and B keep most of their digits then; the others are what rounding leaves of 0.
         """
-        source = np.random.default_rng(5)
         dA = dK = dMK = 0.0
         mine = found if tangent is None else tangent.reduced(found)
         changes = {name: np.zeros_like(mine[name]) for name in ("A", "B")}
-        for _ in range(3):
-            x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
+        for x, p in _neighbours(here):
             moved = replace(here, x=x, p=p)
             near, there = self.values(self.rates, x=x, u=here.u, p=p, t=t), tangent
             if self.manifold is not None and tangent is not None:
@@ -319,6 +325,14 @@ class Linearizer:
             for other in others
             for k in ("A", "B")
         )
+
+
+def _neighbours(here: OperatingPoint) -> Iterator[tuple[Array, Array]]:
+    """States and parameters like those of a point, with other digits after the twelfth."""
+    source = np.random.default_rng(5)
+    for _ in range(3):
+        x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
+        yield x, p
 
 
 def _independent(program: Program, tangent: Tangent | None) -> tuple[str, ...]:
