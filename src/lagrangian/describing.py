@@ -93,9 +93,8 @@ class Described(Constrained, Circuits):
 
     @property
     def energy(self) -> sp.Expr:
-        """T* + V [J] as an expression for runs and events; the form that `derive` gives is easier to read."""
-        model = self.model
-        return sp.Add(*(e.kinetic(model) + e.potential(model) for e in model.elements))
+        """T + V [J] as an expression for runs and events; T is T* but for coils that saturate."""
+        return self.model.total_energy()
 
     def __getitem__(self, name: str) -> Any:
         """Return the symbol, point or frame with this name; a symbol comes first."""

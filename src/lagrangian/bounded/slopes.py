@@ -71,6 +71,9 @@ def _slope(node: sp.Expr, found: Mapping[sp.Basic, sp.Expr], symbol: Any) -> sp.
         return sp.S.Zero
     if isinstance(node, sp.Add):
         return sp.Add(*inner)
+    if isinstance(node, sp.log) and isinstance(node.args[0], sp.cosh):  # as books write it, not sinh u/cosh u
+        u = node.args[0].args[0]
+        return sp.tanh(u) * found[u]
     if isinstance(node, sp.Mul):
         return sp.Add(*[sp.Mul(*node.args[:i], inner[i], *node.args[i + 1 :]) for i in moving])
     if isinstance(node, sp.Pow):

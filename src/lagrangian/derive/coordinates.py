@@ -12,6 +12,7 @@ from typing import cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.derive.circuits import carried, kirchhoff, what_is_known, what_moves, without
 from lagrangian.derive.context import Context, xi
 from lagrangian.derive.derived import Step
 from lagrangian.derive.wiggle import depends
@@ -21,11 +22,13 @@ from lagrangian.page.formula import Check, Formula, Item, Left, Table, Text, for
 
 @dataclass(frozen=True)
 class MeasuredFrom:
-    """How a coordinate is measured: an angle or a length, absolute (``to`` is None) or relative to another one."""
+    """How a coordinate is measured: an angle or a length, absolute (``to`` is None) or relative to another one, or a
+    charge."""
 
     angle: bool
     to: sp.Expr | None
     known: bool = True
+    charge: bool = False
 
 
 def coordinates(context: Context) -> Step:
@@ -41,10 +44,9 @@ def coordinates(context: Context) -> Step:
     header = (text("coordinate"), text("measured"), text("wiggle it alone"))
     items.append(Table(header, tuple(rows)))
     items.append(
-        text(
-            "Complete: the coordinates (and t) determine the position of every mass; nothing else in the system moves."
-        )
+        text(f"Complete: the coordinates (and t) determine {what_is_known(model)}; nothing else in the system moves.")
     )
+    items += kirchhoff(model)
     counted = " and the rows of the constraints" if wiggle.rows else ""
     if tied := len(model.constraints):
         items.append(
@@ -56,10 +58,11 @@ def coordinates(context: Context) -> Step:
     items.append(
         text(
             f"Independent: each of them can wiggle while the others stay fixed. As linear functions of the {n} rates, "
-            f"the velocities of all masses{counted} have rank {wiggle.rank}, so no combination of the coordinates "
-            "wiggles without moving a mass."
+            f"{what_moves(model)}{counted} have rank {wiggle.rank}, so no combination of the coordinates wiggles "
+            f"{without(model)}."
             if n > 1
-            else "Independent: there is no other coordinate that it could depend on, and a mass moves when it wiggles."
+            else "Independent: there is no other coordinate that it could depend on, and "
+            f"{'a current flows through a coil' if model.charges else 'a mass moves'} when it wiggles."
         )
     )
     if n > 1 or kinds[context.symbols[0]].to is not None:
@@ -96,6 +99,8 @@ def _note(coordinate: Coordinate, kind: MeasuredFrom) -> Text | None:
 
 
 def _kind_words(kind: MeasuredFrom) -> list[str | Left]:
+    if kind.charge:
+        return ["a charge: its rate is a current"]
     if not kind.known:
         return ["as given, with the energies"]
     what = "an angle" if kind.angle else "a displacement"
@@ -107,6 +112,9 @@ def _kind_words(kind: MeasuredFrom) -> list[str | Left]:
 def _wiggle_words(context: Context, index: int) -> list[str | Left]:
     moved = context.wiggle.moved[index]
     still = [b for b in context.model.bodies if b not in moved]
+    coordinate = context.model.coordinates[index]
+    if coordinate in context.model.charges and not any(b in context.model.bodies for b in moved):
+        return [f"a current flows through {carried(context.model, coordinate)}; nothing else changes"]
     if not moved:
         return ["its momentum changes: it moves mass"]
     parts = [f"{_listed(moved)} move{'s' if len(moved) == 1 else ''}"]
@@ -133,15 +141,18 @@ def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
     relative to ξ_j if ξ_j carries along the body that ξ_i moves, together with another that ξ_i does not move.
     """
     symbols: list[sp.Expr] = [c.symbol for c in model.coordinates]
-    directions, carried = _directions(model, symbols), _carriers(model, symbols)
+    directions, carriers = _directions(model, symbols), _carriers(model, symbols)
     reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
     found: dict[sp.Expr, MeasuredFrom] = {}
     lengths, turns = _lengths(model, symbols), _turns(model, symbols)
     number = {s: i for i, s in enumerate(symbols)}
+    charges = {c.symbol for c in model.charges}
     for s in symbols:
         holding = [d for d in directions if s in d]
-        if s in carried:
-            found[s] = MeasuredFrom(True, carried[s])
+        if s in charges:
+            found[s] = MeasuredFrom(False, None, known=False, charge=True)
+        elif s in carriers:
+            found[s] = MeasuredFrom(True, carriers[s])
         elif s in lengths:
             to = _carried_by(model, s, symbols, reach)
             found[s] = MeasuredFrom(to is None and s in turns, to)

@@ -12,9 +12,20 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form
+from lagrangian.derive.circuits import by_current, capacitor, nothing_stored, reason_of, step_three, step_two
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derived import Step
-from lagrangian.model import Body, Element, Gravity, Model, Spring, time
+from lagrangian.model import (
+    Body,
+    Capacitor,
+    Element,
+    Gravity,
+    Inductor,
+    Model,
+    MutualInductance,
+    Spring,
+    time,
+)
 from lagrangian.model.elements.vectors import diagonal
 from lagrangian.page.formula import (
     Formula,
@@ -85,7 +96,8 @@ def _pieces(model: Model, element: Element, index: dict[Body, str]) -> Iterator[
         if body is not None:
             yield Name(letter, index[body] if index[body] else "g"), energy, body
         elif isinstance(element, Body):
-            yield Name(letter, index[element]), energy, None
+            alone = sum(e.ledger == "T*" for e in model.elements) == 1
+            yield Name(letter, index[element] or ("" if alone else element.name)), energy, None
         else:
             yield Name(letter, element.name if element.name != letter else ""), energy, None
 
@@ -106,6 +118,8 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
             items += _motion(context, body, index)
             items += _rotation(context, body, index)
             items.append(_energy(context, body, share, index))
+        elif isinstance(body, Inductor | MutualInductance):
+            items += [Heading(text(_capital(body.title))), *by_current(context, body, share.name)]
         else:
             items.append(_plain(context, share))
     total = _sum(mine, "T*")
@@ -114,15 +128,13 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
         items[-1] = replace(last, brief=True)
     else:
         items.append(formula(*_chain(Name("T*"), total, _added(context, mine)), brief=True))
-    reasons = tuple(text(s.name, f": {s.element.title} has mass and moves") for s in mine)
+    reasons = tuple(text(s.name, f": {s.element.title} {reason_of(s.element)}") for s in mine)
+    what, why = step_two(model)
     return Step(
         2,
         "Kinetic co-energy",
-        text("Wrote ½mv² for every mass and ½Jω² for every body that turns, and added them up."),
-        text(
-            "Every mass that moves stores kinetic co-energy. With the velocity of the centre of mass and J about it, "
-            "translation and rotation add without a mixed term."
-        ),
+        what,
+        why,
         tuple(items),
         {"T": readable},
         reasons,
@@ -236,9 +248,6 @@ def _energy(context: Context, body: Body, share: Share, index: dict[Body, str]) 
 # -- step 3 ---------------------------------------------------------------------------------------------------------
 
 
-NOTHING_STORED = text("Nothing stores energy by its position: no spring, no gravity.")
-
-
 def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
     """V = Σ ½ k (δ − δ₀)² + Σ m g h."""
     model = context.model
@@ -253,6 +262,8 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
             items += _spring(context, element, own[0])
         elif isinstance(element, Gravity):
             items += _gravity(context, element, own)
+        elif isinstance(element, Capacitor):
+            items += capacitor(context, element, own[0].name)
         else:
             items += [_plain(context, share) for share in own]
     whole = context.algebra.total([s.form for s in mine])
@@ -261,24 +272,20 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
         live = [s for s in mine if s.expr != 0] or mine
         items.append(formula(*_chain(Name("V"), _sum(live, "V"), _added(context, live)), brief=True))
     else:
-        items.append(NOTHING_STORED)
+        items.append(nothing_stored(model))
         items.append(formula(Name("V"), sp.S.Zero, brief=True))
     reasons = tuple(text(s.name, f": {s.element.title} ", _stored(s)) for s in mine)
-    return potential_step(items, readable, reasons)
+    return potential_step(model, items, readable, reasons)
 
 
-def potential_step(items: Sequence[Item], V: sp.Expr, reasons: Sequence[Text]) -> Step:
+def potential_step(model: Model, items: Sequence[Item], V: sp.Expr, reasons: Sequence[Text]) -> Step:
     """Step 3 with its items, V and the reason for each of its parts."""
+    what, why = step_three(model)
     return Step(
         3,
         "Potential energy",
-        text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
-        text(
-            "The work of a spring's force or of a weight depends only on where it starts and ends, so it is the "
-            "difference of an energy. Such forces are counted here and never again among the ",
-            Name("Xi"),
-            ".",
-        ),
+        what,
+        why,
         tuple(items),
         {"V": V},
         tuple(reasons),

@@ -12,11 +12,12 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
+from lagrangian.derive.circuits import named_losses, nothing_acts, step_six, through
 from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derived import Step
 from lagrangian.derive.ends import find_ends
-from lagrangian.model import DEFLECTION, Action, Damper, Element, Friction, Words, time
+from lagrangian.model import DEFLECTION, Action, Damper, Element, Friction, Model, Words, time
 from lagrangian.page.formula import (
     Check,
     Heading,
@@ -79,6 +80,8 @@ def _along(actions: tuple[Action, ...], rate: sp.Expr) -> sp.Expr:
 
 def _story(context: Context, element: Element, ends: tuple[Action, ...], index: int, virtual: Form) -> Text:
     """The box rule in words: which ends are inside the box of everything that moves with ξ_i alone."""
+    if (said := through(context.model, element, ends, index)) is not None:
+        return said
     c = context.model.coordinates[index]
     inside: list[Words] = []
     outside: list[Words] = []
@@ -117,7 +120,7 @@ def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[
     items: list[Item] = []
     acting = [e for e in model.elements if e.ledger == "Ξ"]
     if not acting:
-        items.append(text("No force, torque or damper was described: nothing non-conservative acts."))
+        items.append(text(f"No {nothing_acts(model)} was described: nothing non-conservative acts."))
     for element in acting:
         items += _virtual_work(context, element)
     xi_of: dict[sp.Expr, sp.Expr] = {}
@@ -129,7 +132,7 @@ def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[
         xi_of[c.symbol] = total.expr()
         items += _coordinate(context, i, mine, relative) if acting else []
         items.append(formula(big_xi(i), fit(xi_of[c.symbol]), brief=True))
-        reasons.append(_reason(i, mine, xi_of[c.symbol]))
+        reasons.append(_reason(model, i, mine, xi_of[c.symbol]))
         difference = context.algebra.total([f.virtual - f.box for f in mine])
         if acting:
             checks.append(
@@ -142,21 +145,17 @@ def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[
     dampers = [e for e in acting if e.dissipation(model) is not None]
     if dampers:
         rayleigh, holds = _dampers(context, dampers, found)
+        fake = ", the fake spring" if not model.branches or any(isinstance(e, Damper) for e in dampers) else ""
         items += rayleigh
         checks.append(
-            Check(text("dampers: Rayleigh's function, the fake spring and virtual work agree"), holds, "exact")
+            Check(text(f"{named_losses(dampers)}: Rayleigh's function{fake} and virtual work agree"), holds, "exact")
         )
+    what, why = step_six(model)
     return Step(
         6,
         "Non-conservative forces",
-        text(
-            "Found what the forces, torques and dampers add to every equation, twice: by virtual work and by the box."
-        ),
-        text(
-            "They have no potential, so ",
-            Name("V"),
-            " does not hold them; what they do to a coordinate is the work they do when it wiggles alone.",
-        ),
+        what,
+        why,
         tuple(items),
         {"Xi": xi_of},
         tuple(reasons),
@@ -282,9 +281,9 @@ def _coordinate(
     ]
 
 
-def _reason(index: int, mine: list[Contribution], value: sp.Expr) -> Text:
+def _reason(model: Model, index: int, mine: list[Contribution], value: sp.Expr) -> Text:
     if not mine:
-        return text(big_xi(index), " = 0: no force, torque or damper was described")
+        return text(big_xi(index), f" = 0: no {nothing_acts(model)} was described")
     counted = [f for f in mine if not f.virtual.is_zero] or mine
     parts: list[str | Left] = [big_xi(index), " = ", fit(value), ": "]
     for f in counted:
@@ -295,7 +294,7 @@ def _reason(index: int, mine: list[Contribution], value: sp.Expr) -> Text:
 def _dampers(context: Context, dampers: list[Element], found: tuple[Contribution, ...]) -> tuple[list[Item], bool]:
     """D = ½ b δ̇² with Ξ_i = −∂D/∂ξ̇_i, and each damper treated as a spring whose deflection becomes its rate."""
     model = context.model
-    items: list[Item] = [Heading(text("Dampers, by Rayleigh's function and as fake springs"))]
+    items: list[Item] = [Heading(text(_heading(dampers)))]
     holds = True
     for element in dampers:
         energy = element.dissipation(model)
@@ -328,6 +327,12 @@ def _dampers(context: Context, dampers: list[Element], found: tuple[Contribution
                     )
                 )
     return items, holds
+
+
+def _heading(dampers: list[Element]) -> str:
+    words = named_losses(dampers)
+    fake = " and as fake springs" if words != "resistors" else ""
+    return f"{words[:1].upper()}{words[1:]}, by Rayleigh's function{fake}"
 
 
 def _fake_spring(context: Context, damper: Damper, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr]:

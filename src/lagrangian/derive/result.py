@@ -13,6 +13,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
+from lagrangian.derive.circuits import named_losses
 from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derived import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
@@ -123,7 +124,8 @@ class Matrices:
 def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr, sp.Expr]) -> Matrices:
     """M_ij = ∂²T*/∂ξ̇_i∂ξ̇_j;  C_ij = Σ_k ½ (∂M_ij/∂ξ_k + ∂M_ik/∂ξ_j − ∂M_jk/∂ξ_i) ξ̇_k;  G is the rest.
 
-    Because of the Christoffel symbols, Ṁ − 2C is skew-symmetric if M does not contain t.
+    Because of the Christoffel symbols, Ṁ − 2C is skew-symmetric if M does not contain t. Entries of M that depend on
+    rates (of coils that saturate) have no part in C: T* is not a quadratic form of the rates then.
     """
     coordinates, algebra = context.model.coordinates, context.algebra
     n = len(coordinates)
@@ -155,7 +157,8 @@ def _christoffel(context: Context, M: list[list[Form]]) -> list[list[Form]]:
     pieces: list[list[list[Form]]] = [[[] for _ in range(n)] for _ in range(n)]
     for a, row in enumerate(M):
         for b, entry in enumerate(row):
-            for k, c in enumerate(coordinates if entry.parts else ()):
+            of_positions = entry.parts and all(entry.diff(c.rate).is_zero for c in coordinates)
+            for k, c in enumerate(coordinates if of_positions else ()):
                 if (slope := entry.diff(c.symbol)).parts:
                     pieces[a][b].append(slope * halves[k])
                     turned = slope * halves[b]
@@ -181,7 +184,9 @@ def closing(
     for left, right in zip(eqs.left, eqs.right, strict=True):
         items.append(formula(fit_terms(left), fit_terms(right), brief=True, boxed=True))
     if any(f.kind == "damping" for row in eqs.terms for f in row):
-        items.append(text("The dampers' part of ", Xi, " is written on the left-hand side, with its sign changed."))
+        losing = named_losses([e for e in context.model.elements if e.resists])
+        whose = "The dampers' part of " if losing == "dampers" else f"The part of {losing} in "
+        items.append(text(whose, Xi, " is written on the left-hand side, with its sign changed."))
     items += [*second_rates(context, rows), *without]
     for friction in context.model.frictions:
         items.append(
@@ -194,6 +199,10 @@ def closing(
     items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
     items.append(formula(M, _shown(mats.M, symmetric=True)))
     items.append(formula(C, _shown(mats.C)))
+    if any(mats.M.has(c.rate) for c in context.model.coordinates):
+        items.append(
+            text("Entries of ", M, " that depend on rates have no part in ", C, ": what they add is in ", G, ".")
+        )
     items.append(formula(G, _shown(mats.G, mats.rest)))
     items.append(formula(Xi, _shown(mats.Xi)))
     items += matrix_form(context, rows) if rows else ()

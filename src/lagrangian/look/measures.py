@@ -48,7 +48,7 @@ class MeasureArtist:
         skipped = {c.name for f in floating for c in f.coordinates}
         for i, coordinate in enumerate(self.board.stage.model.coordinates):
             name = coordinate.name
-            if name in self.board.hidden or name in skipped:
+            if name in self.board.hidden or name in skipped or self.board.lacks_circuit(coordinate):
                 continue
             if not (
                 self._slide(i, name) or self._telescope(i, name) or self._angle(i, name) or self._position(i, name)

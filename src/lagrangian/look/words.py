@@ -19,7 +19,7 @@ from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
-from lagrangian.model import Element, Frame, Point, Rolling, Rope
+from lagrangian.model import CircuitBranch, Element, Frame, Point, Rolling, Rope, Transducer
 
 MOST = 14
 """At most so many bodies, ties and coordinates are named; the rest is counted."""
@@ -51,6 +51,8 @@ def description(
     sentences.append("; ".join(_cut([words.string(x) for x in strings] + words.rods(), "more strings and rods")))
     sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
     sentences.append("; ".join(_cut(list(words.actions()), "more")))
+    circuit = [_said(e) for e in board.stage.model.branches if e.name not in board.hidden]
+    sentences.append(f"circuit: {', '.join(_cut(circuit, 'more'))}" if circuit else "")
     coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
     text = " ".join(f"{_capital(s)}." for s in sentences if s)
     return f"{text} Coordinates: {'; '.join(_cut(coordinates, 'more'))}."
@@ -304,6 +306,10 @@ class _Sentences:
         tied = {t.element.name for t in self.ties}
         for element in self.stage.model.elements:
             if element.name in tied | set(self.board.hidden) or element.ledger in ("T*", "λ"):
+                continue
+            if isinstance(element, CircuitBranch):
+                if isinstance(element, Transducer) and isinstance(element.on, Frame):
+                    yield f"{_said(element)} {self._turned(element)}"
                 continue
             at, on = getattr(element, "at", None), getattr(element, "on", None)
             if element.kind == "gravity":

@@ -15,6 +15,7 @@ from lagrangian import bounded
 from lagrangian.errors import ModelError, NoSuchEntry, Place
 from lagrangian.model.body_checks import check_body
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use
+from lagrangian.model.coils import check_coils, check_inertia
 from lagrangian.model.declarations import Declarations
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Body, Element, FieldKind, Level
@@ -371,12 +372,7 @@ class Builder(Declarations):
                 fix='declare the generalized coordinates first: coordinates("theta1 theta2")',
                 code="E201",
             )
-        if not any(e.ledger == "T*" for e in self._elements):
-            raise ModelError(
-                f"nothing in system '{self.name}' has mass",
-                fix="add a particle, a rigid_body or a kinetic energy",
-                code="E201",
-            )
+        check_inertia(self.name, self._elements)
         made = Model(
             name=self.name,
             dimension=self.dimension,
@@ -394,6 +390,7 @@ class Builder(Declarations):
         )
         made = with_pressing_rows(made)
         check_effect(made)
+        check_coils(made)
         check_rows(made)
         self._frozen = made
         return made

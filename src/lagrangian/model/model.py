@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.errors import Notice
-from lagrangian.model.elements import Body, Element, Friction, Words
+from lagrangian.model.elements import Body, CircuitBranch, Element, Friction, Inductor, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.spare import SpareRows
@@ -100,6 +100,27 @@ class Model(Brief):
     def frictions(self) -> tuple[Friction, ...]:
         """Dry friction, in order, of which it is not known whether it slips or sticks."""
         return tuple(e for e in self.elements if isinstance(e, Friction) and e.sense is None)
+
+    @cached_property
+    def branches(self) -> tuple[CircuitBranch, ...]:
+        """The elements of circuits, in order."""
+        return tuple(e for e in self.elements if isinstance(e, CircuitBranch))
+
+    @cached_property
+    def charges(self) -> tuple[Coordinate, ...]:
+        """The coordinates that are charges: those that flow through an element of a circuit."""
+        flowing = {x for e in self.branches for charge in e.charges for x in self.expand(charge).atoms(AppliedUndef)}
+        return tuple(c for c in self.coordinates if c.symbol in flowing)
+
+    @cached_property
+    def saturating(self) -> tuple[Inductor, ...]:
+        """The coils whose flux linkage is not proportional to their current, so that T is not T*, in order."""
+        return tuple(e for e in self.elements if isinstance(e, Inductor) and not e.linear)
+
+    def total_energy(self) -> sp.Expr:
+        """T + V [J] of all elements as an expression; T is T* except for coils that saturate."""
+        whole = [e.kinetic(self) + e.potential(self) for e in self.elements]
+        return sp.Add(*whole, *(e.stored_energy(self) - e.kinetic(self) for e in self.saturating))
 
     @cached_property
     def floating(self) -> tuple[Frame, ...]:

@@ -23,13 +23,13 @@ class Name(Worded):
     """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` the number of time derivatives.
 
     Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
-    force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
-    "z" positions, "phi" an angle, "W" virtual work, "F" force, "lambda" multiplier, "f" and "c" what a constraint keeps
-    at zero, "M" mass matrix, "C" Coriolis matrix, "G" gravity and stiffness vector, "q" the vector of coordinates, "E"
-    energy, "H" Hamiltonian, "R" Routhian or constraint force, "r" a position, "moment" of constraint forces, "pull" and
-    "push" of a rod and a track, "sum" the sign of a sum; matrices "A", "A transposed", "B", "D matrix", "J", "K", "S";
-    vectors "x vector", "u vector", "y vector", "q vector", "f vector", "gamma vector", "lambda vector". Any other base
-    is shown as it is.
+    force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed or voltage, "omega" angular velocity,
+    "current", "psi" flux linkage and "stored" energy T of a coil, "x", "y", "z" positions, "phi" an angle, "W" virtual
+    work, "F" force, "lambda" multiplier, "f" and "c" what a constraint keeps at zero, "M" mass matrix, "C" Coriolis
+    matrix, "G" gravity and stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian
+    or constraint force, "r" a position, "moment" of constraint forces, "pull" and "push" of a rod and a track, "sum"
+    the sign of a sum; matrices "A", "A transposed", "B", "D matrix", "J", "K", "S"; vectors "x vector", "u vector", "y
+    vector", "q vector", "f vector", "gamma vector", "lambda vector". Any other base is shown as it is.
     """
 
     base: str

@@ -49,6 +49,10 @@ KINDS = {
     "N m": "torque",
     "J": "energy",
     "W": "power",
+    "C": "charge",
+    "A": "current",
+    "V": "voltage",
+    "Wb": "flux linkage",
 }
 """The common meaning of quantities with a unit."""
 
@@ -144,10 +148,12 @@ def table(run: Recorded) -> ColumnTable:
     model, units = run.model, Units(run.model)
     columns: list[Column] = []
     words = {c.name: c.description for c in model.coordinates}
+    charges = {c.name for c in model.charges}
     for name, values, symbol in zip(run.states, run.y, _state_symbols(model), strict=True):
         base = name.removesuffix("'")
         said = words.get(base) or base
-        columns.append(Column(name, values, units.of(symbol), said if name == base else f"rate of {said}"))
+        rate = f"current, the rate of {said}" if base in charges else f"rate of {said}"
+        columns.append(Column(name, values, units.of(symbol), said if name == base else rate))
     signals = run.observe({u.name: u.symbol for u in model.inputs}) if model.inputs else {}
     for u in model.inputs:
         columns.append(Column(u.name, signals[u.name], units.of(u.symbol), u.description or u.name))
@@ -270,4 +276,5 @@ def _escaped(name: str) -> str:
 def _energies(run: Recorded) -> Panel:
     T = Series("T^{*}", "T*", run.kinetic)
     V = Series("V", "V", run.potential)
-    return Panel("energy", "J", (T, V, Series("T^{*} + V", "T* + V", run.energy, "k--")))
+    star = ("T", "T") if run.model.saturating else ("T^{*}", "T*")
+    return Panel("energy", "J", (T, V, Series(f"{star[0]} + V", f"{star[1]} + V", run.energy, "k--")))

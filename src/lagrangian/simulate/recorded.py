@@ -202,8 +202,11 @@ class Recorded(Guided):
 
     @property
     def energy(self) -> Array:
-        """T* + V [J], shape (S,)."""
-        return self.kinetic + self.potential
+        """T + V [J], shape (S,); the energy T is the co-energy T* except for coils that saturate."""
+        total, coils = self.kinetic + self.potential, self.model.saturating
+        if not coils:
+            return total
+        return total + self[sp.Add(*(e.stored_energy(self.model) - e.kinetic(self.model) for e in coils))]
 
     @property
     def power(self) -> Array:

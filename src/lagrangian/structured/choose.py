@@ -12,7 +12,7 @@ import sympy as sp
 from lagrangian.bounded import hard
 from lagrangian.derive import Derived, Detail, derive
 from lagrangian.errors import Error, ModelError, did_you_mean
-from lagrangian.model import Model
+from lagrangian.model import Inductor, Model, MutualInductance
 from lagrangian.page.formula import text
 from lagrangian.structured.derive import derive_structured
 from lagrangian.structured.predict import is_long
@@ -105,6 +105,8 @@ def refusal(model: Model) -> str:
     if model.frictions:
         return "it has dry friction"
     given = [e for e in model.elements if e.ledger == "T*" and e not in model.bodies]
+    if given and isinstance(given[0], Inductor | MutualInductance):
+        return f"{given[0].title} stores energy by its current, and named quantities are those of moving bodies"
     if given:
         return f"{given[0].title} is an energy of motion that was given, without bodies"
     return ""

@@ -12,7 +12,8 @@ from typing import cast
 import sympy as sp
 
 from lagrangian.derive import NamedQuantity, QuantityKind, Step
-from lagrangian.derive.energies import NOTHING_STORED, lagrangian_step, potential_step
+from lagrangian.derive.circuits import nothing_stored
+from lagrangian.derive.energies import lagrangian_step, potential_step
 from lagrangian.derive.lagrange import left_hand_sides_step
 from lagrangian.model import Element, Gravity
 from lagrangian.page.formula import (
@@ -220,9 +221,9 @@ class ListedSteps:
                 reasons.append(text(names[-1], f": {element.title} {element.stored}"))
         total: Left = Terms(tuple(names)) if names else sp.S.Zero
         if not names:
-            items = [NOTHING_STORED]
+            items = [nothing_stored(self.model)]
         items.append(formula(Name("V"), total, brief=True))
-        return potential_step(items, self.total_V, reasons)
+        return potential_step(self.model, items, self.total_V, reasons)
 
     # -- step 4 -------------------------------------------------------------------------------------------------------
 

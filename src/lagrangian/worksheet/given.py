@@ -8,7 +8,23 @@ from collections.abc import Iterator
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.model import Body, Damper, Element, Force, Gravity, Model, RigidBody, Spring, Torque
+from lagrangian.model import (
+    Body,
+    Capacitor,
+    Damper,
+    Element,
+    Force,
+    Gravity,
+    Inductor,
+    Model,
+    MutualInductance,
+    Resistor,
+    RigidBody,
+    Spring,
+    Torque,
+    Transducer,
+    VoltageSource,
+)
 from lagrangian.page.formula import Item, Left, Name, Table, Text, text
 from lagrangian.page.plain import plain
 from lagrangian.worksheet.directions import along, positive_sense
@@ -42,6 +58,13 @@ STEPS: tuple[tuple[str | Left, ...], ...] = (
     ),
 )
 """The seven steps of the lecture, as questions."""
+
+COILS: tuple[str | Left, ...] = (
+    "The kinetic co-energy ",
+    Name("T*"),
+    ": the velocity of every mass and the flux linkage of every coil, then its share.",
+)
+"""Step 2 of a system with coils."""
 
 
 def given(model: Model, seen: str) -> Iterator[Item]:
@@ -153,6 +176,12 @@ ROLES: tuple[tuple[type[Element], str, str, str], ...] = (
     (Body, "inertia", "moment of inertia about the centre of mass", "moment of inertia of {} about its centre of mass"),
     (Spring, "k", "stiffness", "stiffness of {}"),
     (Damper, "b", "damping", "damping of {}"),
+    (Inductor, "L", "inductance", "inductance of {}"),
+    (MutualInductance, "M", "mutual inductance", "mutual inductance of two coils"),
+    (Capacitor, "C", "capacitance", "capacitance of {}"),
+    (Resistor, "R", "resistance", "resistance of {}"),
+    (VoltageSource, "value", "voltage", "voltage of a source"),
+    (Transducer, "k", "constant", "constant of {}: effort per current, and voltage per speed"),
     (Gravity, "g", "acceleration of gravity", "acceleration of gravity"),
     (Force, "value", "force", "{}"),
     (Torque, "value", "torque", "{}"),
@@ -186,7 +215,8 @@ def _says(description: str, role: str) -> bool:
 def asked(model: Model) -> Iterator[Item]:
     """The seven steps, and the result."""
     yield text("Derive the equations of motion by the Lagrangian approach, every step with its reason.")
-    yield Table((text("step"), text("what is asked")), tuple((text(str(k)), text(*s)) for k, s in enumerate(STEPS)))
+    steps = (*STEPS[:2], COILS, *STEPS[3:]) if any(e.ledger == "T*" for e in model.branches) else STEPS
+    yield Table((text("step"), text("what is asked")), tuple((text(str(k)), text(*s)) for k, s in enumerate(steps)))
     count = len(model.coordinates)
     what = "the equation of motion" if count == 1 else f"the {count} equations of motion"
     held = " with the forces of the constraints" if model.constraints else ""

@@ -70,13 +70,12 @@ def new_letters(names: Sequence[tuple[str, Sequence[str]]], taken: Iterable[str]
 
 
 def coordinate_letters(model: Model, dice: Dice) -> dict[str, str]:
-    """Return a new name for every coordinate; floating frames and names of several words keep theirs."""
+    """Return a new name for every coordinate; floating frames, charges and names of several words keep theirs."""
     kinds = measured(model)
     floating = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates}
-    names = [
-        (c.name, ANGLES if kinds[c.symbol].angle else LENGTHS) for c in model.coordinates if c.name not in floating
-    ]
-    others = [*(x.name for x in (*model.parameters, *model.inputs, *model.definitions)), *floating]
+    kept = floating | {c.name for c in model.charges}
+    names = [(c.name, ANGLES if kinds[c.symbol].angle else LENGTHS) for c in model.coordinates if c.name not in kept]
+    others = [*(x.name for x in (*model.parameters, *model.inputs, *model.definitions)), *kept]
     return new_letters(names, [*others, "t", "e"], dice)
 
 

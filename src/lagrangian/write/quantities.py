@@ -69,6 +69,7 @@ _CHOICES: dict[str, dict[str, tuple[Letter, ...]]] = {
         "V": (Letter("V"), Letter("U"), Letter("𝒱")),
         "Xi": (Letter("Xi"), Letter("Q"), Letter("𝒬")),
         "xi": (Letter("xi"), Letter("q"), Letter("eta")),
+        "stored": (Letter("T"), Letter("E"), Letter("ℰ")),
     },
     "physics": {
         "T*": (Letter("T"), Letter("K"), Letter("T", star=True)),
@@ -87,6 +88,9 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "L": (Letter("ℒ"),),
     "D": (Letter("D"), Letter("ℱ")),
     "delta": (Letter("delta"), Letter("Delta")),
+    "psi": (Letter("psi"), Letter("Psi")),
+    "current": (Letter("i"), Letter("I"), Letter("ℐ")),
+    "stored": (Letter("E"), Letter("ℰ")),
     "h": (Letter("h"), Letter("z"), Letter("H")),
     "v": (Letter("v"), Letter("u")),
     "omega": (Letter("omega"), Letter("Omega")),

@@ -23,7 +23,7 @@ from lagrangian.derive.reasons.loads import applied_loads
 from lagrangian.derive.reasons.motion import moving
 from lagrangian.derive.reasons.result import EquationCount, Reasoning, spared
 from lagrangian.errors import ModelError
-from lagrangian.model import Model
+from lagrangian.model import Inductor, Model, MutualInductance
 from lagrangian.page.formula import Check
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
@@ -97,6 +97,14 @@ def _check_masses(model: Model) -> None:
     given = next((e for e in model.elements if e.ledger == "T*" and e not in model.bodies), None)
     if given is None:
         return
+    if isinstance(given, Inductor | MutualInductance):
+        raise ModelError(
+            "its equation is Kirchhoff's voltage law for the circuit, not F = ma of a mass",
+            element=given.title,
+            place=given.place,
+            fix="derive() without why derives circuits too; the page is about systems of particles and rigid bodies",
+            code="E412",
+        )
     raise ModelError(
         "it is given as an energy, which does not say which masses move and where: there is no F = ma to begin with",
         element=given.title,

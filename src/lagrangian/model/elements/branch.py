@@ -46,6 +46,11 @@ class CircuitBranch(Element):
 
     charge: Any = None
 
+    @property
+    def charges(self) -> tuple[sp.Expr, ...]:
+        """The charges that flow through it."""
+        return (self.charge,)
+
     def _check_charge(self, key: str = "charge") -> None:
         """Normalize the charge in a field: a sum of coordinates with constant factors (Kirchhoff's current law)."""
         what = f"the {key.replace('_', ' ')} of {self.title}"

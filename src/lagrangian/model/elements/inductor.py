@@ -117,23 +117,24 @@ class Inductor(CircuitBranch):
 
     def flux(self, model: Surroundings) -> sp.Expr:
         """ψ [Wb] in the coordinates and rates."""
-        return self._at(model, self.flux_of_current())
+        return self.at_current(model, self.flux_of_current())
 
     def kinetic(self, model: Surroundings) -> sp.Expr:
         """T* = ∫₀^i ψ di."""
-        return self._at(model, self.coenergy_of_current())
+        return self.at_current(model, self.coenergy_of_current())
 
-    def energy(self, model: Surroundings) -> sp.Expr:
+    def stored_energy(self, model: Surroundings) -> sp.Expr:
         """T = ψ i − T* [J], the energy that is stored."""
-        return self._at(model, self.flux_of_current() * CURRENT_SYMBOL - self.coenergy_of_current())
+        return self.at_current(model, self.flux_of_current() * CURRENT_SYMBOL - self.coenergy_of_current())
 
-    def _at(self, model: Surroundings, law: sp.Expr) -> sp.Expr:
+    def at_current(self, model: Surroundings, law: sp.Expr) -> sp.Expr:
+        """An expression in the local symbol of its current, at its current in the coordinates and rates."""
         return model.expand(law).subs(CURRENT_SYMBOL, self.current(model))
 
     def masses(self, model: Surroundings) -> Iterator[MovingMass]:
         """Its differential inductance dψ/di, with the current."""
         slope = self.L if self.L is not None else bounded.diff(self.flux_of_current(), CURRENT_SYMBOL)
-        yield MovingMass((self.current(model),), ((self._at(model, slope),),))
+        yield MovingMass((self.current(model),), ((self.at_current(model, slope),),))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -168,6 +169,11 @@ class MutualInductance(CircuitBranch):
                 fix="name the charges of two coils; two coils in series have the inductance L1 + L2 + 2 M",
                 code="E410",
             )
+
+    @property
+    def charges(self) -> tuple[sp.Expr, ...]:
+        """The charges that flow through its two coils."""
+        return self.charge, self.other_charge
 
     def suggested_name(self) -> str:
         """The symbol of the mutual inductance."""

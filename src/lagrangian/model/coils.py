@@ -1,0 +1,45 @@
+"""Finds systems without inertia, and charges that flow through no coil: nothing decides how fast currents change."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagrangian.errors import ModelError
+from lagrangian.model.elements import CircuitBranch, Element
+from lagrangian.model.model import Model
+
+
+def check_inertia(name: str, elements: Sequence[Element]) -> None:
+    """Raise an error for a system in which nothing has mass or inductance."""
+    if any(e.ledger == "T*" for e in elements):
+        return
+    circuit = any(isinstance(e, CircuitBranch) for e in elements)
+    raise ModelError(
+        f"nothing in system '{name}' has {'inductance' if circuit else 'mass'}",
+        fix="add an inductor: without one no current has inertia, and its equation is not one of motion"
+        if circuit
+        else "add a particle, a rigid_body or a kinetic energy",
+        code="E201",
+    )
+
+
+def check_coils(model: Model) -> None:
+    """Raise an error for a charge without inductance, by which the mass matrix would be singular.
+
+    With constraints, a charge may be carried along by others.
+    """
+    if model.constraints or not model.charges:
+        return
+    energies = [e.kinetic(model) for e in model.elements if e.ledger == "T*"]
+    for c in model.charges:
+        if not any(energy.has(c.rate) for energy in energies):
+            raise ModelError(
+                f"no inductance is in the circuit of charge '{c.name}': nothing decides how fast its current changes",
+                place=c.place,
+                fix=f"add an inductor that '{c.name}' flows through (leads have some), or eliminate '{c.name}': "
+                "without a coil its equation gives the current, or the charge, from the other coordinates",
+                code="E201",
+            )
