@@ -1,7 +1,7 @@
 """What a derivation says of circuits: charges and currents, flux linkage, why T* is not T, and the words for them."""
 
 # SymPy has no type stubs:
-# pyright: reportMissingTypeStubs=false
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
 
 from __future__ import annotations
 

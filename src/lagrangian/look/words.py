@@ -52,7 +52,7 @@ def description(
     sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
     sentences.append("; ".join(_cut(list(words.actions()), "more")))
     circuit = [_said(e) for e in board.stage.model.branches if e.name not in board.hidden]
-    sentences.append(f"circuit: {', '.join(_cut(circuit, 'more'))}" if circuit else "")
+    sentences.append(f"Circuit: {', '.join(_cut(circuit, 'more'))}" if circuit else "")
     coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
     text = " ".join(f"{_capital(s)}." for s in sentences if s)
     return f"{text} Coordinates: {'; '.join(_cut(coordinates, 'more'))}."
