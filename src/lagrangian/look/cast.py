@@ -155,9 +155,22 @@ def _part(motions: Motions, body: Body) -> Player:
         part.glyph = BodyGlyph.DISC
     elif hold.how is HoldKind.SLIDE and not motions.turns(frame):
         return _particle(motions, body, point)
+    elif _rotor(motions, part):
+        part.glyph = BodyGlyph.DISC
     if part.glyph is BodyGlyph.DISC:
         part.radius = sp.sqrt(2 * body.tensor[0][0] / body.mass)
     return part
+
+
+def _rotor(motions: Motions, part: Player) -> bool:
+    """Whether a body in the plane turns about its own centre on another body, and nothing else takes hold of it."""
+    stage, hold = motions.stage, motions.holds[part.point]
+    if hold.how is not HoldKind.ROD or set(motions.turns(part.frame)) <= set(hold.moving):
+        return False
+    if any(stage.index(p) == part.point for e in stage.model.constraints for _, p in e.points()):
+        return False
+    others = [x for x in stage.model.bodies if isinstance(x, RigidBody) and x is not part.body]
+    return any(motions.carried(part.point, stage.index(x.at), stage.frames.index(x.frame)) for x in others)
 
 
 def carried_points(motions: Motions, point: int, frame: int) -> tuple[int, ...]:
@@ -257,7 +270,7 @@ def _rolls_around(motions: Motions, part: Player) -> bool:
     hold = motions.holds[part.point]
     if hold.how is not HoldKind.ROD or not motions.still(hold.holder) or len(hold.moving) != 1 or part.frame is None:
         return False
-    if motions.carried(hold.holder, part.point, part.frame):
+    if motions.carried(hold.holder, part.point, part.frame) or motions.turns(part.frame) != hold.moving:
         return False
     i = hold.moving[0]
     turn = float(abs(motions.angle_slopes(part.frame)[i]))
@@ -306,7 +319,7 @@ def _slides_on(motions: Motions, above: Player, below: Player) -> bool:
 def _runs_on(motions: Motions, above: Player, below: Player) -> bool:
     """Whether a body runs along a track that turns with another body."""
     hold = motions.holds[above.point]
-    if hold.how is HoldKind.TELESCOPE and hold.holder == below.point:
+    if hold.how is HoldKind.TELESCOPE and not _apart(motions, hold.holder, below.point):
         own = motions.stage.points[above.point].frame
         return own is not None and below.frame is not None and motions.stage.frames[below.frame] is own
     return hold.how is HoldKind.TRACK and hold.frame == below.frame and above is not below

@@ -5,10 +5,13 @@ from __future__ import annotations
 from math import pi
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.board import BEHIND, Board
+from lagrangian.look.board import BEHIND, BODY, Board
 from lagrangian.look.shapes import arc, heading, line
+from lagrangian.model import Element
+from lagrangian.model.names import time
 from lagrangian.page.scene import Disc
 
 Array = NDArray[np.float64]
@@ -26,27 +29,42 @@ def driven(board: Board, k: int) -> None:
     e = rate / (np.linalg.norm(rate) or 1.0)
     n = np.array([-e[1], e[0]])
     n = n if n[0] < 0 else -n
-    at = board.at(k) + 32.0 * n
+    to_and_fro(board, board.at(k) + 32.0 * n, e)
+
+
+def to_and_fro(board: Board, at: Array, e: Array) -> None:
+    """A double arrow at a place on the screen along the direction e."""
     board.arrow(at, at + 20.0 * e, "input", kind="driven", width=1.6)
     board.arrow(at, at - 20.0 * e, "input", kind="driven", width=1.6)
 
 
-def driven_round(board: Board, k: int) -> bool:
-    """The circle on which a point is moved, with its centre, radius and sense; whether there is one."""
-    found = _circle(board, k, board.p)
+def moved_by_time(board: Board, element: Element) -> bool:
+    """Whether the other end of an element along a deflection is moved as a function of time."""
+    deflection = getattr(element, "deflection", None)
+    if deflection is None:
+        return False
+    model = board.stage.model
+    still = {c.symbol: sp.Dummy() for c in model.coordinates}
+    return bool(model.expand(deflection).xreplace(still).has(time))
+
+
+def driven_round(board: Board, k: int, home: int = 0) -> bool:
+    """The circle on which a point is moved against ``home``, with its centre, radius and sense; whether it is one."""
+    found = _circle(board, k, home, board.p)
     if board.stage.dimension == 3 or found is None:
         return False
     centre, radius, sense = found
-    base, pixels = board.stage.fixed(centre.tolist()), board.scale * radius
+    base = home if home and not centre.any() else board.stage.add(home, [sp.Float(float(x), 17) for x in centre])
+    pixels, layer = board.scale * radius, BODY + 1 if home else BEHIND
     middle, at = board.at(base), board.at(k)
     place = board.placed(base)
-    board.put(arc(pixels, 0.0, 2 * pi), "thin", place, kind="driven", width=1.2, dashed=True, layer=BEHIND)
-    board.put(Disc((0.0, 0.0), 2.4), "ground", place, kind="driven", solid=True, layer=BEHIND)
-    board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", board.towards(base, k), kind="driven", width=1.2, layer=BEHIND)
+    board.put(arc(pixels, 0.0, 2 * pi), "thin", place, kind="driven", width=1.2, dashed=True, layer=layer)
+    board.put(Disc((0.0, 0.0), 2.4), "ground", place, kind="driven", solid=True, layer=layer)
+    board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", board.towards(base, k), kind="driven", width=1.2, layer=layer)
     board.fence(middle, at)
     start = heading((float(at[0] - middle[0]), float(at[1] - middle[1])))
     board.bow(middle, pixels + 10.0, start - 0.5 * sense, start - 1.5 * sense, "input", kind="driven", width=1.6)
-    known = _circle(board, k, board.motions.views.p)
+    known = _circle(board, k, home, board.motions.views.p)
     name = None if known is None else board.motions.named(known[1])
     if name is not None:
         away = at - middle
@@ -54,15 +72,19 @@ def driven_round(board: Board, k: int) -> bool:
     return True
 
 
-def _circle(board: Board, k: int, p: Array) -> tuple[Array, float, float] | None:
-    """The centre [m], the radius [m] and the sense (1: counter-clockwise) of a point's path, if it is a circle."""
+def _circle(board: Board, k: int, home: int, p: Array) -> tuple[Array, float, float] | None:
+    """The centre and radius [m] and the sense (1: counter-clockwise) of a point's path as seen from ``home``.
+
+    None if that path is no circle.
+    """
     views = [board.stage.views([board.q], p, t=t) for t in TIMES]
-    (a, b, c), rates = [v.r[0, k] for v in views], [v.rt[0, k] for v in views]
+    (a, b, c), rates = [v.r[0, k] - v.r[0, home] for v in views], [v.rt[0, k] - v.rt[0, home] for v in views]
     rows = np.array([b - a, c - a])
     if len(a) != 2 or abs(np.linalg.det(rows)) < ROUND * float(np.abs(rows).max()) ** 2:
         return None
     centre = a + np.linalg.solve(rows, [(x @ x) / 2 for x in rows])  # as far from a as from b and from c
     radius = float(np.linalg.norm(a - centre))
+    centre = np.where(np.abs(centre) < ROUND * radius, 0.0, centre)
     for r, v in zip((a, b, c), rates, strict=True):
         if abs(float((r - centre) @ v)) > ROUND * radius * float(np.linalg.norm(v)):
             return None

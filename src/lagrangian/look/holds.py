@@ -195,17 +195,30 @@ class Motions:
             return Hold(k, k, HoldKind.FIRMLY)
         home = self.stage.index(parent)
         first = self.relation(k, home)
+        shaken = self._shaken_by(k)
+        if shaken is not None:
+            return Hold(k, shaken, HoldKind.FIRMLY)
         if first.how is HoldKind.FIRMLY and not self.still(home):
             return self.relation(k, self.holds[home].holder)
         if first.how not in (HoldKind.FREE, HoldKind.WIRE, HoldKind.TELESCOPE):
             return first
-        others = [h for h in range(1, k) if h != home and not self.still(h)]
-        others.sort(key=lambda h: float(np.linalg.norm(self.views.r[0, k] - self.views.r[0, h])))
+        others = [h for h in range(k) if h != home and self.stage.points[h] is not self.stage.points[k]]
+        others.sort(key=lambda h: (self.still(h), float(np.linalg.norm(self.views.r[0, k] - self.views.r[0, h]))))
         for h in others:
             found = self.relation(k, h)
             if found.how is HoldKind.ROD and len(found.moving) < len(first.moving) + (first.how is not HoldKind.FREE):
                 return found
         return first
+
+    def _shaken_by(self, k: int) -> int | None:
+        """The point that carries a point which only time moves against it, such as the axle of an unbalanced rotor."""
+        rt = self.views.rt
+        if not self.coordinates(k) or float(np.abs(rt[:, k]).max()) < SAME * self.size:
+            return None
+        for h in range(1, k):
+            if not self.coordinates(k, h) and float(np.abs(rt[:, k] - rt[:, h]).max()) > SAME * self.size:
+                return h
+        return None
 
 
 def _one_direction(D: Array) -> bool:

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 FIRST, RELATIVE, STEP = 32 * pi / 180, 35 * pi / 180, 26 * pi / 180
 """The first angle, angles counted from another body, and by how much an absolute angle exceeds the one before it."""
 
-SMALL = 12 * pi / 180
+SMALL = 7 * pi / 180
 """The angle of a body on springs."""
 
 STRETCHED = 1.15

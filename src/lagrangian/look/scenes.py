@@ -43,6 +43,8 @@ Array = NDArray[np.float64]
 
 LARGE, LONGEST = 300.0, 190.0
 """The size of a picture's structure and of its longest rod [px]."""
+ROTOR = 7.0
+"""How many times smaller than the longest rod the path of what is moved round on a body is drawn."""
 SLIDE = 72.0
 """How far a sliding body is drawn from its reference [px]."""
 BORDER = 16.0
@@ -84,6 +86,7 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     board.pinned = frozenset(
         stage.index(point) for e in model.constraints for _, point in e.points() if e.kind in ("pin", "ball", "weld")
     ) | {k for pair in couplers(motions, parts) for k in pair}
+    board.pinned |= {h.holder for h in motions.holds if h.how is HoldKind.FIRMLY and motions.coordinates(h.point)}
     turns = turns_of(motions, parts, {})
     resolver = Resolver(motions, parts, turns)
     tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
@@ -127,6 +130,9 @@ def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> fl
             longest = max(longest, float(np.linalg.norm(board.r[k] - board.r[hold.holder])))
         elif hold.how is HoldKind.FIRMLY and k:
             structure.append(board.view @ board.r[k])
+            if board.motions.coordinates(k):  # it is moved round on a body
+                structure.append(board.view @ board.r[hold.holder])
+                longest = max(longest, ROTOR * float(np.linalg.norm(board.r[k] - board.r[hold.holder])))
     for part in parts:
         at = board.view @ board.r[part.point]
         if part.radius is not None and part.glyph is not BodyGlyph.SHAFT and part.glyph is not BodyGlyph.BEAM:

@@ -18,6 +18,7 @@ from lagrangian.look.space_cast import SpacePlayer, cast_in_space
 from lagrangian.look.space_efforts import SpaceEfforts, SpaceTies, TrackResolver
 from lagrangian.look.space_measures import SpaceMeasures, floating_coordinates, shifts_of
 from lagrangian.look.space_solids import Solids
+from lagrangian.look.space_strings import draw_strings_through, strings_through
 from lagrangian.look.space_supports import SpaceSupports, hooped
 from lagrangian.look.space_turns import Spin, axis_now, spins_of
 from lagrangian.look.space_view import best_view
@@ -56,8 +57,10 @@ def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, str]
     tracks = tracks_of(board, solids)
     bodies = SpaceBodies(board, solids, players, spins, tracks)
     bodies.draw()
-    supports = SpaceSupports(bodies)
+    strings = strings_through(motions, list(players), board.r)
+    supports = SpaceSupports(bodies, {x.holder for x in strings})
     supports.draw()
+    draw_strings_through(board, solids, strings)
     turns = _turns(motions, players, spins)
     resolver = TrackResolver(motions, list(players), turns, tracks)
     tied = [
@@ -67,13 +70,13 @@ def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, str]
     solids.sort()
     _constraints(board, players)
     draw_hints(board, players, hints)
-    say_unjoined(board, players, hints.lines)
+    say_unjoined(board, players, hints.lines, strings)
     SpaceTies(bodies, ties).draw()
     SpaceEfforts(bodies, turns, ties, resolver).draw()
     SpaceMeasures(bodies, floating, supports.floor).draw()
     plain = Resolver(motions, list(players), turns)
     told = [plain.resolve(e) for e in tied if e.ledger != "λ"]
-    return board, description(board, list(players), told, turns)
+    return board, description(board, list(players), told, turns, strings)
 
 
 def _constraints(board: Board, players: list[SpacePlayer]) -> None:

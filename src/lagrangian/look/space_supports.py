@@ -32,10 +32,11 @@ POST = 44.0
 class SpaceSupports:
     """Draws supports; ``floor`` is the height of the ground on which wheels roll [m], None where there is none."""
 
-    def __init__(self, bodies: SpaceBodies) -> None:
+    def __init__(self, bodies: SpaceBodies, holes: set[int]) -> None:
         self.bodies, self.board, self.solids = bodies, bodies.board, bodies.solids
         self.players, self.spins, self.up = bodies.players, bodies.spins, bodies.up
         self.floor: float | None = None
+        self.holes = holes
         self.hung: dict[int, list[Array]] = {}
 
     def draw(self) -> None:
@@ -255,7 +256,7 @@ class SpaceSupports:
                 tips += [x.point for x in self.players if spin.joint in x.points]
                 self.hung.setdefault(spin.joint, []).extend(board.r[t] - board.r[spin.joint] for t in tips)
         for k, directions in self.hung.items():
-            if not motions.still(k) or self._hooped(k):
+            if not motions.still(k) or self._hooped(k) or k in self.holes:
                 continue
             if k in self.bodies.feet:
                 solids.patch(self.bodies.feet[k], self.up, 34.0, layer=GROUND)

@@ -33,6 +33,9 @@ MARGIN = 62.0
 
 LINKS = (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.BAR, BodyGlyph.BEAM)
 
+ROUND = (BodyGlyph.WHEEL, BodyGlyph.DISC, BodyGlyph.PULLEY)
+"""Bodies at whose centre a rod lies in front of them."""
+
 
 def draw_supports(board: Board, parts: list[Player], ties: list[Tie], ends: dict[int, list[Array]]) -> None:
     """Draw what holds the bodies; ``ends`` are the places [px] where the floors of some end, by their points."""
@@ -48,12 +51,16 @@ def draw_supports(board: Board, parts: list[Player], ties: list[Tie], ends: dict
         if hold.how is HoldKind.TELESCOPE and k in springs:
             rods.append((hold.holder, k))
             continue
-        _rod(board, hold.holder, k, rope=hold.how is HoldKind.TELESCOPE)
+        _rod(board, parts, hold.holder, k, rope=hold.how is HoldKind.TELESCOPE)
         rods.append((hold.holder, k))
     _brackets(board, parts, rods)
     for a, b in couplers(board.motions, parts):
-        _rod(board, a, b)
+        _rod(board, parts, a, b)
         rods += [(a, b), (b, a)]
+    for k in (part.point for part in parts):
+        hold, moved = board.motions.holds[k], board.motions.coordinates(k)
+        if hold.how is HoldKind.FIRMLY and moved and hold.holder and not driven_round(board, k, hold.holder):
+            driven(board, k)
     _wires(board, parts)
     _joints(board, parts, rods)
     _floors(board, parts, ends)
@@ -79,14 +86,15 @@ def _within_body(parts: list[Player], a: int, b: int) -> bool:
     return any(part.frame is not None and {a, b} <= {part.point, *part.points} for part in parts)
 
 
-def _rod(board: Board, a: int, b: int, *, rope: bool = False) -> None:
+def _rod(board: Board, parts: list[Player], a: int, b: int, *, rope: bool = False) -> None:
     start, end = board.at(a), board.at(b)
     if np.linalg.norm(end - start) < 1.0:
         return
     names = [e.name for e in board.stage.model.bodies if board.stage.index(e.at) == b]
+    round_at = any(x.point == a and x.glyph in ROUND for x in parts)
     board.put(
         line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), of=names, kind="rope" if rope else "rod",
-        width=1.6 if rope else 3.0, layer=BODY - 5,
+        width=1.6 if rope else 3.0, layer=BODY + 1 if round_at else BODY - 5,
     )  # fmt: skip
     board.fence(start, end)
     length = board.motions.length(a, b)

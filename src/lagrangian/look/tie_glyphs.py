@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from lagrangian.look.board import BEHIND, GROUND, JOINT, TIE, Board
 from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.driven import moved_by_time, to_and_fro
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, lines, spiral, turned
 from lagrangian.look.spread import slide_along, wall_side
@@ -121,13 +122,22 @@ class TieArtist:
         board = self.board
         start, end = board.at(a), board.at(b)
         length = float(np.linalg.norm(end - start)) or 1.0
-        n = np.array([end[1] - start[1], start[0] - end[0]]) / length
-        by = offset * n
-        place = board.towards(a, b, by=(float(by[0]), float(by[1])))
-        self._strung(tie, place, start + by, end + by, names, role)
+        e = (end - start) / length
+        n = np.array([e[1], -e[0]])
+        da, db = offset * n + self._edge(a, e) * e, offset * n - self._edge(b, -e) * e
+        place = Placement(board.anchor(a), board.anchor(b), "along", self._shifted(a, da), self._shifted(b, db))
+        self._strung(tie, place, start + da, end + db, names, role)
         for k in (a, b):
             if board.motions.still(k) and tie.way == "points" and not self._supported(k):
                 self._anchorage(k, end - start if k == a else start - end)
+
+    def _edge(self, k: int, e: Array) -> float:
+        """How far the edge of a block that only slides is from its point, in a direction."""
+        part = self.by_point.get(k)
+        if part is None or part.glyph is not BodyGlyph.BLOCK or self._lift(k, slide_along(self.board, part)).any():
+            return 0.0
+        w, h = BLOCK
+        return min(w / 2 / max(abs(float(e[0])), 1e-9), h / 2 / max(abs(float(e[1])), 1e-9))
 
     def _supported(self, k: int) -> bool:
         """Whether a link or a rod has its support at a point."""
@@ -224,6 +234,8 @@ class TieArtist:
         if key not in self.walls:
             self.walls.add(key)
             self._wall(k, base, side * wall_at * e + self._lift(k, e), side * e, 29.0)
+            if moved_by_time(board, tie.element):
+                to_and_fro(board, board.at(k) + side * (wall_at + 8.0) * e + self._lift(k, e) + 48.0 * n, e)
 
     def _stop(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         """A tie from a point of a body to the ground, along x or y."""
@@ -235,6 +247,8 @@ class TieArtist:
         if key not in self.walls:
             self.walls.add(key)
             self._wall(k, base, WALL * e, e, 26.0)
+            if moved_by_time(board, tie.element):
+                to_and_fro(board, board.at(k) + (WALL + 8.0) * e + 44.0 * n, e)
 
     def _tied_to_rest(self, tie: Tie, k: int, near: Array, far: Array, names: tuple[str, ...], role: Role) -> int:
         """A tie between two places, both by their steps from a point [px]; the far one is at rest, at this point."""

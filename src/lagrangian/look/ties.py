@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -59,9 +60,10 @@ class Resolver:
         """What a deflection ties together."""
         first, second = self.motions.slopes(deflection)
         if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
-            return Tie(element, "unknown")
+            g = self.motions.stage.slopes(deflection, np.zeros(len(first)), self.p)
+            return self._small(element, g) or Tie(element, "unknown")
         g = first
-        rules = (self._slides, self._telescope, self._joint, self._stop)
+        rules = (self._slides, self._telescope, self._joint, self._stop, self._small)
         found = (rule(element, g) for rule in rules)
         return next((tie for tie in found if tie is not None), Tie(element, "unknown"))
 
@@ -77,6 +79,25 @@ class Resolver:
                     if np.allclose(g, sign * J[k, axis], atol=1e-9):
                         return Tie(element, "stop", None, k, sign, None, axis)
         return None
+
+    def _small(self, element: Element, g: Array) -> Tie | None:
+        """Two points of bodies whose distance along an axis it is, as long as all coordinates are small."""
+        stage = self.motions.stage
+        if stage.dimension == 3 or not np.isfinite(g).all() or not g.any():
+            return None
+        at_zero = stage.views([np.zeros(len(g))], self.p)
+        r, J = at_zero.r[0], at_zero.J[0]
+        spots = list(dict.fromkeys(k for part in self.parts for k in (part.point, *part.points)))
+        found: list[tuple[float, int, int, float]] = []
+        for a, b in itertools.combinations(spots, 2):
+            for axis in (1, 0):
+                for sign in (1.0, -1.0):
+                    if np.allclose(g, sign * (J[b, axis] - J[a, axis]), atol=1e-9):
+                        found.append((float(abs(r[b, 1 - axis] - r[a, 1 - axis])), a, b, sign))
+        if not found:
+            return None
+        _, a, b, sign = min(found)
+        return Tie(element, "points", a, b, sign)
 
     def _slope_of(self, part: Player) -> Array | None:
         """e · ∂r/∂q of a body that slides on something in the direction e."""

@@ -201,6 +201,8 @@ class _Sentences:
         on = self.owner(hold.holder, part)
         if part.frame is not None and self.motions.turns(part.frame):
             return "turning about a fixed point" if on == GROUND else f"turning about its centre, on {on}"
+        if self.motions.coordinates(part.point):
+            return f"moved against {on} as a function of time"
         return f"fixed to {on}"
 
     def _moving(self, part: Player, hold: Hold) -> str:
@@ -276,9 +278,18 @@ class _Sentences:
     def string(self, string: PulleyString) -> str:
         """What a string joins, and over what."""
         moving = self.owner(string.holder)
-        over = "a fixed pulley" if not string.holder else moving if "pulley" in moving else f"the pulley at {moving}"
+        over = (
+            "a hole"
+            if self.space
+            else "a fixed pulley"
+            if not string.holder
+            else moving
+            if "pulley" in moving
+            else f"the pulley at {moving}"
+        )
         first, second = (self.owner(end.point) for end in string.ends)
-        return f"a string from {first} over {over} to {second}{', which hangs in a loop' if string.fold == 2 else ''}"
+        way, loop = "through" if self.space else "over", ", which hangs in a loop" if string.fold == 2 else ""
+        return f"a string from {first} {way} {over} to {second}{loop}"
 
     def constraints(self) -> Iterator[str]:
         for element in self.stage.model.constraints:
