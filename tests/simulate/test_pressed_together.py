@@ -191,3 +191,20 @@ def test_mistakes(rows: Any, code: str, said: str) -> None:
         s.friction(0.1, pressed_by=rows, deflection=s["theta"], name="other")
         s.simulate(0.1)
     assert caught.value.code == code and said in str(caught.value)
+
+
+def test_the_reaction_of_a_joint_without_rows_holds_the_friction_that_rows_press_on() -> None:
+    """A pendulum on a rough pin hangs on a cart: the rail carries both weights and the masses' vertical motion."""
+    s = lg.System("cart")
+    w, x, y, theta = s.coordinates("w x y theta")
+    cart = s.point("cart", (w, 0))
+    s.rigid_body(3, 1, at=cart, frame=s.frame(0), name="trolley")
+    body = s.frame(theta, origin=s.point("C", (x, y)))
+    s.rigid_body(2, 0.3, at=body.point(0, 0), frame=body)
+    s.gravity(g=G)
+    s.pin((body.point(0, 0.5), cart), name="pin")
+    s.friction(0.05, pressed_by=["pin.x", "pin.y"], deflection=theta, name="dry")
+    run = s.simulate(0.1, initial={"y": -0.5, "theta'": 5.0, "x'": 2.5}, **TIGHT)
+    rail = run.reaction("cart").force
+    assert rail[:, 1] == pytest.approx(3 * G + 2 * (run["y''"] + G), abs=1e-9)
+    assert 3 * run["w''"] == pytest.approx(-run["pin.x"], abs=1e-9)

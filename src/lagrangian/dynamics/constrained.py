@@ -15,8 +15,8 @@ from dataclasses import dataclass
 
 from lagrangian.dynamics.guard import LEAST_MARGIN
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.multipliers import Problem, RowSolution
 from lagrangian.dynamics.ordering import cheapest_solution
+from lagrangian.dynamics.row_problem import Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Matrix, Vector, dot, times, zeros
 from lagrangian.graph import Graph, jvp, replaced, vjp

@@ -15,8 +15,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.multipliers import Problem
 from lagrangian.dynamics.ordering import Order, cheapest_solution, solution_in
+from lagrangian.dynamics.row_problem import Problem
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Matrix, Vector, minus, transposed, zeros
 from lagrangian.graph import Tangents, replaced, vjp

@@ -26,8 +26,8 @@ from lagrangian.dynamics.constrained import (
     velocity_correction,
 )
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.multipliers import RowSolution
 from lagrangian.dynamics.programs import _program, _start, _vector
+from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
 from lagrangian.graph import Output, Program, vjp

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.dynamics.multipliers import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.ordering import Order, cheapest_solution, solution_in
+from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import Graph, Output, Program, evaluate, reached

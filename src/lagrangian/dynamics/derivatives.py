@@ -24,9 +24,9 @@ from dataclasses import dataclass
 from lagrangian.dynamics.constrained_derivatives import constrained_slopes
 from lagrangian.dynamics.floating import bracket
 from lagrangian.dynamics.mechanics import MANY, Mechanics
-from lagrangian.dynamics.multipliers import Problem
 from lagrangian.dynamics.programs import _matrix, _program, _start, _vector
 from lagrangian.dynamics.recorded import RecordedElimination
+from lagrangian.dynamics.row_problem import Problem
 from lagrangian.dynamics.vectors import Matrix, Vector, dot, plus, product, scaled, transposed, zeros
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, Tangents, count_operations, jvp, replaced, vjp

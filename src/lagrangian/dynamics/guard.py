@@ -14,7 +14,7 @@ of three parallel cranks, each row can be spared only while its own share of the
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.graph import Graph
@@ -69,6 +69,11 @@ class Guard:
         self.groups: dict[str, list[int]] = {}
         for row, closure in self.closures.items():
             self.groups.setdefault(closure, []).append(row)
+
+    def join(self, rows: Sequence[int]) -> None:
+        """Measure the closures of some rows together, because combinations of these rows are taken."""
+        whole = list(dict.fromkeys(x for row in rows for x in self.groups[self.closures[row]]))
+        self.groups.update({self.closures[row]: whole for row in rows})
 
     def gain(self, row: int, size: int) -> None:
         """Add what one rate gives to a row's size, a_k²/h_kk."""

@@ -21,7 +21,7 @@ from lagrangian.dynamics.drags import AttachedDrag, pressing_force, slip_factor
 from lagrangian.dynamics.floating import Float, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
-from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
+from lagrangian.dynamics.row_problem import AttachedRow, Problem, RowSolution
 from lagrangian.dynamics.rows import Added, ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import bare, dot, minus, plus, zeros

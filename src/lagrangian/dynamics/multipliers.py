@@ -18,107 +18,18 @@ The λ of this form is −λ of `rows`.
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from lagrangian.dynamics.accelerations import Elimination, Quadratic, no_inertia
-from lagrangian.dynamics.drags import AttachedDrag, Pressing
+from lagrangian.dynamics.accelerations import Elimination, no_inertia
+from lagrangian.dynamics.drags import Pressing
 from lagrangian.dynamics.guard import Guard, Spared
-from lagrangian.dynamics.rows import ConstraintRow
-from lagrangian.dynamics.tape import EliminationTape, Form
-from lagrangian.dynamics.vectors import bare
-from lagrangian.errors import ModelError
-from lagrangian.graph import Graph
-from lagrangian.model.spare import SpareRows
+from lagrangian.dynamics.massless import combine, eliminate_pair
+from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
+from lagrangian.dynamics.tape import Form
 
 ROUNDING = 1e-12
 """A number below this is what is left of 0, such as cos of a rounded π/2: nothing is divided by it."""
-
-
-class DependentRow(ModelError):
-    """A row whose coefficients depend on those of other rows in every state: ``row``, and the node of its ``residual``.
-
-    If the residual is zero, the row repeats others. If it is not, the rows contradict each other.
-    """
-
-    def __init__(self, row: ConstraintRow, residual: int) -> None:
-        self.row, self.residual = row, residual
-        super().__init__(
-            f"the constraint '{row.name}' depends on the other constraints in every position",
-            fix="leave it out",
-            code="E202",
-        )
-
-
-@dataclass(frozen=True)
-class AttachedRow:
-    """A row in an elimination: the ``node`` whose rate, times ``sign`` (±1 as a node), changes by −``value``."""
-
-    row: ConstraintRow
-    node: int
-    sign: int
-    value: int
-
-    @classmethod
-    def of(cls, graph: Graph, row: ConstraintRow, value: int) -> AttachedRow:
-        """A row with its rate's own node, whatever its sign."""
-        node, negative = bare(graph, row.rate)
-        return cls(row, node, graph.negative if negative else graph.one, value)
-
-
-@dataclass(frozen=True)
-class Problem:
-    """The input of an elimination: H and g along a tape, subject to rows. The result is added to ``reference``.
-
-    With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too. ``spare``
-    are sets of rows in which some are known to follow from others along the motion. ``drags`` are frictions that
-    multipliers press on.
-    """
-
-    graph: Graph
-    tape: EliminationTape
-    H: Quadratic
-    linear: Mapping[int, int]
-    rows: Sequence[AttachedRow]
-    rates: Sequence[int]
-    reference: Sequence[int]
-    names: Mapping[int, str]
-    constant: Callable[[Sequence[int]], bool]
-    strict: bool = True
-    spare: Sequence[SpareRows] = ()
-    drags: Sequence[AttachedDrag] = ()
-
-    def drag_key(self, k: int) -> int:
-        """The key of the force of a drag: it follows those of the multipliers."""
-        return -1 - len(self.rows) - k
-
-    def spared(self, order: Sequence[int]) -> dict[int, Spared]:
-        """The sets with spare rows by multiplier, if multipliers are eliminated by pivots in this order."""
-        found: dict[int, Spared] = {}
-        for group in self.spare:
-            rows = tuple(key for key in order if self.rows[-1 - key].row.name in group.names)
-            if len(rows) >= group.count:
-                found.update(dict.fromkeys(rows, Spared(rows, group.count)))
-        return found
-
-
-@dataclass(frozen=True)
-class RowSolution:
-    """``vdot``, and one node for each row of the following.
-
-    These are λ with the sign of `rows` (nearly 0 for a skipped row), the margin, the residual of a skipped row (else
-    0), the sum of the magnitudes that cancel in it, and whether the row was used. ``divisors`` are divisors that no
-    margin watches, with the names of their rows. ``pressing`` are the equations of multipliers that press on friction.
-    """
-
-    vdot: list[int]
-    multipliers: list[int]
-    margins: list[int]
-    residuals: list[int]
-    sizes: list[int]
-    regular: list[int]
-    divisors: list[tuple[str, int]]
-    pressing: Pressing | None = None
 
 
 @dataclass
@@ -131,13 +42,16 @@ class RowElimination(Elimination):
     sizes: dict[int, int] = field(default_factory=dict[int, int])
     divisors: list[tuple[str, int]] = field(default_factory=list[tuple[str, int]])
     bare: set[int] = field(default_factory=set[int])
+    combining: bool = field(default=False, kw_only=True)
+    combined: dict[int, int] = field(default_factory=dict[int, int])
     done: set[int] = field(default_factory=set[int])
 
     @classmethod
-    def of(cls, problem: Problem, order: Sequence[int] = ()) -> RowElimination:
+    def of(cls, problem: Problem, order: Sequence[int] = (), *, combining: bool = False) -> RowElimination:
         """The elimination of a problem before its first step.
 
-        ``order``: the multipliers that will be eliminated by a pivot, if it is known from a trial.
+        ``order``: the multipliers that will be eliminated by a pivot, if it is known from a trial. With ``combining``,
+        rows are combined for rates without inertia of which nothing else can be said (`massless`).
         """
         made = cls(
             problem.graph,
@@ -147,6 +61,7 @@ class RowElimination(Elimination):
             problem.names,
             problem=problem,
             spared=problem.spared(order),
+            combining=combining,
         )
         made._attach()
         return made
@@ -241,7 +156,8 @@ class RowElimination(Elimination):
         """Add x to g_i; for rows the magnitudes are summed too."""
         super().add_linear(i, x)
         if i < 0 and x != self.graph.zero:
-            self.sizes[i] = self.graph.add(self.sizes.get(i, self.graph.zero), self.graph.abs(x))
+            own = self.own(i)
+            self.sizes[own] = self.graph.add(self.sizes.get(own, self.graph.zero), self.graph.abs(x))
 
     def take(self, i: int, *, pairs: bool) -> None:
         """Eliminate the next entry of the tape, with the multiplier that is paired with it."""
@@ -281,6 +197,8 @@ class RowElimination(Elimination):
         elif massless and not self.problem.strict and not self.H.rows.get(i):
             self.g.pop(i, None)
             self.found.append((i, self.graph.zero, {}))
+        elif self.combining and (massless or self.too_early(i)) and self._rows_on(i):
+            self._combine(i)
         elif self.problem.strict and self.too_early(i):
             raise no_inertia(name)
         else:
@@ -298,7 +216,7 @@ class RowElimination(Elimination):
             inverse = g.div(g.one, row[k])
             for key, a in row.items():
                 if key < 0:
-                    self.guard.gain(key, g.mul(g.mul(a, inverse), a))
+                    self.guard.gain(self.own(key), g.mul(g.mul(a, inverse), a))
         super().minimise(k, name)
 
     def take_row(self, key: int) -> None:
@@ -307,12 +225,13 @@ class RowElimination(Elimination):
         row, linear = self.H.pop(key), self.g.pop(key, g.zero)
         pivot = row.pop(key, g.zero)
         del self.support[key]
+        own = self.own(key)
         if pivot != g.zero:
-            self.eliminate(key, row, linear, self.guard.reciprocal(key, pivot, linear))
+            self.eliminate(key, row, linear, self.guard.reciprocal(own, pivot, linear))
             return
         if self.problem.strict:
-            raise DependentRow(self.problem.rows[-1 - key].row, linear)
-        self.guard.leave_out(key, linear)
+            raise DependentRow(self.problem.rows[-1 - own].row, linear)
+        self.guard.leave_out(own, linear)
         self.found.append((key, g.zero, {}))
 
     def _take_pair(self, k: int, key: int) -> None:
@@ -323,13 +242,13 @@ class RowElimination(Elimination):
         row, value = H.pop(key), self.g.pop(key, g.zero)
         del row[k]
         if g.value(a) is None:
-            self.divisors.append((self.problem.rows[-1 - key].row.name, a))
+            self.divisors.append((self.problem.rows[-1 - self.own(key)].row.name, a))
         if h != g.zero:  # what leaves the other rows with this rate still belongs to their size
             inverse = g.div(g.one, h)
             for other, x in own.items():
                 if other < 0:
-                    self.guard.gain(other, g.mul(g.mul(x, inverse), x))
-        self.guard.certain(key)
+                    self.guard.gain(self.own(other), g.mul(g.mul(x, inverse), x))
+        self.guard.certain(self.own(key))
         over = g.neg(g.div(g.one, a))
         constant = g.mul(value, over)
         form: Form = {j: g.mul(x, over) for j, x in row.items()}
@@ -340,6 +259,26 @@ class RowElimination(Elimination):
             for j, x in own.items():
                 self.add_linear(j, g.mul(x, constant))
         self.substitute(k, form)
+
+    def own(self, key: int) -> int:
+        """The row that a multiplier belongs to; a combined one belongs to that in whose place it is."""
+        return self.combined.get(key, key)
+
+    def _rows_on(self, k: int) -> list[int]:
+        """The open multipliers that act on a rate."""
+        return [key for key in self.H.rows.get(k, {}) if key < 0 and self.is_open(key)]
+
+    def _combine(self, k: int) -> None:
+        """Eliminate a rate without inertia with a combination of the rows that hold it."""
+        old = self._rows_on(k)
+        new = [self.problem.drag_key(len(self.problem.drags) + len(self.combined) + n) for n in range(len(old))]
+        self.combined.update({key: self.own(row) for key, row in zip(new, old, strict=True)})
+        reached = set[int]().union(*(self.support.pop(row) for row in old)) - {k}
+        combine(self, k, old, new)
+        self.support.update({key: set(reached) for key in new[1:]})
+        self.guard.join([self.own(row) for row in old])
+        self.guard.certain(self.own(new[0]))
+        eliminate_pair(self, k, new[0])
 
     # -- result -------------------------------------------------------------------------------------------------
 

@@ -7,9 +7,11 @@ take the cheapest possible step next is better for small systems.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from itertools import islice
 
-from lagrangian.dynamics.multipliers import DependentRow, Problem, RowElimination, RowSolution
+from lagrangian.dynamics.multipliers import RowElimination
+from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.errors import ModelError
 from lagrangian.graph import count_operations
 
@@ -20,9 +22,11 @@ MOST_FREE = 60
 """Up to this number of rates, every step is chosen as the cheapest."""
 
 
-def tape_backwards(problem: Problem, *, pairs: bool, order: Sequence[int] = ()) -> RowElimination:
+def tape_backwards(
+    problem: Problem, *, pairs: bool, order: Sequence[int] = (), combining: bool = False
+) -> RowElimination:
     """Go backwards over the tape, and eliminate every multiplier as soon as the rules allow it."""
-    e = RowElimination.of(problem, order)
+    e = RowElimination.of(problem, order, combining=combining)
     _settle(e, pairs=pairs)
     for i in reversed(problem.tape.order):
         if i not in e.done:
@@ -45,9 +49,11 @@ def _settle(e: RowElimination, *, pairs: bool) -> None:
             return
 
 
-def cheapest_first(problem: Problem, *, pairs: bool, order: Sequence[int] = ()) -> RowElimination:
+def cheapest_first(
+    problem: Problem, *, pairs: bool, order: Sequence[int] = (), combining: bool = False
+) -> RowElimination:
     """Take the cheapest of all possible steps next."""
-    e = RowElimination.of(problem, order)
+    e = RowElimination.of(problem, order, combining=combining)
     ready: set[int] = set()
     mates = {first: i for i, (first, *_) in problem.tape.turned.items()}
     while True:
@@ -105,9 +111,14 @@ Order = tuple[int, Callable[..., RowElimination], bool]
 """Which of several problems is eliminated, in what order, and whether with pairs."""
 
 
-def solutions(problem: Problem) -> Iterator[tuple[RowSolution | ModelError, Callable[..., RowElimination], bool]]:
+def solutions(
+    problem: Problem, *, combining: bool = False
+) -> Iterator[tuple[RowSolution | ModelError, Callable[..., RowElimination], bool]]:
     """The solutions in all orders to be compared, or the reason why there is none; in large systems only the tape's."""
-    ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
+    ways: list[Callable[..., RowElimination]] = [tape_backwards, cheapest_first]
+    ways = ways if len(problem.rates) <= MOST_FREE else ways[:1]
+    if combining:
+        ways = [partial(way, combining=True) for way in ways]
     for way in ways:
         for pairs in (True, False) if len(problem.rates) <= FEW else (True,):
             try:
@@ -135,19 +146,24 @@ def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) 
     """The solution with the fewest operations for v̇ and λ, or for v̇ alone, and its order; terms of parameters are not
     counted.
 
-    Raises the `ModelError` of the first order if no order succeeds, and `DependentRow`.
+    Where no order succeeds, rows are combined for rates without inertia (`massless`). Raises the `ModelError` of the
+    first order if that fails too, and `DependentRow`.
     """
     best: tuple[int, RowSolution, Order] | None = None
     failed: list[ModelError] = []
-    for at, problem in enumerate(problems):
-        for found, way, pairs in solutions(problem):
-            if isinstance(found, ModelError):
-                failed.append(found)
-                continue
-            wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
-            cost = count_operations(problem.graph, wanted, hoist=["p"]).operations
-            if best is None or cost < best[0]:
-                best = cost, found, (at, way, pairs)
-    if best is None:
-        raise failed[0]
-    return best[1:]
+    tried: list[Problem] = []
+    for combining in (False, True):
+        failed.clear()
+        for at, problem in enumerate(tried if combining else problems):
+            tried += () if combining else (problem,)
+            for found, way, pairs in solutions(problem, combining=combining):
+                if isinstance(found, ModelError):
+                    failed.append(found)
+                    continue
+                wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
+                cost = count_operations(problem.graph, wanted, hoist=["p"]).operations
+                if best is None or cost < best[0]:
+                    best = cost, found, (at, way, pairs)
+        if best is not None:
+            return best[1:]
+    raise failed[0]

@@ -140,7 +140,7 @@ def _of_joint(seen: Observed, asked: Any, on: Any) -> tuple[Vector, list[Vector]
     m, _ = described(model, g, seen.inputs, release)
     own = kept[0]
     total = own.inertial(m, seen.vdot)
-    dragged = m.dragged_by({drag.row: seen.multiplier(drag.row) for drag in m.drags})
+    dragged = m.dragged_by({row: seen.multiplier(row) for drag in m.drags for row in drag.rows})
     pairs = [pair for pair in (*m.stores, *m.efforts, *dragged) if g.zero not in pair]
     applied = vjp(g, [rate for rate, _ in pairs], [effort for _, effort in pairs], w)
     total = minus(g, minus(g, total, applied), own.of_rows(seen))

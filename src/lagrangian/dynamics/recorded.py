@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from lagrangian.dynamics.accelerations import Elimination
-from lagrangian.dynamics.multipliers import Problem
+from lagrangian.dynamics.row_problem import Problem
 from lagrangian.dynamics.tape import Form
 from lagrangian.graph import Graph
 
