@@ -259,8 +259,9 @@ class System(Simulated):
         """Write the dynamics for other programs; the ending of the path says for which, or ``to`` does.
 
         ``name.c`` (with ``name.h``), ``name.py`` and ``name.js`` are source code without dependencies, ``name.m``
-        functions ``name_forward.m``, … for MATLAB and Octave with the script ``name_steps.m``, and ``name.wasm`` the
-        integrator for browsers. `docs/exports.md` lists all targets. Return the paths of the files.
+        functions ``name_forward.m``, … for MATLAB and Octave with the script ``name_steps.m``, ``name.jl`` a module of
+        Julia, and ``name.wasm`` the integrator for browsers; with ``to``, ``name.py`` is a module of "jax" or
+        "casadi". `docs/exports.md` lists all targets. Return the paths of the files.
 
         Raises `ModelError` for an ending or a target that is not supported, and `Error` if a file exists, unless
         ``overwrite``, or if it cannot be written.

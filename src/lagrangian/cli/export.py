@@ -25,6 +25,9 @@ class Language(StrEnum):
     JAVASCRIPT = "javascript"
     WASM = "wasm"
     MATLAB = "matlab"
+    JAX = "jax"
+    CASADI = "casadi"
+    JULIA = "julia"
 
 
 def export(

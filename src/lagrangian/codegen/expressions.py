@@ -7,13 +7,13 @@ node has a name of its own. A `SourceNotation` says how a language writes operat
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lagrangian.graph import operands, reached
 
-from .labels import comment, identifier
+from .labels import comment, identifier, unit
 from .tape import Op
 
 if TYPE_CHECKING:
@@ -108,3 +108,49 @@ def expression(node: Op, text: Mapping[int, Written], notation: SourceNotation) 
 
 def _within(words: Written, need: int) -> str:
     return words[0] if words[1] >= need else f"({words[0]})"
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument of an exported function: its identifier, its group, and the names of the entries."""
+
+    word: str
+    group: str
+    entries: tuple[str, ...]
+
+    def described(self, units: Mapping[str, str]) -> str:
+        """The first entries with their units."""
+        shown = [comment(e) + (f" [{unit(units[e])}]" if units.get(e) else "") for e in self.entries[:20]]
+        return ", ".join(shown) + (", ..." if len(self.entries) > 20 else "")
+
+
+def arguments_of(program: Program) -> tuple[Argument, ...]:
+    """One argument for each group of inputs, in the program's order."""
+    return tuple(Argument(identifier("in_", g, k), g, tuple(x)) for k, (g, x) in enumerate(program.inputs.items()))
+
+
+def signature(program: Program, arguments: Sequence[Argument], joined: str = "=") -> str:
+    """The list of arguments; from the end on they may be omitted: inputs and time are 0, parameters as declared."""
+    words: list[str] = []
+    optional = True
+    for x in reversed(arguments):
+        default = None
+        if x.group == "t" and len(x.entries) == 1:
+            default = "0.0"
+        elif x.group == "p" and x.entries and None not in [program.defaults.get(e) for e in x.entries]:
+            default = "PARAMETERS"
+        elif x.group == "u" or not x.entries:
+            default = f"({'0.0, ' * len(x.entries)})".replace(", )", ",)" if len(x.entries) == 1 else ")")
+        optional = optional and default is not None
+        words.append(f"{x.word}{joined}{default}" if optional else x.word)
+    return ", ".join(reversed(words))
+
+
+def declared_values(program: Program) -> list[str]:
+    """The declared values of the parameters as a constant, for a language that writes tuples as Python does."""
+    entries = program.inputs.get("p", ())
+    values = [program.defaults.get(e) for e in entries]
+    if not entries or None in values:
+        return []
+    rows = [f"    {float(x)!r},  # {comment(e)}" for e, x in zip(entries, values, strict=True) if x is not None]
+    return ["PARAMETERS = (", *rows, ")"]

@@ -6,7 +6,7 @@ import keyword
 from typing import TYPE_CHECKING
 
 from .arguments import is_scalar
-from .expressions import SourceNotation, assignments
+from .expressions import SourceNotation, assignments, declared_values
 from .labels import comment, identifier, word
 
 if TYPE_CHECKING:
@@ -60,8 +60,13 @@ def to_numpy(program: Program, *, name: str | None = None) -> str:
         function = "evaluate"
     groups = [(identifier("in_", g, k), g, tuple(entries)) for k, (g, entries) in enumerate(program.inputs.items())]
     lines = [f'"""{comment(program.name)}, as a function of NumPy arrays."""', "", "import numpy as np", ""]
-    parameters = _parameters(program)
-    lines += [*parameters, "", f"def {function}({_arguments(groups, bool(parameters))}):"]
+    parameters = declared_values(program)
+    lines += [
+        *parameters,
+        *([""] if parameters else ()),
+        "",
+        f"def {function}({_arguments(groups, bool(parameters))}):",
+    ]
     lines += _docstring(program, groups)
     lines += _preparation(program, groups)
     lines += [
@@ -79,16 +84,6 @@ def to_numpy(program: Program, *, name: str | None = None) -> str:
         answers.append(f"out{k}.reshape((*lead, {', '.join(str(n) for n in output.shape)}))".replace(", ))", ",))"))
     lines.append(f"    return {', '.join(answers)}")
     return "\n".join(lines) + "\n"
-
-
-def _parameters(program: Program) -> list[str]:
-    """The declared values of the parameters as a constant, if all are known."""
-    entries = program.inputs.get("p", ())
-    values = [program.defaults.get(e) for e in entries]
-    if not entries or None in values:
-        return []
-    rows = [f"    {float(x)!r},  # {comment(e)}" for e, x in zip(entries, values, strict=True) if x is not None]
-    return ["PARAMETERS = (", *rows, ")", ""]
 
 
 def _arguments(groups: list[tuple[str, str, tuple[str, ...]]], parameters: bool) -> str:

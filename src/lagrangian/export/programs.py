@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lagrangian import dynamics
+from lagrangian.codegen.labels import comment
 from lagrangian.graph import Program
 from lagrangian.model import Model
 
@@ -50,6 +51,12 @@ def program_of(model: Model, name: str) -> Program:
 def named_programs(model: Model, stem: str, *, whole: bool = False) -> dict[str, Program]:
     """Return the programs of an exported file by the names of their functions, ``stem_forward``, …."""
     return {f"{stem}_{name}": program_of(model, name) for name in exported(model, whole=whole)}
+
+
+def coordinates_listed(model: Model) -> str:
+    """The names of the coordinates for a comment."""
+    names = ", ".join(comment(c.name) for c in model.coordinates[:20])
+    return names + (", ..." if len(model.coordinates) > 20 else "")
 
 
 def unit_table(model: Model) -> dict[str, str]:

@@ -43,6 +43,9 @@ TARGETS: dict[str, ExportTarget] = {
     "javascript": ExportTarget(".js", "javascript", whole=False),
     "wasm": ExportTarget(".wasm", "wasm"),
     "matlab": ExportTarget(".m", "matlab", longest=50),  # MATLAB reads 63 characters of stem_mass_matrix
+    "jax": ExportTarget(".py", "jax_module"),
+    "casadi": ExportTarget(".py", "casadi_module"),
+    "julia": ExportTarget(".jl", "julia_module"),
 }
 """Everything that a system can be exported to; of targets with the same ending the first is meant by it."""
 

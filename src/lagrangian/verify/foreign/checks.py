@@ -14,7 +14,9 @@ from lagrangian.export import programs, targets
 from lagrangian.graph import Program
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, text
+from lagrangian.verify.foreign.julia import julia_answers
 from lagrangian.verify.foreign.octave import octave_answers
+from lagrangian.verify.foreign.python_modules import casadi_answers, jax_answers
 from lagrangian.verify.foreign.runs import Answers, Array, MissingError, RefusedError
 from lagrangian.verify.states import State, cancelling, evaluated, relative
 
@@ -33,6 +35,9 @@ Runner: TypeAlias = Callable[
 
 RUNNERS: dict[str, tuple[str, Runner]] = {
     "matlab": ("Octave", octave_answers),
+    "jax": ("JAX", jax_answers),
+    "casadi": ("CasADi", casadi_answers),
+    "julia": ("Julia", julia_answers),
 }
 """Target → the program that runs it, and how."""
 
