@@ -111,7 +111,7 @@ def _within(words: Written, need: int) -> str:
 
 
 @dataclass(frozen=True)
-class Argument:
+class SourceArgument:
     """An argument of an exported function: its identifier, its group, and the names of the entries."""
 
     word: str
@@ -124,12 +124,14 @@ class Argument:
         return ", ".join(shown) + (", ..." if len(self.entries) > 20 else "")
 
 
-def arguments_of(program: Program) -> tuple[Argument, ...]:
+def arguments_of(program: Program) -> tuple[SourceArgument, ...]:
     """One argument for each group of inputs, in the program's order."""
-    return tuple(Argument(identifier("in_", g, k), g, tuple(x)) for k, (g, x) in enumerate(program.inputs.items()))
+    return tuple(
+        SourceArgument(identifier("in_", g, k), g, tuple(x)) for k, (g, x) in enumerate(program.inputs.items())
+    )
 
 
-def signature(program: Program, arguments: Sequence[Argument], joined: str = "=") -> str:
+def signature(program: Program, arguments: Sequence[SourceArgument], joined: str = "=") -> str:
     """The list of arguments; from the end on they may be omitted: inputs and time are 0, parameters as declared."""
     words: list[str] = []
     optional = True

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from .arguments import is_scalar
-from .expressions import Argument, arguments_of, assignments, signature
+from .expressions import SourceArgument, arguments_of, assignments, signature
 from .labels import comment
 from .numpy_source import CALLS, NUMPY
 
@@ -54,7 +54,7 @@ def to_jax(program: Program, *, name: str, units: Mapping[str, str] | None = Non
     return "\n".join([*lines, f"    return {', '.join(answers)}"]) + "\n"
 
 
-def _docstring(program: Program, groups: tuple[Argument, ...], units: Mapping[str, str]) -> list[str]:
+def _docstring(program: Program, groups: tuple[SourceArgument, ...], units: Mapping[str, str]) -> list[str]:
     """The arguments with their entries, and the results."""
     lines = [f'    """{comment(program.name)}, of arrays of shape (..., n); leading dimensions are broadcast.', ""]
     for g in groups:
