@@ -16,6 +16,7 @@ import sympy as sp
 from built_in import derivation
 from lagrangian.check import say
 from lagrangian.check.changes.change import Site
+from lagrangian.check.changes.letters import LetterChanges
 from lagrangian.check.changes.pool import Pool, pool_of
 from lagrangian.check.changes.ring import ONE, SumRing, plus
 from lagrangian.check.changes.slopes import AtomSlopes
@@ -127,3 +128,12 @@ def test_terms_are_told_in_the_scale_of_the_answer() -> None:
     answer += "(1+M/m)*x'' + l*cos(theta)*theta'' + l*sin(theta)*theta'^2 + b*x'/m = F/m"
     verdict = check_answer(derivation("cart-pole"), answer)
     assert str(verdict.mistakes[0].what).startswith("The term -l*sin(theta)*theta'^2 of the equation of x")
+
+
+def test_lengths_and_ratios_are_known_by_their_units() -> None:
+    """Without them no arm, no radius and no gear ratio is ever named as wrong."""
+    p = pool("cart-pole")
+    letters = LetterChanges(p.sites)
+    assert [str(x) for x in letters.lengths] == ["l"] and letters.ratios == []
+    kinds = {x.change.kind for x in p.all if x.change is not None}
+    assert {"foreign_factor", "divided_by", "arm_added", "inertia_form"} <= kinds

@@ -16,6 +16,7 @@ from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import differences, likeness, paired
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
+from lagrangian.check.multipliers import with_own_multipliers
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
 from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
@@ -58,10 +59,26 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
     """The verdict on an answer whose own names are written out."""
     written = filled(truth, lines)
     if truth.derivation.multipliers:
-        return check_constrained(truth, written, hint)
+        verdict = check_constrained(truth, written, hint)
+        return _named_with_multipliers(truth, written, verdict) if explain else verdict
     written, told = speeds(truth, written)
     verdict = _valued(truth, lines, written, hint, explain)
     return replace(verdict, notes=(*told, *verdict.notes))
+
+
+def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict on a wrong answer with multipliers, with the mistakes that its equations, taken one by one, show."""
+    read = with_own_multipliers(truth, lines) if verdict.status is Status.WRONG else None
+    if read is None:
+        return verdict
+    rows, told = read
+    judged = _judged(truth, rows)
+    named = mistakes(truth, rows, judged.findings)
+    if not named.told or named.left:
+        return verdict
+    better = {f.line.number: f for f in judged.findings}
+    findings = tuple(better.get(f.line.number, f) for f in verdict.findings)
+    return replace(verdict, findings=findings, mistakes=named.told, alternatives=named.others, notes=told)
 
 
 def _valued(

@@ -32,7 +32,7 @@ from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.verify.on_rows import OnRows
-from lagrangian.verify.states import evaluated
+from lagrangian.verify.states import evaluated, state_groups
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -41,6 +41,12 @@ STATES = 8
 
 SMALL = 1e-9
 """The relative size below which a difference is rounding."""
+
+POSITIONS = 3
+"""Positions at which an answer's multipliers are compared with those of the system."""
+
+ROUGH = 1e-6
+"""The relative size of a difference of multipliers that is more than rounding."""
 
 MOST = 10
 """Lines among which those are sought that are true together."""
@@ -122,7 +128,14 @@ def _verdict(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, give
         true = _true_lines(places, len(equations)) if places else set[int]()
         for j, line in enumerate(equations):
             found[id(line)] = _finding(truth, line, j, places, j in true)
-        if places and len(true) == len(equations):
+        if places and len(true) == len(equations) and not _are_forces(truth, equations, unknown, given=given):
+            status = Status.WRONG
+            notes.append(_no_force(unknown))
+            held = [
+                line for line in equations if set(unknown) & {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+            ]
+            found |= {id(line): Finding(line, Status.WRONG) for line in held}
+        elif places and len(true) == len(equations):
             notes += _named(truth, unknown, places)
             status = _complete(truth, places, notes) or _worst([f.status for f in found.values()])
         elif places:
@@ -169,37 +182,96 @@ def _programs(derivation: Derived) -> tuple[OnRows, tuple[Program, ...]]:
     return OnRows(model), made
 
 
+class _Answer:
+    """The equations of an answer, ready to be evaluated at states that satisfy the constraints."""
+
+    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic]) -> None:
+        d = truth.derivation
+        self.truth, self.unknown, self.count = truth, list(unknown), len(lines)
+        self.on_rows, self.programs = _programs(d)
+        wanted: list[sp.Expr] = [line.expr for line in lines]
+        self.along: list[sp.Expr] = list(d.minimal.S.flat()) if d.minimal is not None else []
+        self.coordinates = truth.model.coordinates
+        atoms = [x for c in self.coordinates for x in (c.symbol, c.rate, c.acceleration)]
+        atoms += [x.symbol for x in (*truth.model.parameters, *truth.model.inputs)]
+        self.skipped = len(atoms)
+        self.sampler = Sampler(truth.model, [*atoms, *wanted, *self.along])
+
+    def _values(self, here: dict[sp.Basic, float]) -> Array:
+        return np.array(self.sampler.at(here)[self.skipped : self.skipped + self.count])
+
+    def at(self, state: dict[sp.Basic, float], groups: dict[str, list[float]]) -> AnswerAt:
+        """The answer at one state with the true accelerations, which are put into ``state``."""
+        n, coordinates = self.truth.n, self.coordinates
+        a, rows, mass, lam = (evaluated(program, groups) for program in self.programs)
+        state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
+        changes = [*(c.acceleration for c in coordinates), *self.unknown]
+        still = {**state, **dict.fromkeys(self.unknown, 0.0)}
+        value = self._values(still)
+        slopes = np.array([self._values({**still, x: still[x] + 1.0}) - value for x in changes]).T
+        size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(self._values(state))
+        off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
+        size = np.maximum(size, np.abs(self._values({**still, **off})))
+        A, M = np.array(rows["A"], float).reshape(-1, n), np.array(mass["M"], float).reshape(n, n)
+        S = self.sampler.at(state)[self.skipped + self.count :]
+        along = np.array(S).reshape(n, -1) if self.along else np.zeros((n, 0))
+        return AnswerAt(
+            value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)
+        )
+
+    def motions(self, state: dict[sp.Basic, float], count: int) -> Iterator[AnswerAt]:
+        """The answer at other rates and inputs in the same position."""
+        source = np.random.default_rng(7)
+        model = self.truth.model
+        for _ in range(count):
+            other = dict(state)
+            other.update({c.rate: float(source.uniform(-1.5, 1.5)) for c in self.coordinates})
+            other.update({u.symbol: float(source.uniform(-1.5, 1.5)) for u in model.inputs})
+            groups = self.on_rows.of(state_groups(model, other))
+            if groups is not None:
+                other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
+                other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
+                yield self.at(other, groups)
+
+
 def _places(
     truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
 ) -> Iterator[AnswerAt]:
     """The answer at random states that satisfy the constraints, with the true accelerations."""
-    d, n = truth.derivation, truth.n
-    on_rows, programs = _programs(d)
-    wanted: list[sp.Expr] = [line.expr for line in lines]
-    S = list(d.minimal.S.flat()) if d.minimal is not None else []
-    coordinates = truth.model.coordinates
-    atoms = [x for c in coordinates for x in (c.symbol, c.rate, c.acceleration)]
-    atoms += [x.symbol for x in (*truth.model.parameters, *truth.model.inputs)]
-    everything = Sampler(truth.model, [*atoms, *wanted, *S])
-    for state, groups in on_rows.states(everything, STATES, 1, given=given):
-        a, rows, mass, lam = (evaluated(program, groups) for program in programs)
-        state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
-        changes = [*(c.acceleration for c in coordinates), *unknown]
+    answer = _Answer(truth, lines, unknown)
+    for state, groups in answer.on_rows.states(answer.sampler, STATES, 1, given=given):
+        yield answer.at(state, groups)
 
-        def values(here: dict[sp.Basic, float], count: int = len(wanted)) -> Array:
-            return np.array(everything.at(here)[len(atoms) : len(atoms) + count])
 
-        still = {**state, **dict.fromkeys(unknown, 0.0)}
-        value = values(still)
-        slopes = np.array([values({**still, x: still[x] + 1.0}) - value for x in changes]).T
-        size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(values(state))
-        off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
-        size = np.maximum(size, np.abs(values({**still, **off})))
-        A, M = np.array(rows["A"], float).reshape(-1, n), np.array(mass["M"], float).reshape(n, n)
-        along = np.array(everything.at(state)[len(atoms) + len(wanted) :]).reshape(n, -1) if S else np.zeros((n, 0))
-        yield AnswerAt(
-            value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)
-        )
+def _are_forces(truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:
+    """Whether the answer's multipliers are those of the system times what depends on the position alone.
+
+    A multiplier that also takes up a slip in its equation, such as a centrifugal term left out, is not: at one
+    position it changes otherwise with rates and inputs.
+    """
+    if not unknown:
+        return True
+    answer = _Answer(truth, lines, unknown)
+    for state, _ in answer.on_rows.states(answer.sampler, POSITIONS, 1, given=given):
+        found = list(answer.motions(state, len(rows_of(truth.model)) + 4))
+        if any(np.linalg.matrix_rank(p.by_multiplier, tol=1e-8) < len(unknown) for p in found):
+            return True  # a multiplier that no line determines
+        own, right = np.array([_solved(p) for p in found]), np.array([p.multipliers for p in found])
+        if len(found) <= right.shape[1] + 1 or not (np.isfinite(own).all() and np.isfinite(right).all()):
+            continue
+        rest = own - right @ np.linalg.lstsq(right, own, rcond=1e-10)[0]
+        if np.abs(rest).max() > ROUGH * np.abs(own).max():
+            return False
+    return True
+
+
+def _no_force(unknown: Sequence[sp.Basic]) -> Text:
+    """Why a multiplier with which all equations hold is still not right."""
+    names = ", ".join(f"'{plain(s)}'" for s in unknown)
+    return text(
+        f"The motion would be right, but {names} would not be the force of the constraint alone: "
+        "it would take up what is wrong in its equation."
+    )
 
 
 def _consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:

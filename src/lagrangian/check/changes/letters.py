@@ -17,7 +17,7 @@ from lagrangian.check.changes.ring import Sum, TooLong, put, scaled, times
 from lagrangian.check.changes.sites import Sites
 from lagrangian.check.misconceptions.base import partner
 from lagrangian.model import Damper
-from lagrangian.values.dimensions import check_dimensions
+from lagrangian.values.dimensions import LENGTH, NONE, check_dimensions
 
 MOST_ANGLES = 10
 """The largest number of angles that are tried in place of another."""
@@ -251,14 +251,24 @@ class LetterChanges:
         found: list[sp.Symbol] = []
         for p in self.model.parameters:
             dim = dims.of(p.symbol)
-            if dim is not None and not dim.unknown and tuple(dim.known) == (0, 1, 0):
+            if dim is not None and not dim.unknown and dim.known == LENGTH.known:
                 found.append(p.symbol)
         return found
+
+    @cached_property
+    def ratios(self) -> list[sp.Symbol]:
+        """The parameters without a unit that are no angles, such as the ratio of a gear."""
+        dims = self._dimensions
+        if dims is None:
+            return []
+        angles = {x for f in (self.sites.of.T + self.sites.of.V).atoms(sp.sin, sp.cos) for x in f.free_symbols}
+        pure = [p.symbol for p in self.model.parameters if (d := dims.of(p.symbol)) and not d.unknown and d == NONE]
+        return [p for p in pure if p not in angles]
 
     def factors(self, places: Iterable[Site]) -> Iterator[LocalChange]:
         """A length too much or too little, once or squared, in every site."""
         for site in places:
-            for p in self.lengths:
+            for p in (*self.lengths, *self.ratios):
                 a = self.ring.atom(p)
                 held = min(dict(m).get(a, 0) for s in site.sums() for m in s)
                 for e in (1, -1, 2, -2):

@@ -25,4 +25,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for i, x in enumerate(slopes):
             if x != 0:
                 what = text(*([part] if part and s.V.has(s.q[i]) else []), Partial(L, s.q[i]), " has the wrong sign.")
-                yield Variant(what=what, rows={i: 2 * x}, coordinate=i)
+                yield Variant(what=what, rows={i: 2 * x}, coordinate=i, doubt=_of_one(s, i))
+
+
+def _of_one(s: Ingredients, i: int) -> int:
+    """A doubt if ∂L/∂ξ_i comes from one spring or from gravity alone: then that has the wrong sign, which says more."""
+    q = s.q[i]
+    parts = [s.expand(e.potential(s.model)) for e in s.model.elements if e.ledger == "V"]
+    return 2 * int(s.T.diff(q) == 0 and sum(x.has(q) for x in parts) == 1)
