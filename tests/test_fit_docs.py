@@ -17,3 +17,7 @@ def test_the_manuals_python_runs() -> None:
     exec(compile(code, "docs/fit.md", "exec"), names)
     sensitivities = names["s"]
     assert np.shape(sensitivities["theta2"]) == (301, 3)  # type: ignore[index]
+    found = names["found"]
+    for name, value in {"m2": 0.8, "L1": 1.1, "theta1": 0.7, "theta2": 0.4}.items():
+        assert abs(found.estimate[name] - value) < 4 * found.std[name]  # type: ignore[attr-defined]
+    assert [x.names for x in names["every"].undetermined] == [("m1", "m2"), ("L1", "L2", "g")]  # type: ignore[attr-defined]

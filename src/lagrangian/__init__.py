@@ -16,6 +16,8 @@ if _typing.TYPE_CHECKING:
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
+    from lagrangian.fit.result import Fit
+    from lagrangian.fit.uncertainty import Undetermined
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
     from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities
     from lagrangian.linear.along import MotionLinearization
@@ -51,6 +53,8 @@ else:
             "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
+            "fit.result": "Fit",
+            "fit.uncertainty": "Undetermined",
             "invariants.canonical_forms": "Hamiltonian Routhian",
             "invariants.conserved_quantities": "Conserved ConservedQuantities",
             "linear.along": "MotionLinearization",
@@ -97,6 +101,7 @@ __all__ = [
     "Error",
     "Event",
     "Execution",
+    "Fit",
     "Hamiltonian",
     "InverseDerivatives",
     "LedgerRow",
@@ -123,6 +128,7 @@ __all__ = [
     "SymbolicLinearization",
     "System",
     "Trajectory",
+    "Undetermined",
     "Why",
     "Worksheet",
     "compare",

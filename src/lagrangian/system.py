@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from lagrangian import read
 from lagrangian.calls import worded
+from lagrangian.designed import Designed
 from lagrangian.errors import ModelError, Place
 from lagrangian.model.without_friction import check_no_friction
-from lagrangian.simulated import Simulated
 from lagrangian.viewed import cut
 from lagrangian.write import check_free, write_file
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
 
 
 @worded
-class System(Simulated):
+class System(Designed):
     """A mechanical system: coordinates, parameters, points and elements, in the order they are described.
 
     >>> from sympy import cos, sin

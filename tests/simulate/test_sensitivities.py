@@ -30,6 +30,7 @@ def ball() -> lg.System:
     return system
 
 
+@pytest.mark.slow
 def test_a_cart_that_a_damper_stops_against_its_closed_solution() -> None:
     """x = v m/b (1 − e^(−bt/m)) + F/b (t − m/b (1 − e^(−bt/m))), differentiated by SymPy."""
     run = cart().simulate(3.0, samples=7, initial={"x'": 0.7}, inputs={"F": 1.5})
@@ -96,6 +97,7 @@ def test_the_time_of_a_terminal_event_changes_as_the_formula_says() -> None:
     assert found.t[-1] == pytest.approx(6 / g)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "options", [{"method": "rk4", "step": 1e-3}, {"method": "Radau"}, {"method": "gauss4", "step": 1e-3}]
 )
@@ -106,6 +108,7 @@ def test_other_methods_find_the_same(options: dict[str, Any]) -> None:
     np.testing.assert_allclose(other.changes, usual.changes, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_feedback_and_a_floating_frame_against_central_differences() -> None:
     system = lg.System("hull")
     hull, tau = system.floating_frame("hull"), system.input("tau")

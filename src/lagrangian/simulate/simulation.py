@@ -109,6 +109,14 @@ def simulate(
     return _judged(made)
 
 
+def run_of(task: Task, settings: Mapping[str, Any]) -> Trajectory:
+    """The run of a task whose arguments were checked, in a system without friction that sticks.
+
+    ``settings``: the tolerances to report.
+    """
+    return _judged(_trajectory(task, task.model, drift.ended(run(task), task), settings))
+
+
 def _undecided(task: Task) -> tuple[Notice, ...]:
     """A notice if M is singular at the start of a run with few coordinates."""
     model, n = task.model, len(task.model.coordinates)

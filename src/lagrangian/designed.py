@@ -1,0 +1,74 @@
+"""The verbs of a system that run it many times to find values: fit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from lagrangian.calls import worded
+from lagrangian.simulated import Simulated
+
+if TYPE_CHECKING:  # imported here only for types: describing a system does not have to wait for SciPy
+    from lagrangian.fit.result import Fit
+    from lagrangian.simulate.events import Event
+
+
+@worded
+class Designed(Simulated):
+    """The methods that find parameters, initial values and inputs of runs."""
+
+    def fit(
+        self,
+        data: Any,
+        parameters: Sequence[Any] | Mapping[Any, Any] | str,
+        *,
+        initial: Any = None,
+        params: Mapping[Any, Any] | Sequence[Mapping[Any, Any]] | None = None,
+        inputs: Mapping[Any, Any] | Sequence[Mapping[Any, Any]] | None = None,
+        sigma: float | Mapping[str, float] | None = None,
+        bounds: Mapping[Any, Any] | None = None,
+        start: float | str | None = None,
+        method: str | None = None,
+        step: float | str | None = None,
+        rtol: float = 1e-8,
+        atol: float = 1e-11,
+        events: Sequence[Event] | Event = (),
+        max_step: float | str = math.inf,
+        max_steps: int = 1_000_000,
+        max_events: int = 100_000,
+        timeout: float | None = None,
+        max_evaluations: int = 200,
+        **initial_by_name: Any,
+    ) -> Fit:
+        """Find the parameters and initial values whose runs fit measured data best; return a `lagrangian.Fit`.
+
+        >>> import numpy as np
+        >>> from lagrangian import example
+        >>> pendulum, t = example("pendulum"), np.linspace(0, 2, 41)
+        >>> swing = pendulum.simulate(times=t, theta=0.5, params={"L": 0.8})
+        >>> found = pendulum.fit({"t": t, "theta": swing["theta"]}, ["L", "theta"])
+        >>> round(found.estimate["L"], 6)
+        0.8
+
+        ``data`` are columns by name, ``{"t": times, "theta1": values}`` or ``{"theta1": (times, values)}``, a data
+        frame of pandas, or a list of these, one for each run. A name may be any expression; NaN is a missing sample.
+        ``parameters`` names the unknowns, or maps them to first guesses (by default their declared values). The name of
+        a state is its unknown initial value, another one in each run: ``theta1[0]``, ``theta1[1]``, … ``bounds`` maps
+        names to ``(low, high)``.
+
+        It minimizes Σ (model − data)²/σ² by SciPy's `least_squares` with the exact derivatives of the runs. ``sigma``
+        is the standard deviation of the noise of the columns; where it is not given it is estimated, for each column,
+        from what is left over. A run begins at ``start``, by default at its first time. ``initial``, ``params`` and
+        ``inputs`` are those of `simulate`, or lists with one mapping for each run; the others are its options, too.
+
+        Raises `RunError` for data, names and guesses that do not fit, and what `Trajectory.sensitivities` raises.
+        """
+        from lagrangian.fit.verb import FitOptions, fit
+
+        run_options = {
+            "method": method, "step": step, "rtol": rtol, "atol": atol, "events": events, "max_step": max_step,
+            "max_steps": max_steps, "max_events": max_events, "timeout": timeout,
+        }  # fmt: skip
+        options = FitOptions(initial, params, inputs, sigma, bounds, start, max_evaluations)
+        return fit(self.model, data, parameters, options, initial_by_name, run_options)

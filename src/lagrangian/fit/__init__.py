@@ -1,0 +1,1 @@
+"""Which constants fit measured data? Least squares with the sensitivities of runs."""
