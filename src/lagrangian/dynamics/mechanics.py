@@ -374,6 +374,7 @@ class Mechanics:
                 self._named,
                 self.motion.constant,
                 strict,
+                len(rows) > 1,  # of one row, −λ takes fewer operations
                 [spare for spare in self.spare if set(names).issuperset(spare.names)],
                 pressed,
             )

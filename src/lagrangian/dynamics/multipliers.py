@@ -12,7 +12,7 @@ say when a multiplier may be eliminated:
        | h_kk  a_k |
        | a_k    0  |      has the determinant −a_k² and never fails, even if the rate has no inertia.
 
-The λ of this form is −λ of `rows`.
+The λ of this form is −λ of `rows`, unless a problem is ``positive``: then g[λ_r] = −γ_r and H[c_r, λ_r] = −1.
 """
 
 from __future__ import annotations
@@ -82,9 +82,10 @@ class RowElimination(Elimination):
     def _attach(self) -> None:
         for r, attached in enumerate(self.problem.rows):
             key = -1 - r
-            self.add_linear(key, attached.value)
+            negative, g = self.problem.positive, self.graph
+            self.add_linear(key, g.neg(attached.value) if negative else attached.value)
             if attached.node in self.place:
-                self.H.add(attached.node, key, attached.sign)
+                self.H.add(attached.node, key, g.neg(attached.sign) if negative else attached.sign)
             self.support[key] = self._reached(attached.node)
         for k, drag in enumerate(self.problem.drags):
             if drag.node in self.place:
@@ -293,8 +294,8 @@ class RowElimination(Elimination):
         slopes: list[dict[int, int]] = []
         for force in forces:
             moved = self.accelerations({**dict.fromkeys(forces, g.zero), force: g.one}, slopes=True)
-            slopes.append({row: g.neg(moved[key]) for row, key in keys.items()})
-        return Pressing.of(g, problem.drags, {row: g.neg(still[key]) for row, key in keys.items()}, slopes)
+            slopes.append({row: problem.signed(moved[key]) for row, key in keys.items()})
+        return Pressing.of(g, problem.drags, {row: problem.signed(still[key]) for row, key in keys.items()}, slopes)
 
     def solution(self) -> RowSolution:
         """The solution, after everything is eliminated."""
@@ -309,9 +310,9 @@ class RowElimination(Elimination):
         keys = [-1 - r for r in range(len(problem.rows))]
         return RowSolution(
             [g.add(x, value.get(v, g.zero)) for v, x in zip(problem.rates, problem.reference, strict=True)],
-            [g.neg(value[key]) for key in keys],
+            [problem.signed(value[key]) for key in keys],
             [guard.margins[key] for key in keys],
-            [guard.skipped[key] for key in keys],
+            [g.neg(guard.skipped[key]) if problem.positive else guard.skipped[key] for key in keys],
             [self.sizes.get(key, g.zero) for key in keys],
             [guard.regular[key] for key in keys],
             self.divisors,

@@ -53,7 +53,7 @@ class Problem:
 
     With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too. ``spare``
     are sets of rows in which some are known to follow from others along the motion. ``drags`` are frictions that
-    multipliers press on.
+    multipliers press on. The unknowns of the rows are −λ of `rows`, or λ if ``positive``.
     """
 
     graph: Graph
@@ -66,8 +66,13 @@ class Problem:
     names: Mapping[int, str]
     constant: Callable[[Sequence[int]], bool]
     strict: bool = True
+    positive: bool = False
     spare: Sequence[SpareRows] = ()
     drags: Sequence[AttachedDrag] = ()
+
+    def signed(self, x: int) -> int:
+        """λ from the unknown of a row, or the other way round."""
+        return x if self.positive else self.graph.neg(x)
 
     def drag_key(self, k: int) -> int:
         """The key of the force of a drag: it follows those of the multipliers."""
