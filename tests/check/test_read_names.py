@@ -37,7 +37,7 @@ SHAFT = "p'' = (tau - b*(p' - q') - k*(p - q))/J1\nq'' = (b*(p' - q') - b_load*q
         ("pendulum", "g = 9.81\nm*L^2*theta'' + b*theta' + 9.81*m*L*sin(theta) = 0", ""),
         ("lecture-1", LEVER + " = T", "'T' was read as tau."),
         ("pendulum", "m*L^2*thdd + b*thd + m*g*L*sin(theta) = 0", "'thd' was read as theta'."),
-        ("pendulum", "m*L^2*th_ddot + b*th_dot + m*g*L*sin(th) = 0", "with th = theta"),
+        ("pendulum", "m*L^2*th_ddot + b*th_dot + m*g*L*sin(th) = 0", "'th' was read as theta."),
     ],
 )  # fmt: skip
 def test_names_of_the_answers_own_are_read_and_told(name: str, answer: str, said: str) -> None:

@@ -10,7 +10,16 @@ import sympy as sp
 from lagrangian.errors import did_you_mean
 from lagrangian.read.letters import foreign, key, normal, spelled, twin, undotted
 
-_RATE_SUFFIXES = (("_ddot", 2), ("_dot", 1), ("ddot", 2), ("dot", 1), ("_dd", 2), ("_d", 1))
+_RATE_SUFFIXES = (
+    ("_dot_dot", 2),
+    ("dotdot", 2),
+    ("_ddot", 2),
+    ("_dot", 1),
+    ("ddot", 2),
+    ("dot", 1),
+    ("_dd", 2),
+    ("_d", 1),
+)
 _RATE_PREFIXES = (("dd", 2), ("d", 1))
 
 
@@ -75,7 +84,7 @@ def rate_stems(name: str) -> Iterator[tuple[int, str]]:
     for suffix, order in _RATE_SUFFIXES:
         if name.endswith(suffix) and len(name) > len(suffix):
             yield order, name.removesuffix(suffix)
-    if (found := re.search(r"_?(d?)dot_?", name)) is not None:  # theta_dot_1, thetaddot1
+    if (found := re.search(r"_?(d|dot_?)?dot_?", name)) is not None:  # theta_dot_1, thetaddot1
         for stem in (name[: found.start()] + name[found.end() :], name[: found.start()] + "_" + name[found.end() :]):
             yield 2 if found.group(1) else 1, stem
     for prefix, order in _RATE_PREFIXES:

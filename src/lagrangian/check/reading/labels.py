@@ -32,6 +32,7 @@ _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\
 """A name with a bracket that nothing opens: x), θ)."""
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
+_COORDINATE = re.compile(r"\s*\(\s*([^\W\d]\w{0,12})\s*\)[.:]?\s+(?=[^\s*/^=+])")
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
@@ -59,14 +60,20 @@ class Numbering:
 
     before: bool
     behind: bool
+    named: bool = False
+    """Whether every coordinate stands once in brackets in front of its equation: (r) …, (θ) …"""
 
 
-def numbering(text: str) -> Numbering:
+def numbering(text: str, words: Words) -> Numbering:
     """Recognize how the equations of an answer are numbered: (1), (2), … one after the other."""
     lines = [line for line in text.split("\n") if "=" in line]
     first = [int(m[1]) for line in lines if (m := re.match(r"\s*\(\s*(\d{1,2})\s*\)", line))]
     last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
-    return Numbering(*(len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last)))
+    before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
+    called = [words.names.scope.meanings(m[1])[0] for line in lines if (m := _COORDINATE.match(line))]
+    coordinates = [c.name for c in words.names.model.coordinates]
+    named = len(called) > 1 and sorted(x[0] for x in called if x) == sorted(coordinates)
+    return Numbering(before, behind, named)
 
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
@@ -77,7 +84,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             match = form.match(line)
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
-            if match is not None and not _is_factor(match, words):
+            labelled = form is _NUMBERED and numbers.named and (match := _COORDINATE.match(line) or match) is not None
+            if match is not None and (labelled or not _is_factor(match, words)):
                 line = blank(line, 0, match.end())
         if line == above:
             break

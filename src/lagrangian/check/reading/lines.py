@@ -10,15 +10,15 @@ from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
-from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
+from lagrangian.check.reading.line_forms import accelerates, is_general, matrix_rows, solves, together
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
-from lagrangian.check.reading.names import Names, Value, names_in
+from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
 from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
+from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
-    is_force,
     is_placeholder,
     is_slope,
     is_vector,
@@ -79,18 +79,36 @@ class Lines:
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
         found = list(errors)
+        aside: list[ParseError] = []
         for i in range(len(statements)):
             try:
                 self._line(i)
             except ParseError as error:
-                found.append(error)
+                (aside if self._is_general(i, error) else found).append(error)
             if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
                 break
-        if found:
-            raise together(found)
-        lines = tuple(line for i in range(len(statements)) for line in self._made[i])
+        lines = tuple(line for i in range(len(statements)) for line in self._made.get(i, ()))
+        if found or (aside and not lines):
+            raise together(found or aside)
         self._forget(lines)
         return lines
+
+    def _is_general(self, i: int, error: ParseError) -> bool:
+        """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""
+        listed = [token for side in self._statements[i].sides for token, _ in names_in(side)]
+        new = [x for x in sorted(set(map(str, listed))) if not self._explains(x)]
+        if error.code != "E701" or not new:
+            return False
+        written = " ".join(self._statements[i].source.text.split())
+        verb = "are" if len(new) > 1 else "is"
+        what = " and ".join([", ".join(new[:-1]), new[-1]] if len(new) > 1 else new)
+        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {what} {verb}.")
+        return True
+
+    def _explains(self, written: str) -> bool:
+        """Whether the system or a statement of the answer says what a name is."""
+        base = key(undotted(written)[0])
+        return base in self.names.defined or base in COLUMNS or self.names.known(written)
 
     def _forget(self, lines: Sequence[AnswerLine]) -> None:
         """Drop the unknown names of sides that are not judged."""
@@ -101,6 +119,7 @@ class Lines:
 
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
+        self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
         first = [self.subjects.turned(list(s.sides))[0] for s in self._statements]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
@@ -108,6 +127,7 @@ class Lines:
             self._waiting.setdefault(key(undotted(str(subject.token))[0]), i)  # omega = theta' before omega' = …
         named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
+        self.names.given_matrices = self._matrices
         self.subjects.left = {key(undotted(str(s.token))[0]) for s in named if not s.right}
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
@@ -163,7 +183,9 @@ class Lines:
                 continue
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
-            elif above is not None and subject.kind == "p-rate" and _accelerates(above) and not _accelerates(value):
+            elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
+                lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0
+            elif above is not None and subject.kind == "p-rate" and accelerates(above) and not accelerates(value):
                 lines.append(self._make("equation", above, value, None, side, side, reader))  # d/dt ∂L/∂x' = m x'' = F
             else:
                 lines.append(self._stated(subject, value, sides, side, reader))
@@ -203,7 +225,7 @@ class Lines:
         kind: Kind = subject.kind
         name = subject.name
         lhs: sp.Expr | None = None
-        if _general(value):
+        if is_general(value):
             return self._make("statement", None, value, None, sides[0], side, reader)
         if kind in ENERGIES and (given := self._parameter(sides[0], value)) is not None:
             return self._make("given", None, value, given, sides[0], side, reader)
@@ -216,11 +238,12 @@ class Lines:
             if self._is_equation(subject, value):
                 return self._make("equation", reader.value(sides[0]), value, None, sides[0], side, reader)
             self._define(subject, value)
+            self._used_nowhere(subject, reader)
         elif kind == "identity":
             lhs = rate = reader.value(sides[0])
-            if _solves(rate, value):
+            if solves(rate, value):
                 kind = "equation"
-        elif kind == "Xi" and _accelerates(value):
+        elif kind == "Xi" and accelerates(value):
             assert name is not None
             return self._make("equation", value, generalized_force(name), None, sides[0], side, reader)
         return self._make(kind, lhs, value, name, sides[0], side, reader)
@@ -234,8 +257,8 @@ class Lines:
         assert subject.token is not None
         if subject.order:
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
-            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not _accelerates(value))
-        if subject.square or not _accelerates(value):
+            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
+        if subject.square or not accelerates(value):
             return False
         others = self._equal - subject.right
         return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
@@ -247,10 +270,18 @@ class Lines:
         else:
             self.names.define(subject.token, sp.sqrt(value) if subject.square else value)
 
+    def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
+        """Tell that a definition is not judged if nothing else uses the name."""
+        assert subject.token is not None
+        if self.names.occurs(subject.token) == 1 and not subject.order:
+            self._not_judged(reader, f"nothing else uses {subject.token}")
+
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Read a named matrix: a column of all Ξ states each of them; any other is stored for the lines that use it."""
         token = subject.token
-        if token is None or subject.order:
+        if token is not None and subject.order:
+            return self._rate_of_matrix(subject, value, side, reader)
+        if token is None:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
@@ -260,11 +291,33 @@ class Lines:
                 for n, x in zip(names, value, strict=True)
             ]
         self.names.define(token, value)
+        self._used_nowhere(subject, reader)
         return []
+
+    def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
+        """Compare the velocity or acceleration of a point with the derivative of its position, which is given before,
+        component by component."""
+        token, order = subject.token, subject.order
+        assert token is not None
+        own = self.names.own.get(key(undotted(token)[0]))
+        if own is None:
+            self.names.rates[key(undotted(token)[0]), order] = value
+            self._not_judged(reader, f"nothing says what {token} is")
+            return []
+        above = reader.value(side)
+        if not isinstance(above, MatrixBase) or above.shape != value.shape:
+            reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
+        return [
+            self._make("identity", a, b, None, side, side, reader)
+            for a, b in zip(above.flat(), value.flat(), strict=True)
+        ]
 
     def _equations(self, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         values = [reader.value(side) for side in sides]
         if len(values) == 1:
+            if isinstance(values[0], MatrixBase) and not any(map(self.subjects.moves, sides)):
+                self._not_judged(reader, "it is a list without an equals sign")
+                return []
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
         if len(values) > 2:  # m x'' = F_s = -k x, where nothing says what F_s is
@@ -285,15 +338,15 @@ class Lines:
         if is_vector(left) or is_vector(right):
             return []
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
-            pairs = _rows(left, right, b, reader)
+            pairs = matrix_rows(left, right, b, reader)
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
 
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
         kind: Kind = "equation"
         for side, value in ((a, right), (b, left)):
-            if (subject := self.subjects.left_side(side)) is not None and _accelerates(value):
+            if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return self._make("left", None, value, subject.name, a, b, reader)
-        if _general(left) or _general(right):
+        if is_general(left) or is_general(right):
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
                 self._unjudged(left, right, reader)
@@ -303,12 +356,15 @@ class Lines:
             return self._make("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
         return self._make(kind, left, right, None, a, b, reader)
 
+    def _not_judged(self, reader: Meaning, why: str) -> None:
+        """Tell that a statement is not judged."""
+        self.names.notes.setdefault(f"'{' '.join(reader.source.text.split())}' was not judged: {why}.")
+
     def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:
         """Tell that an equation of this system is not judged, because it derives something that has no value."""
         rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
         if any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
-            written = " ".join(reader.source.text.split())
-            self.names.notes.setdefault(f"'{written}' was not judged: nothing says what is differentiated there.")
+            self._not_judged(reader, "nothing says what is differentiated there")
 
     def _parameter(self, side: Tree, value: sp.Expr) -> str | None:
         """The parameter that a side consists of, if the other side is its value: J = m*R^2/2."""
@@ -333,46 +389,3 @@ class Lines:
         source = reader.source
         start = min(start_of(a), start_of(b))
         return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
-
-
-def together(errors: Sequence[ParseError]) -> ParseError:
-    """Return one error for several places, in their order; one at the same place counts once."""
-    placed = {(e.place.line or 0, e.place.column or 0) if e.place is not None else (0, 0): e for e in reversed(errors)}
-    first, *others = [placed[at] for at in sorted(placed)]
-    return first.with_others(others)
-
-
-def _general(value: sp.Expr) -> bool:
-    """Whether an expression contains energies or variations that have no value."""
-    return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
-
-
-def _accelerates(value: sp.Expr) -> bool:
-    return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
-
-
-def _solves(rate: sp.Expr, value: sp.Expr) -> bool:
-    """Whether the rate of a name of the answer equals something else than its derivative: omega' = -g/L*sin(theta).
-
-    The name is a rate up to a constant, or the value contains no acceleration.
-    """
-    if not _accelerates(rate) or bounded.expand(rate - value) == 0:
-        return False
-    alone = rate / next(d for d in rate.atoms(sp.Derivative) if d.derivative_count > 1)
-    return not _accelerates(value) or not alone.atoms(AppliedUndef)
-
-
-def _rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[tuple[sp.Expr, sp.Expr]]:
-    """The equations of a matrix equation, row by row; a plain 0 is a column of zeros."""
-    shape = left.shape if isinstance(left, MatrixBase) else right.shape
-    both = []
-    for value in (left, right):
-        if not isinstance(value, MatrixBase):
-            if value != 0:
-                reader.fail("a matrix equals a number", node, fix="write a column [a; b] on both sides")
-            value = sp.zeros(*shape)
-        both.append(value)
-    if both[0].shape != both[1].shape:
-        a, b = (f"{s[0]} × {s[1]}" for s in (both[0].shape, both[1].shape))
-        reader.fail(f"the left side is {a}, the right side {b}", node, fix="give both sides the same number of rows")
-    return list(zip(both[0], both[1], strict=True))

@@ -207,17 +207,27 @@ class Meaning(ExpressionReader):
         return total
 
     def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
+        if isinstance(base, MatrixBase) and base.shape[1] == 1 and exponent == 2:
+            return self._square(base)  # v^2 of a velocity that is given by its components
         if isinstance(base, MatrixBase) or isinstance(exponent, MatrixBase):
             self.fail("a matrix is raised to a power", node, fix="write the equations out row by row")
         return super()._raise(node, base, exponent)
+
+    @staticmethod
+    def _square(column: MatrixBase) -> sp.Expr:
+        """The sum of the squares of the components."""
+        return sp.Add(*[x**2 for x in column.flat()])
 
     def _call(self, node: Node) -> sp.Expr:
         if (below := RECIPROCALS.get(str(node.children[0]))) is not None:
             token, *arguments = node.children
             return 1 / self._call(Tree("call", [leaf("NAME", below, token.start_pos), *arguments], node.meta))
         for argument in node.children[1:]:
-            if argument.data != "condition" and isinstance(self.value(argument), MatrixBase):
-                self.fail("a function is applied to a matrix", argument, fix="write the entries out")
+            if argument.data == "condition" or not isinstance(found := self.value(argument), MatrixBase):
+                continue
+            if str(node.children[0]) in ("abs", "norm") and found.shape[1] == 1:
+                return sp.sqrt(self._square(found))
+            self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
 
 

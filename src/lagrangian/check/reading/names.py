@@ -16,6 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.nodes import Node, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
+from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.errors import did_you_mean
 from lagrangian.model import Model
@@ -47,7 +48,7 @@ class Names:
 
     def __init__(self, model: Model) -> None:
         self.model = model
-        self.scope = Scope(model.symbols)
+        self.scope = AnswerScope(Scope(model.symbols))
         self.own: dict[str, tuple[str, Value]] = {}
         self.stated: dict[str, Value] = {}
         self.unknown: dict[str, Unknown] = {}
@@ -62,6 +63,8 @@ class Names:
         """Whether the statement that is being read contains accelerations; then an energy must be stated."""
         self.matrices = False
         """Whether the statement that is being read contains matrices, so that a name may be one."""
+        self.given_matrices: set[str] = set()
+        """The names that a statement of the answer gives a matrix."""
         self.defined: set[str] = set()
         """The names that a statement of the answer defines."""
         self.dependents: frozenset[str] = frozenset()
@@ -132,6 +135,8 @@ class Names:
             what = f"'{token[:40]}' can mean {listed}"
             raise source.error(what, start_of(token), fix="write the one you mean", code="E402")
         if names:
+            if key(undotted(token)[0]) != key(names[0]):
+                self.notes.setdefault(f"'{undotted(token)[0]}' was read as {names[0]}.")
             return names[0], self.scope[names[0]], dots
         base, dots = undotted(token)
         if key(base) not in self.own:
@@ -156,6 +161,8 @@ class Names:
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in spelled_rates(base):
             if (found := self._rate_of(stem, token, source)) is not None:
+                if found[0] in self.scope and key(stem) != key(found[0]):
+                    self.notes.setdefault(f"'{base}' was read as {found[0]}{chr(39) * order}.")
                 return *found, order + dots
         if (near := self._near_rate(base, token, source)) is not None:
             return near[0], self.scope[near[0]], near[1] + dots
@@ -163,6 +170,8 @@ class Names:
 
     def _matrix(self, base: str) -> Value | None:
         """The matrix that the answer gives this name; q or x is the column of coordinates if it is nothing else."""
+        if key(base) not in self.own and key(base) in self.given_matrices:
+            self.later(key(base))
         if (mine := self.own.get(key(base))) is not None:
             return mine[1] if isinstance(mine[1], MatrixBase) else None
         if key(base) not in COLUMNS or self.scope.meanings(base)[0] or key(base) in self.defined:

@@ -11,7 +11,6 @@ import re
 
 from lark import Tree
 
-from lagrangian.check.reading.arguments import written
 from lagrangian.check.reading.nodes import (
     Node,
     column,
@@ -28,8 +27,9 @@ from lagrangian.check.reading.nodes import (
     wrapped,
 )
 from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.plain_calls import PlainCalls
 from lagrangian.check.reading.plain_conditions import AND, NOT, OR
-from lagrangian.check.reading.plain_derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PlainDerivatives
+from lagrangian.check.reading.plain_derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS
 from lagrangian.check.reading.plain_tokens import TOKEN, tokenize
 from lagrangian.check.reading.words import Words, function_of
 from lagrangian.errors import ParseError
@@ -38,25 +38,31 @@ from lagrangian.read.explain import explain
 from lagrangian.read.letters import undotted
 
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
-_CALLED = re.compile(r"(?:eqn?s?|eom|ode|dgl|gl|bwg|equation)_?\w{0,3}", re.IGNORECASE)
-"""What people call an equation in programs: eq1 := m*x'' = F."""
+_CALLED = re.compile(
+    r"(?:(?:lag(?:range)?|lhs|my)_?)?(?:(?:eqn?s?|eom|ode|dgl|gl|bwg|equation|residual|res|expr)_?\w{0,12}|e_?\d)",
+    re.IGNORECASE,
+)
+"""What people call an equation in programs: eq1 := m*x'' = F, eom_x = m*x'' - F."""
 _BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
 _NUMBERS = frozenset(["number", "fraction"])
 
 
-class PlainParser(PlainDerivatives):
+class PlainParser(PlainCalls):
     """Parses one statement of plain text. A product without a sign needs factors that can be told apart."""
 
     def __init__(self, source: Source, words: Words) -> None:
         super().__init__(source, tokenize(source, words))
         self.words = words
+        self._bars = 0
 
     def side_by_side(self) -> bool:
         """Whether the next token begins a factor: known names, numbers and brackets may be next to each other."""
         token = self.next
         before = self.tokens[self.i - 1] if self.i else token
         if token.kind == "[":
-            return before.kind in ("]", "name", "primes")
+            return before.kind in ("]", ")", "name", "primes", "number", "fraction", "raised")
+        if token.text == "|":
+            return not self._bars
         if token.kind not in _BEGINS or (token.kind in _NUMBERS and before.kind in _NUMBERS):
             return False
         names = [x for x in (before, token) if x.kind == "name"]
@@ -95,7 +101,8 @@ class PlainParser(PlainDerivatives):
         """Read sums with = between them, or Eq(a, b); what a program calls an equation is ignored: eq1 = a == b."""
         texts = [x.text for x in self.tokens]
         called = self.tokens[0].kind == "name" and texts[1:2] == ["="]
-        named = texts.count("=") == 2 and _CALLED.fullmatch(texts[0]) and not self.words.names.known(texts[0])
+        named = called and _CALLED.fullmatch(texts[0]) and not self.words.names.known(texts[0])
+        named = named and (texts.count("=") == 2 or self.words.count(texts[0]) == 1)
         if called and ("==" in texts or texts[2] in _EQUALITIES or named):
             self.i = 2
         token = self.next
@@ -165,6 +172,8 @@ class PlainParser(PlainDerivatives):
                 return self._named()
             case "rate" | "rate2":
                 return self._fraction_rate()
+            case "other" if token.text == "|":
+                return self._absolute()
             case "ddt" | "ddt2":
                 self.take()
                 return node("rate", token.start, self._postfix(), 1 if token.kind == "ddt" else 2)
@@ -175,6 +184,19 @@ class PlainParser(PlainDerivatives):
                 by = name(found["by"], found.start("by"), sum(ORDERS[c] for c in found["dots"]))
                 return node("partial", token.start, leaf("NAME", found["what"], token.start), by)
         raise self.stopped(True)
+
+    def _absolute(self) -> Tree:
+        """Read |x|, an absolute value or the length of a vector."""
+        start = self.take().start
+        self.deeper(start)
+        self._bars += 1
+        inner = self.sum()
+        if self.next.text != "|":
+            raise self.source.error("this '|' is never closed", start, fix="add the missing '|', or write abs(x)")
+        self.take()
+        self._bars -= 1
+        self.opened.pop()
+        return node("call", start, leaf("NAME", "abs", start), inner)
 
     def _matrix(self) -> Tree:
         """Read [a, b; c, d] or [[a, b], [c, d]]; a plain list is a column; a single entry is itself."""
@@ -236,63 +258,6 @@ class PlainParser(PlainDerivatives):
         if self.next.kind == "(" and self._called(token):
             return self._call(token)
         return name(token.text, token.start)
-
-    def _by_time(self) -> bool:
-        """Whether the bracket that is next ends as that of a derivative does, even if D is a name: D[x[t], {t, 2}]."""
-        if self.next.kind != "[":
-            return False
-        depth, at = 0, self.i
-        while self.tokens[at].kind != "end":
-            depth += (self.tokens[at].kind == "[") - (self.tokens[at].kind == "]")
-            if depth == 1 and self.tokens[at].kind == ",":
-                return [x.text for x in self.tokens[at + 1 : at + 3]] in (["{", "t"], ["t", "]"])
-            if not depth:
-                return False
-            at += 1
-        return False
-
-    def _called(self, token: AnswerToken) -> bool:
-        """Whether the bracket after a name holds what it depends on, or its arguments, and is no factor."""
-        inside = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
-        if inside[:2] == ["t", ")"] or self.words.calls(token.text) or self._says(token):
-            return True
-        moving = self.words.names.changes(token.text)
-        if moving and self.ahead().kind == "number" and inside[1:2] == [")"]:
-            return True  # x(0) is no product
-        if self.i > 1 or self.words.names.scope.meanings(token.text)[0]:
-            return False
-        end = self.i
-        while self.tokens[end].kind not in (")", "end"):
-            end += 1
-        listed = all(x.kind in ("name", "primes", ",", "(") for x in self.tokens[self.i : end])
-        return listed and self.tokens[end + 1 : end + 2] != [] and self.tokens[end + 1].kind == "="
-
-    def _says(self, token: AnswerToken) -> bool:
-        """Whether the answer says that a quantity depends on what is in this bracket: I(r) = …"""
-        end = self.source.text.find(")", self.next.start) + 1
-        return written(token.text + self.source.text[self.next.start : end]) in self.words.names.dependents
-
-    def _call(self, token: AnswerToken) -> Tree:
-        stated = self._says(token)
-        arguments = self._arguments()
-        if len(arguments) == 1 and only_name(arguments[0]) == ("t", 0):  # x1(t)
-            return name(token.text, token.start)
-        depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
-        if (stated or (depends and token is self.tokens[0])) and not self.words.is_function(token.text):  # V(theta) = …
-            return name(token.text, token.start)
-        return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
-
-    def _arguments(self) -> list[Tree]:
-        closing = CLOSING[self.next.kind]
-        start = self.take().start
-        self.deeper(start)
-        arguments = [] if self.next.kind == closing else [self.argument()]
-        while self.accept(","):
-            arguments.append(self.argument())
-        if not self.accept(closing):
-            raise self.stopped(False)
-        self.opened.pop()
-        return arguments
 
     def _bracket_of_one(self) -> Tree:
         """Read Matrix([[a, b], [c, d]])."""

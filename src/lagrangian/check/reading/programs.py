@@ -4,7 +4,7 @@ np.sin(x)  sp.Rational(1, 2)  Math.pow(x, 2)        sin(x)  ((1)/(2))  ((x)^(2))
 x.diff(t, 2)  x(t).diff(t).diff(t)  L.diff(x')      x''  x''  diff(L, x')                SymPy
 diff(x(t), t$2)  D(x)(t)  (D@@2)(x)(t)              diff(x(t), t, 2)  x'  x''            Maple
 Derivative[2][x][t]  \\[Theta]  Subscript[m, 1]     x''  θ  m_1                          Mathematica
-D2x  Dx                                             x''  x'                              MATLAB
+D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
 m*D(D(x)) ~ F                                       m*x'' = F                            Julia
 """
@@ -41,7 +41,7 @@ _SUBSCRIPT = re.compile(r"\bSubscript\[\s*(?P<of>\w+|\\\[\w+\])\s*,\s*(?P<index>
 _QUOTED = re.compile(r"(?<![\w)\]'’′])['%](?=[dD]iff\()")
 _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
 _EQUALS = re.compile(r"^(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE)
-_RATE = re.compile(rf"(?<![\w\\])D(?P<two>2)?(?P<of>{_NAME})(?!\w)")
+_RATE = re.compile(rf"(?<![\w\\])D(?P<two>2|[ \t]?(?:²|(?:\^|\*\*)[ \t]?2)[ \t]*)?(?P<of>(?>{_NAME}))(?!\w)")
 _LINE_OF_CODE = re.compile(
     r"^[ \t]*+(?:from\s+\w[\w.]*\s+import\b[^=\n]*|import\s+\w[\w. ,]*|syms\s[^=\n]*|using\s+[\w, ]+|clear|clc"
     r"|restart:?|with\(\w+\)[:;]|#(?:import|let|set|include)\b.*"
@@ -149,6 +149,7 @@ def _with_primes(written: TracedText, moves: Callable[[str], bool], taken: Calla
     """D2x and Dx as x'' and x', unless D is a factor: where the answer has a second derivative so, or x moves."""
     own = taken("D") or re.search(r"(?<!\w)D\s*=(?!=)", written.text) is not None
     found = [m for m in _RATE.finditer(written.text) if not taken(m.group())]
+    found = [m for m in found if not own or m["two"] in (None, "2")]  # D² x is a product if D is a name
     second = {m["of"] for m in found if m["two"]}
     if not second and (own or re.search(r"(?<!\w)D(?!\w)", written.text)):
         return written

@@ -11,6 +11,7 @@ _REMARK = re.compile(r"(?<=\s)\(([^\W\d_][^()=+*/^\n]*)\)")
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
 _IDENTIFIER = re.compile(r"[^\W\d]\w*")
 _WORD = re.compile(r"[^\W\d_]+(?:['’-][^\W\d_]+)*")
+_TWO = re.compile(r"(?<!\w)([^\W\d_]{2,})(?=[ \t]([^\W\d_]{2,})(?![\w'’′(\[]))")
 _BRACKETS = re.compile(r"[()\n]")
 _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
@@ -99,7 +100,8 @@ def without_tail(text: str, words: Words) -> str:
         if not links and not _is_word(match[1], words):
             break
         end, count, linked = match.start(1), count + 1, linked or links
-    if count < (1 if linked else 2) or not _ENDS.search(text[:end]):
+    apart = count == 1 and text[max(0, end - 2) : end].isspace()  # D = …   Rayleigh
+    if count < (1 if linked or apart else 2) or not _ENDS.search(text[:end]):
         return text
     return blank(text, end, len(text))
 
@@ -121,7 +123,16 @@ def is_prose(text: str, words: Words) -> bool:
         return False
     if _NUMBER_ALONE.match(text) or _SINGLE.match(text) or _TITLE.match(text):
         return True
-    return any(_is_word(x, words) for x in _WORD.findall(text))
+    return any(_is_word(x, words) for x in _WORD.findall(text)) or not any(map(words.known, _IDENTIFIER.findall(text)))
+
+
+def has_words(text: str, words: Words) -> bool:
+    """Whether two words that are no names stand next to each other, one a common one: = sum of inertias × φ''."""
+    for match in _TWO.finditer(text):
+        pair = match.groups()
+        if any(_links(x, words) for x in pair) and any(_is_word(x, words) for x in pair):
+            return True
+    return False
 
 
 def _is_word(written: str, words: Words) -> bool:

@@ -16,19 +16,21 @@ from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import latex_rows
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
+from lagrangian.check.reading.listed_values import without_values
 from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.programs import without_programs
-from lagrangian.check.reading.prose import LINKING
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows
+from lagrangian.check.reading.prose import LINKING, has_words
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
+from lagrangian.read.letters import key
 
 MAX_ANSWER = 60_000
 """The largest number of characters of an answer."""
@@ -95,7 +97,10 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     words = _words(lines, text)
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     written = written_out(source) if latex else None
+    text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows = plain_rows(text, words) if written is None else latex_rows(written.text)
+    if written is not None:
+        rows = [row for row in (without_sums(x, lines.names) for x in rows) if row.text.strip()] or rows[:1]
     if not rows:
         raise source.error(
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
@@ -108,7 +113,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     parser: Callable[[Source], Parser] = partial(PlainParser, words=words)
     if latex:
         parser = partial(LatexParser, names=lines.names)
-    statements, errors, aside = _parsed(source, rows, parser, written, lines)
+    statements, errors, aside = _parsed(source, rows, parser, written, words, lines)
     made = lines.read(statements, errors)
     less_likely = [
         (Choices(units=True), words.doubtful),
@@ -130,6 +135,13 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     return on_one_line(plain)
 
 
+def _value(lines: Lines, written: str) -> float | None:
+    """The value of a parameter of the system; NaN if it has none, None for another name."""
+    names, _ = lines.names.scope.meanings(written)
+    found = [p for p in lines.model.parameters if p.name in names]
+    return None if len(found) != 1 else float("nan") if found[0].value is None else float(found[0].value)
+
+
 def _chosen(reading: Choices) -> Iterator[str]:
     """What to say about a reading that is not the likeliest."""
     if reading.flipped:
@@ -143,12 +155,13 @@ def _chosen(reading: Choices) -> Iterator[str]:
 
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
-    own, alone = (dict.fromkeys(m[1] for m in form.finditer(text)) for form in (_DEFINED, _ALONE))
+    own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
     for match in _CALLED.finditer(text):  # with the total mass M_t = …
         word = match[1]
         if word.lower() in LINKING or (len(word) > LONGEST_NAME and not lines.names.known(word)):
             own.setdefault(match[2])
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
+    lines.names.scope.taken = frozenset(key(name) for name in own)
     return Words(lines.names, own, alone, used)
 
 
@@ -157,6 +170,7 @@ def _parsed(
     rows: Sequence[AnswerRow],
     parser: Callable[[Source], Parser],
     latex: ExpandedLatex | None,
+    words_of: Words,
     lines: Lines,
 ) -> tuple[list[Statement], list[ParseError], list[str]]:
     """The statements, whose places refer to the whole answer, the errors of those that cannot be parsed, and notes
@@ -171,7 +185,7 @@ def _parsed(
         try:
             found.append(Statement(tuple(parser(own).sides()), own))
         except ParseError as error:
-            stated = _is_stated(written) and not _is_vector(written, lines)
+            stated = _is_stated(written, words_of) and not _is_vector(written, lines)
             (errors if stated or error.code == "E703" else words).append(error)
             if len(errors) >= MAX_ERRORS or error.code == "E703":
                 break
@@ -186,9 +200,10 @@ def _is_vector(row: str, lines: Lines) -> bool:
     return match is not None and not lines.names.known(match["name"]) and not lines.names.known(match["unit"])
 
 
-def _is_stated(row: str) -> bool:
+def _is_stated(row: str, words: Words) -> bool:
     """Whether a row that cannot be read is a statement, and no heading and no sentence."""
-    return "=" in row and sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", row)) < MANY_WORDS
+    linked = sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", row))
+    return "=" in row and linked < MANY_WORDS and not has_words(row, words)
 
 
 def _place(source: Source, latex: ExpandedLatex | None, start: int, offset: int) -> Place:

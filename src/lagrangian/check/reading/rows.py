@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from lagrangian.check.reading.labels import before, behind, is_mark, numbering
 from lagrangian.check.reading.markup import blank, opened_list
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose import (
     LINKING,
     is_prose,
@@ -43,18 +44,26 @@ _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
-_SUM_ALONE = re.compile(r"\s*[↑→↓←↻↺⟲⟳⤵]?\s*∑\s*[^\W\d]?\w{0,11}(?:\^\w{1,4}|\(\w{1,4}\))?\s*")
+_SUM_ALONE = re.compile(
+    r"\s*[↑→↓←↻↺⟲⟳⤵]?\s*(?:∑|Σ|\\sum(?![A-Za-z]))[\s_{}\\]*[^\W\d]?[\w{}\\]{0,16}(?:\^[\w{}]{1,4}|\(\w{1,4}\))?\s*"
+)
+_SUM = re.compile(r"∑|\\sum(?![A-Za-z])")
+_SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
 _NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=[^\W\d_]\w{0,8}\*?[ \t]*=(?!=))"
-_BETWEEN = re.compile(rf"[(\[{{}}\])\n]|{_NEXT}|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}")
+_COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
+_STOP = r"(?P<stop>(?<=[\w)\]'’′″²³])\.(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2}))"
+_BETWEEN = re.compile(
+    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
+)
 
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_remarks(stated_remarks(text), words)
-    numbers = numbering(text)
+    numbers = numbering(text, words)
     text = _separated(opened_list(text) if "\n\n" not in text.strip() else text)
     text = "\n".join(
         opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in text.split("\n")
@@ -78,10 +87,20 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
-    split = [row for row in (_without_sums(row, words) for row in split) if row.text.strip()]
+    split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
     found = [AnswerRow(row.start, without_tail(without_lead(row.text, words), words)) for row in split]
+    if len(found) > 1:
+        found = [row for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
     stated = [row for row in found if not is_prose(row.text, words)]
     return stated or found[:1]
+
+
+def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:
+    """Whether one side of a row consisted of words, which a note tells: N is the contact force = lambda."""
+    empty = row.text.lstrip().startswith("=") and not own.text.lstrip().startswith("=")
+    if empty:
+        names.notes.setdefault(f"'{' '.join(own.text.split())}' was not judged: one side consists of words.")
+    return empty
 
 
 def _separated(text: str) -> str:
@@ -98,10 +117,23 @@ def _separated(text: str) -> str:
             depth = depth if depth > 0 else 0
         elif depth <= 0 and match["arrow"] and is_mark(text[text.rfind("\n", 0, match.start()) + 1 : match.start()]):
             continue
+        elif depth <= 0 and match["colon"]:
+            if _states(text, match.start()):
+                letters[match.start()] = ";"
+        elif depth <= 0 and match["stop"]:
+            if "=" in text[text.rfind("\n", 0, match.start()) + 1 : match.start()]:
+                letters[match.start()] = ";"
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
     return "".join(letters)
+
+
+def _states(text: str, at: int) -> bool:
+    """Whether a colon stands between two statements, ∑F = m x'': F - k x = m x'', or behind more than a label."""
+    first, last = text.rfind("\n", 0, at) + 1, text.find("\n", at)
+    before = re.split("[,;]", text[first:at])[-1]
+    return "=" in text[at : last if last >= 0 else len(text)] and bool(re.search(r"[=\[\]*^/'′]", before))
 
 
 def _both(text: str, start: int, end: int) -> bool:
@@ -137,21 +169,25 @@ def incomplete(text: str) -> bool:
     )
 
 
-def _without_sums(row: AnswerRow, words: Words) -> AnswerRow:
+def without_sums(row: AnswerRow, names: Names) -> AnswerRow:
     """A row without the side that only says what is added up, ∑M = J φ'' = …; empty, which a note tells, if there is no
-    other equation."""
-    if "∑" not in row.text:
+    other equation. A capital sigma before a name is this sign, too, unless the system has one."""
+    form = _SUM
+    if "Σ" in row.text and not names.scope.meanings("Σ")[0]:
+        form = re.compile(rf"{_SUM.pattern}|{_SIGMA.pattern}")
+    if not form.search(row.text):
         return row
     sides = row.text.split("=")
-    kept = [side for side in sides if "∑" not in side]
+    kept = [side for side in sides if not form.search(side)]
     text = row.text
     for k, side in enumerate(sides):
-        if "∑" in side:
+        adds = form.search(side) is not None
+        if adds:
             start = sum(len(x) + 1 for x in sides[:k])
             text = blank(text, max(0, start - (k == len(sides) - 1)), min(len(text), start + len(side) + 1))
-        if "∑" in side and (len(kept) < 2 or not _SUM_ALONE.fullmatch(side)):
+        if adds and (len(kept) < 2 or not _SUM_ALONE.fullmatch(side)):
             told = row.text if len(kept) < 2 else side
-            words.names.notes.setdefault(f"'{' '.join(told.split())}' was not judged: nothing says what ∑ adds up.")
+            names.notes.setdefault(f"'{' '.join(told.split())}' was not judged: nothing says what ∑ adds up.")
     return AnswerRow(row.start, text if len(kept) > 1 else "")
 
 

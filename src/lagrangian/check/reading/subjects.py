@@ -36,6 +36,8 @@ class Subjects:
         self.defined: set[str] = set()
         self.left: set[str] = set()
         """The names that a statement defines on its left side."""
+        self.plain: frozenset[str] = frozenset()
+        """The letters of energies that are names of the answer's own."""
 
     def turned(self, sides: list[Tree]) -> tuple[Subject | None, list[Tree]]:
         """The subject of a statement and its sides, the subject first; it may be on the left or right, a Ξ anywhere."""
@@ -53,12 +55,18 @@ class Subjects:
             subject = subjects[i]
             if i and subject is not None and key(str(subject.token)) in self.left:
                 continue  # … = f, where another line says f = …
+            if i and subject is not None and subject.token is not None and self._taken(subject.token):
+                continue  # r = R, where R is a radius of the system
             if subject is not None:
                 return replace(subject, right=i > 0), [sides[i], *sides[:i], *sides[i + 1 :]]
         return None, sides
 
     def accelerates(self, tree: Node) -> bool:
         """Whether an acceleration stands in a tree: of any name, in any spelling."""
+        return self.moves(tree, 2)
+
+    def moves(self, tree: Node, least: int = 1) -> bool:
+        """Whether a rate, or a derivative of at least this order, stands in a tree."""
         stack: list[tuple[Node, int]] = [(tree, 0)]
         while stack:
             item, order = stack.pop()
@@ -71,7 +79,7 @@ class Subjects:
                 stack.append((item.children[0], order))
             else:
                 stack.extend((child, order) for child in item.children)
-            if order > 1:
+            if order >= least:
                 return True
         return False
 
@@ -124,7 +132,8 @@ class Subjects:
                 return None
             own = self.names.is_own(base) or key(base) in self.defined
             return Subject("identity" if own else "definition", base, Token("NAME", base), order)
-        if not moving and (kind := energy_of(token, self.model, lhs=True)) is not None:
+        plain = key(str(token)) in self.plain
+        if not moving and not plain and (kind := energy_of(token, self.model, lhs=True)) is not None:
             return Subject(cast("Kind", kind), None, token)
         if (coordinate := force_of(token, self.model)) is not None:
             return Subject("Xi", coordinate)

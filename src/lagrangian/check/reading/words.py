@@ -6,6 +6,7 @@ A word is split only if it is no name itself. Longer names are preferred: no par
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cache
 
@@ -59,14 +60,15 @@ def function_of(word: str) -> str | None:
 class Words:
     """What the words of one answer may mean, before its statements are read.
 
-    ``own`` are the names that the answer defines, ``alone`` all its words, and ``used`` those with primes or next to an
-    operator, which are names.
+    ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
+    with primes or next to an operator, which are names.
     """
 
     def __init__(self, names: Names, own: Iterable[str], alone: Iterable[str], used: Iterable[str]) -> None:
         self.names = names
+        self._counts = Counter(key(x) for x in alone)
         self._own = {key(x) for x in own if function_of(x) is None}
-        self._alone = {key(x) for x in alone}
+        self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
         self._split: dict[str, str] = {}
         self._products: dict[str, bool] = {}
@@ -104,6 +106,10 @@ class Words:
     def alone(self, word: str) -> bool:
         """Whether a word occurs in the answer elsewhere than after a number."""
         return key(word) in self._alone
+
+    def count(self, word: str) -> int:
+        """How often a word occurs in the answer."""
+        return self._counts[key(word)]
 
     def is_product(self, word: str) -> bool:
         """Whether a word can be split into names of the system."""

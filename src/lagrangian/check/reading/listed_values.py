@@ -1,0 +1,82 @@
+"""Takes lists of values off an answer: Numbers: M = 5 kg, m = 2 kg, slope 25 deg, g = 9.81.
+
+A line that only gives several parameters values is no equation; each value becomes a statement of its own, and the
+words between them are blank. Every replacement is as long as what it
+replaces, so that all places stay the same.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from math import isclose, pi
+
+from lagrangian.quantities.units import lookup
+
+_NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
+_VALUE = re.compile(
+    rf"(?<![\w.])(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
+    r"(?![ \t]*[*^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
+    r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:[ \t]?[/·* ]?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
+)
+_PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
+
+FEWEST = 2
+"""The fewest values in a line that make it a list of values."""
+
+
+def without_values(text: str, values: Callable[[str], float | None], notes: dict[str, None]) -> str:
+    """Return an answer in plain text without its lists of values.
+
+    ``values`` returns the value of a parameter of the system, NaN for one without a value, and None for other names.
+    """
+    lines = text.split("\n")
+    for k, line in enumerate(lines):
+        if line.count("=") < FEWEST:
+            continue
+        found = list(_VALUE.finditer(line))
+        if len(found) != line.count("=") or any(values(m["name"]) is None for m in found):
+            continue
+        kept = list(" " * len(line))
+        for match in found:
+            read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
+            end = match.end() if read else match.end("number")
+            kept[match.start() : end] = line[match.start() : end].replace(",", ".")
+            if end < len(line):
+                kept[end] = ";"
+        lines[k] = "".join(kept)
+        notes.setdefault(f"Line {k + 1} was read as a list of values.")
+    return "\n".join(lines)
+
+
+def _same(match: re.Match[str], value: float | None) -> bool:
+    """Whether a number is the value in the system, in SI units."""
+    number = float(match["number"].replace(",", "."))
+    return value is not None and isclose(number, value, rel_tol=1e-9)
+
+
+def _factor(unit: str) -> float | None:
+    """How many SI units a unit is; None if it is none."""
+    if unit.strip() == "°":
+        return pi / 180
+    total, below = 1.0, False
+    for by, written, power in _parts(unit):
+        found = lookup(written)
+        below = below or "/" in by
+        if found is None or found.factor == 0:
+            return None
+        factor = float(Fraction(found.factor)) ** int(power or 1)
+        total = total / factor if below else total * factor
+    return total
+
+
+def _parts(unit: str) -> Iterator[tuple[str, str, str]]:
+    """The parts of a unit: what stands before each, its letters and its power; N and m of Nm."""
+    for match in _PART.finditer(unit):
+        word = match["unit"]
+        if lookup(word) is None and word[:1] == "N" and len(word) > 1:
+            yield match["by"], "N", ""
+            yield "", word[1:], match["power"]
+        else:
+            yield match["by"], word, match["power"]

@@ -1,0 +1,37 @@
+"""Recognizes letters of energies that an answer uses for something else: D = (M + m)*mu - m^2, then x'' = …/D."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lark import Tree
+
+from lagrangian.check.reading.names import names_in
+from lagrangian.check.reading.nodes import only_name
+from lagrangian.check.reading.stated import energy_of
+from lagrangian.check.reading.subjects import Subjects
+from lagrangian.read.letters import key
+
+
+def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
+    """Return the letters of energies that statements, given by their sides, give a value that is no energy.
+
+    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them.
+    """
+    names, model = subjects.names, subjects.model
+    moving = [any(map(subjects.moves, sides)) for sides in statements]
+    first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
+    given = {key(str(x[0])) for x in first if x is not None and not x[1]}
+    found: set[str] = set()
+    for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
+        kind = None if named is None or named[1] or moving[k] else energy_of(named[0], model, lhs=True)
+        if named is None or kind is None:
+            continue
+        listed = [str(x) for side in sides[1:] for x, _ in names_in(side)]
+        if kind in ("V", "L") and any(names.changes(x) or key(x) in given for x in listed):
+            continue
+        others = [s for s, moved in zip(statements, moving, strict=True) if moved and s is not sides]
+        used = (str(x) for s in others for side in s for x, changing in names_in(side) if not changing)
+        if str(named[0]) in used and all(names.scope.meanings(x)[0] or key(x) in given for x in listed):
+            found.add(key(str(named[0])))
+    return frozenset(found)

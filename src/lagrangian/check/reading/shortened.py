@@ -1,0 +1,79 @@
+"""Names of Greek letters that are written out, as a letter, or shortened: ε = epsilon = eps, θ₁ = theta1 = th1."""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.read.letters import GREEK, key, undotted
+from lagrangian.read.scope import Scope
+
+_SHORT = {
+    "epsilon": ("eps", "ep"),
+    "theta": ("th", "tht", "thet"),
+    "phi": ("ph", "fi"),
+    "alpha": ("alp", "alph", "alfa", "alf"),
+    "beta": ("bet",),
+    "gamma": ("gam", "gamm"),
+    "delta": ("delt",),
+    "lambda": ("lam", "lamb", "lmbda"),
+    "omega": ("om", "omg", "omeg"),
+    "sigma": ("sig", "sigm"),
+    "kappa": ("kap", "kapp"),
+}
+"""How people shorten the names of Greek letters."""
+
+_WHOLE = {short: word for word, listed in _SHORT.items() for short in listed} | {word: word for word in GREEK.values()}
+_INDEXED = re.compile(r"([A-Za-z]+)(\d*)")
+
+
+class AnswerScope(Scope):
+    """The names of a system, which an answer may shorten.
+
+    A shortened name is read if one name of the system alone can be meant, and if the answer does not define it:
+    ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``.
+    """
+
+    def __init__(self, symbols: Scope) -> None:
+        self._letters: dict[tuple[str, str], list[str]] = {}
+        self.taken: frozenset[str] = frozenset()
+        super().__init__(symbols)
+        for name in symbols:
+            if (letter := _letter(name)) is not None:
+                self._letters.setdefault(letter, []).append(name)
+
+    def meanings(self, written: str) -> tuple[list[str], int]:
+        """Return the names that ``written`` can mean, in full or shortened, and its number of dots."""
+        found, dots = super().meanings(written)
+        if found or not self._letters:
+            return found, dots
+        base, dots = undotted(written)
+        return self._shortened(base), dots
+
+    def _shortened(self, base: str) -> list[str]:
+        letter = _letter(base)
+        if letter is None or key(base) in self.taken or self._is_product(key(base)):
+            return []
+        same = self._letters.get(letter, [])
+        if same or letter[1] not in ("", "0"):
+            return same if len(same) == 1 else []
+        near = self._letters.get((letter[0], "" if letter[1] else "0"), [])
+        return near if len(near) == 1 else []
+
+    def _is_product(self, word: str) -> bool:
+        """Whether a shortened name is two names of the system next to each other: al as a·l."""
+        return word not in GREEK.values() and any(
+            super(AnswerScope, self).meanings(word[:k])[0] and super(AnswerScope, self).meanings(word[k:])[0]
+            for k in range(1, len(word))
+        )
+
+
+def _letter(name: str) -> tuple[str, str] | None:
+    """The Greek letter that a name is, written out, and its number; None if it is none."""
+    match = _INDEXED.fullmatch(key(name))
+    if match is None:
+        return None
+    stem = match[1]
+    word = _WHOLE.get(stem.lower())
+    if word is None or stem[1:] != stem[1:].lower():
+        return None
+    return word.capitalize() if stem[0].isupper() else word, match[2]

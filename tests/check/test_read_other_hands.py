@@ -1,0 +1,192 @@
+"""What people type beside equations, and how programs and other schools write them, is read or told.
+
+Oracle: the equations of a pendulum, of a bead in a turning tube and of a plate of a condenser, by hand:
+
+    m L² θ̈ + b θ̇ + m g L sin θ = 0
+    m r̈ − m r φ̇² + k (r − l₀) = 0,   (J + m r²) φ̈ + 2 m r ṙ φ̇ = τ
+    m ẍ + b ẋ + k x − q²/(2 ε A) = 0
+"""
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+from built_in import derivation
+from lagrangian import Derivation, ParseError, System
+from lagrangian.check.reading import parse_answer
+
+BEAD = "m r'' - m r phi'^2 + k (r - l_0) = 0"
+TUBE = "(J + m r^2) phi'' + 2 m r r' phi' = tau"
+
+
+@cache
+def bead() -> Derivation:
+    """A bead on a spring in a tube that a motor turns about a vertical axle."""
+    sys = System("bead in a turning tube")
+    r, phi = sys.coordinate("r", positive=True), sys.coordinate("phi")
+    m, J, k, l_0 = sys.parameters("m J k l_0", m=0.3, J=0.02, k=12, l_0=0.2)
+    (t,) = r.args
+    sys.kinetic(m * (r.diff(t) ** 2 + r**2 * phi.diff(t) ** 2) / 2 + J * phi.diff(t) ** 2 / 2)
+    sys.spring(k, deflection=r, rest=l_0)
+    sys.generalized_force(phi, sys.input("tau"))
+    return sys.derive()
+
+
+@cache
+def plate(permittivity: str = "eps") -> Derivation:
+    """A plate of a condenser on a spring, in a circuit with a coil, a resistor and a source."""
+    sys = System("plate of a condenser")
+    x, q = sys.coordinate("x"), sys.coordinate("q", unit="C")
+    m, k, b, L_c, R, A, d = sys.parameters("m k b L_c R A d")
+    eps = sys.parameter(permittivity)
+    (t,) = x.args
+    sys.kinetic(m * x.diff(t) ** 2 / 2 + L_c * q.diff(t) ** 2 / 2)
+    sys.spring(k, deflection=x)
+    sys.damper(b, deflection=x)
+    sys.potential(q**2 * (d - x) / (2 * eps * A))
+    sys.generalized_force(q, sys.input("u") - R * q.diff(t))
+    return sys.derive()
+
+
+@cache
+def puck() -> Derivation:
+    """A puck on a cylinder, with the contact as a constraint: m r̈ − m r θ̇² + m g cos θ = λ, r = R."""
+    sys = System("puck")
+    r, theta = sys.coordinate("r", positive=True), sys.coordinate("theta")
+    m, R, g = sys.parameters("m R g", m=0.4, R=1.2, g=9.81)
+    (t,) = r.args
+    sys.kinetic(m * (r.diff(t) ** 2 + r**2 * theta.diff(t) ** 2) / 2)
+    sys.potential(m * g * r * sp.cos(theta))
+    sys.constraint(r - R, name="contact")
+    return sys.derive()
+
+
+@pytest.mark.parametrize("permittivity", ["eps", "epsilon", "ε", "eps_0"])
+@pytest.mark.parametrize("product", ["εA", "eps A", "ε₀A", "(epsilon*A)", "\\varepsilon A", "(2 epsA)/2"])
+def test_greek_letters_are_read_in_full_or_shortened_next_to_others(permittivity: str, product: str) -> None:
+    force = f"q^2/(2 {product})" if "\\" not in product else rf"\frac{{q^2}}{{2{product}}}"
+    written = f"m x'' + b x' + k x = {force}" if "\\" not in product else rf"$m\ddot x + b\dot x + kx = {force}$"
+    found = plate(permittivity).check(written)
+    assert [f.status.value for f in found.findings] == ["right"], found.to_text()
+
+
+def test_a_shortened_letter_that_the_answer_defines_or_that_is_a_product_is_none() -> None:
+    sys = System("x")
+    x = sys.coordinate("x")
+    e, p, theta = sys.parameters("e p theta")
+    sys.particle(e, at=sys.point("P", (x, 0)))
+    sys.spring(p * theta, deflection=x)
+    derived = sys.derive()
+    assert derived.check("th = 3 e\n e x'' + p theta x + th - 3 e = 0").right
+    assert derived.check("e x'' + p th x = 0").right
+    assert not derived.check("ep x'' + p theta x = 0").right
+
+
+PENDULUM = "m L^2 theta'' + b theta' + m g L sin(theta)"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        PENDULUM.replace("theta''", "thetadotdot").replace("theta'", "theta_dot") + " = 0",
+        "eom_theta = " + PENDULUM,
+        "residual = " + PENDULUM,
+        "m L² D²θ + b Dθ + m g L sin θ = 0",
+        "m L^2 D^2 theta + b D theta = -m g L sin(theta)".replace("D theta", "theta'"),
+        "Pendulum: ΣM = m L^2 theta'':  -m g L sin(theta) - b theta' = m L^2 theta''",
+        "$\\sum M = mL^2\\ddot\\theta = -b\\dot\\theta - mgL\\sin\\theta$",
+        f"Name: Marie Curie        Student no.: 1234567\nDate: 12.05.2024\nHomework 4\n{PENDULUM} = 0",
+        f"{PENDULUM} = 0. This is Newton's law.",
+        f"Equation of motion: {PENDULUM} = 0",
+        f"d/dt(m L^2 theta') worked out: {PENDULUM} = 0",
+        f"We set T = 1/2 m L^2 theta'^2     kinetic\n{PENDULUM} = 0",
+        f"N is the force in the rod (a pull) = m g\n{PENDULUM} = 0",
+        f"(L sin θ, -L cos θ)\n{PENDULUM} = 0",
+        "r = (L sin θ, -L cos θ)\nr' = (L θ' cos θ, L θ' sin θ)\nT = 1/2 m |r'|²\nV = -m g L cos θ",
+        "v = (L θ' cos θ, L θ' sin θ)\nT = 1/2 m v²",
+        "m L 2[L/2] theta'' + b [theta'] + m g L sin(theta) = 0",
+        "D = m L^2\ntheta'' = -(b theta' + m g L sin(theta))/D",
+        "P = m g L\nm L^2 theta'' + b theta' + P sin(theta) = 0",
+    ],
+)
+def test_the_pendulum_in_other_hands_is_right(written: str) -> None:
+    verdict = derivation("pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("(L sin θ, -L cos θ)", "it is a list without an equals sign"),
+        ("theta' = sum of all rates", "was not read and not judged"),
+        ("N is the force in the rod = m g", "nothing else uses rod"),
+        ("E = 1/2 m L² θ'² + m g L", "nothing else uses E"),
+        ("where the pull (of the rod) = m g", "one side consists of words"),
+        ("r' = (L θ' cos θ, L θ' sin θ)", "nothing says what r is"),
+    ],
+)
+def test_what_is_not_judged_is_told(written: str, told: str) -> None:
+    verdict = derivation("pendulum").check(f"{written}\n{PENDULUM} = 0")
+    assert verdict.right and told in " ".join(map(str, verdict.notes))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "r = (L sin θ, -L cos θ)\nr' = (L θ' cos θ, -L θ' sin θ)\nT = 1/2 m L^2 θ'^2",
+        "D = m L\ntheta'' = -(b theta' + m g L sin(theta))/D",
+        "T = 1/2 m L^2 theta^2\nV = -m g L cos(theta)\nL = T - V",
+        f"eom_theta = {PENDULUM} + m g",
+        "m L² D²θ + b D²θ + m g L sin θ = 0",
+    ],
+)
+def test_mistakes_in_other_hands_stay_wrong(wrong: str) -> None:
+    assert not derivation("pendulum").check(wrong).right
+
+
+def test_lists_of_values_are_statements_in_any_sentence() -> None:
+    values = "Numbers: m = 1 kg, L = 0,5 m, b=0.02 Ns/m (bearing), angle 30 deg, g=9.81"
+    verdict = derivation("pendulum").check(f"{values}\n0,25 θ'' + 0,02 θ' + 4,905 sin θ = 0")
+    assert verdict.right and "Line 1 was read as a list of values." in map(str, verdict.notes)
+    assert not derivation("pendulum").check(f"{values}\n0,25 θ'' + 0,02 θ' + 4,9 sin θ = 0").right
+    other = derivation("pendulum").check("m = 2 kg, L = 2 m\n8 θ'' + b θ' + 4 g sin θ = 0")
+    assert other.right and "Right if" in " ".join(map(str, other.notes))
+
+
+def test_coordinates_in_brackets_in_front_are_labels_only_if_all_are_there() -> None:
+    assert bead().check(f"(r)  {BEAD}\n(φ)  {TUBE}").right
+    assert not bead().check(f"(r)  {BEAD.replace(' = 0', ' = tau')}\n{TUBE}").right
+    assert not bead().check(f"(r) {BEAD}\n{TUBE}").right
+
+
+def test_general_equations_in_matrices_are_told() -> None:
+    verdict = bead().check(f"matrix form M(q) q'' + h = f, q = [r; phi]\n{BEAD}\n{TUBE}")
+    assert verdict.right and "nothing says what M and h are" in " ".join(map(str, verdict.notes))
+    verdict = bead().check(
+        "M(q) q'' = f\nM = [m, 0; 0, J + m r^2]\nf = [m r phi'^2 - k (r - l_0); tau - 2 m r r' phi']"
+    )
+    assert verdict.right
+
+
+def test_a_multiplier_takes_up_no_mistake() -> None:
+    turn = "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
+    for right in ("m r'' - m r theta'^2 + m g cos(theta) = lambda", "r'' = r theta'^2 - g cos(theta) + N/m"):
+        assert puck().check(f"{right}\n{turn}").right
+    for wrong in ("m r'' + m g cos(theta) = lambda", "m r'' - m r theta'^2 - m g cos(theta) = lambda"):
+        assert not puck().check(f"{wrong}\n{turn}").right
+
+
+def test_a_name_of_the_system_alone_on_the_right_is_no_energy() -> None:
+    sys = System("x")
+    x = sys.coordinate("x")
+    m, k, R = sys.parameters("m k R")
+    sys.particle(m, at=sys.point("P", (x, 0)))
+    sys.spring(k, deflection=x, rest=R)
+    assert sys.derive().check("m x''/(k) + x = R").right
+
+
+@pytest.mark.parametrize("written", ["foo bar", "2 foo"])
+def test_unknown_terms_of_an_equation_are_no_words(written: str) -> None:
+    with pytest.raises(ParseError):
+        parse_answer(f"{PENDULUM} + {written} = 0", derivation("pendulum").model)
