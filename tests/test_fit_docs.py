@@ -21,3 +21,6 @@ def test_the_manuals_python_runs() -> None:
     for name, value in {"m2": 0.8, "L1": 1.1, "theta1": 0.7, "theta2": 0.4}.items():
         assert abs(found.estimate[name] - value) < 4 * found.std[name]  # type: ignore[attr-defined]
     assert [x.names for x in names["every"].undetermined] == [("m1", "m2"), ("L1", "L2", "g")]  # type: ignore[attr-defined]
+    assert names["best"].success  # type: ignore[attr-defined]
+    assert abs(names["again"]["theta"][-1]) < 1e-4  # type: ignore[index]
+    assert names["tuned"].cost < names["tuned"].first_cost  # type: ignore[attr-defined]

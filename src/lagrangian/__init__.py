@@ -26,6 +26,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.linear.regulator import Regulator
     from lagrangian.linear.stability import Stability
     from lagrangian.linear.symbolic import SymbolicLinearization
+    from lagrangian.optimize.result import Optimum
     from lagrangian.page.formula import Check, EquationTerm
     from lagrangian.page.report import Report
     from lagrangian.picture import Picture
@@ -63,6 +64,7 @@ else:
             "linear.regulator": "Regulator",
             "linear.stability": "Stability",
             "linear.symbolic": "SymbolicLinearization",
+            "optimize.result": "Optimum",
             "page.formula": "Check EquationTerm",
             "page.report": "Report",
             "picture": "Picture",
@@ -111,6 +113,7 @@ __all__ = [
     "ModelError",
     "MotionLinearization",
     "Notice",
+    "Optimum",
     "Origin",
     "ParseError",
     "Picture",

@@ -1,4 +1,4 @@
-"""The verbs of a system that run it many times to find values: fit."""
+"""The verbs of a system that run it many times to find values: fit, optimize."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from lagrangian.calls import worded
 from lagrangian.simulated import Simulated
 
 if TYPE_CHECKING:  # imported here only for types: describing a system does not have to wait for SciPy
+    from numpy.typing import ArrayLike
+
     from lagrangian.fit.result import Fit
+    from lagrangian.optimize.result import Optimum
     from lagrangian.simulate.events import Event
 
 
@@ -72,3 +75,64 @@ class Designed(Simulated):
         }  # fmt: skip
         options = FitOptions(initial, params, inputs, sigma, bounds, start, max_evaluations)
         return fit(self.model, data, parameters, options, initial_by_name, run_options)
+
+    def optimize(
+        self,
+        unknowns: Sequence[Any] | Mapping[Any, Any] | str,
+        duration: float | str | None = None,
+        *,
+        final: Any = None,
+        integral: Any = None,
+        reach: Mapping[Any, Any] | None = None,
+        bounds: Mapping[Any, Any] | None = None,
+        initial: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        inputs: Mapping[Any, Any] | None = None,
+        times: ArrayLike | Sequence[float | str] | None = None,
+        samples: int | None = None,
+        start: float | str = 0.0,
+        method: str | None = None,
+        step: float | str | None = None,
+        rtol: float = 1e-8,
+        atol: float = 1e-11,
+        events: Sequence[Event] | Event = (),
+        max_step: float | str = math.inf,
+        max_steps: int = 1_000_000,
+        max_events: int = 100_000,
+        timeout: float | None = None,
+        max_evaluations: int = 500,
+        tolerance: float = 1e-9,
+        **initial_by_name: Any,
+    ) -> Optimum:
+        """Find the parameters, initial values and inputs that make a run best; return a `lagrangian.Optimum`.
+
+        >>> from lagrangian import System
+        >>> cart = System("cart")
+        >>> x, F = cart.coordinate("x"), cart.input("F")
+        >>> _ = cart.particle(1.0, at=cart.origin + (x, 0))
+        >>> _ = cart.force((F, 0), at=cart.origin + (x, 0))
+        >>> push = {"F": ([0, 1], [0.0, 0.0])}
+        >>> best = cart.optimize("F", 1.0, integral="F^2", reach={"x": 1, "x'": 0}, inputs=push)
+        >>> round(best.cost, 4), best.inputs["F"][1].round(3)  # the least effort from rest to rest: 6 − 12 t
+        (12.0, array([ 6., -6.]))
+
+        It minimizes ``final`` + ∫ ``integral`` dt, expressions of state, inputs, parameters and t, the first at the end
+        of the run. ``reach`` maps expressions to the values that they must have at the end. ``unknowns`` names them, or
+        maps them to first guesses: parameters (also in expressions of inputs), states, for their initial values, and
+        inputs, constants or tables, of which every value is an unknown, ``F[0]``, ``F[1]``, … ``bounds`` maps names to
+        ``(low, high)``. A terminal event may end the run; its time is then part of what is optimized.
+
+        The search is SciPy's L-BFGS-B, with ``reach`` SLSQP, with the exact gradients of the run. It is local, ends if
+        a step improves the cost by less than ``tolerance``, relatively, and takes ``max_evaluations`` at most. All
+        other options are those of `simulate`. Raises `RunError` for what does not fit, and what
+        `Trajectory.sensitivities` raises.
+        """
+        from lagrangian.optimize.verb import OptimizeOptions, optimize
+
+        run_options = {
+            "duration": duration, "times": times, "samples": samples, "start": start, "method": method, "step": step,
+            "rtol": rtol, "atol": atol, "events": events, "max_step": max_step, "max_steps": max_steps,
+            "max_events": max_events, "timeout": timeout,
+        }  # fmt: skip
+        options = OptimizeOptions(final, integral, reach, bounds, initial, params, inputs, max_evaluations, tolerance)
+        return optimize(self.model, unknowns, options, initial_by_name, run_options)

@@ -172,17 +172,24 @@ def varied_quantities(
 ) -> Program:
     """x, u, p, t of `variational` (without integrals) → each of ``outputs`` and its change by every column.
 
-    ``"theta"`` and ``"change of theta"``, with the columns as the last axis.
+    ``"theta"``, ``"change of theta"`` with the columns as the last axis, and ``"rate of theta"``, along the motion at
+    constant inputs.
     """
     seen = Observed(model)
-    base = with_feedback(seen, observed(seen, outputs), feedback, "varied quantities")
+    asked = observed(seen, outputs)
+    ids = [*seen.mechanics.motion.rates, *seen.vdot]
+    base = with_feedback(seen, {**asked, "xdot": Output(tuple(ids), (len(ids),))}, feedback, "varied quantities")
     g, n = base.graph, len(base.inputs["x"])
     varied = _Varied(g, columns, n, n, len(base.inputs["u"]))
-    found: dict[str, Output] = dict(base.outputs)
-    for name, output in base.outputs.items():
+    f = base.outputs["xdot"].ids
+    along = Tangents(g, {**{g.input("x", i): f[i] for i in range(n)}, g.input("t", 0): g.one})
+    found: dict[str, Output] = {name: base.outputs[name] for name in asked}
+    for name in asked:
+        output = base.outputs[name]
         changes = [Tangents(g, varied.direction(j))(output.ids) for j in range(len(columns))]
-        ids = tuple(change[i] for i in range(len(output.ids)) for change in changes)
-        found[f"change of {name}"] = Output(ids, (*output.shape, len(columns)))
+        flat = tuple(change[i] for i in range(len(output.ids)) for change in changes)
+        found[f"change of {name}"] = Output(flat, (*output.shape, len(columns)))
+        found[f"rate of {name}"] = Output(tuple(along(output.ids)), output.shape)
     return varied.program(base, "varied quantities", found)
 
 

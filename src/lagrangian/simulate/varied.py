@@ -58,6 +58,7 @@ def columns_of(task: Task, wrt: Any) -> Columns:
 
     Raises `RunError` for names that are no parameter, initial state or input of the run.
     """
+    _check_called(task)
     model, drive = task.model, task.drive
     places = {p.name: ("p", i) for i, p in enumerate(model.parameters)}
     places |= {name: ("x", i) for i, name in enumerate(task.states)}
@@ -117,6 +118,11 @@ def check_differentiable(model: Model, task: Task) -> None:
             fix="describe it in independent coordinates, without constraints",
             code="E501",
         )
+    _check_called(task)
+
+
+def _check_called(task: Task) -> None:
+    """Raise an error for an input whose derivatives are not known."""
     if task.drive.calls_python:
         called = [u.name for u, s in zip(task.drive.free, task.drive.sources, strict=True) if callable(s)]
         raise RunError(
