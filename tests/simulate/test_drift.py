@@ -73,6 +73,20 @@ def test_multistep_methods_stay_closed_for_a_hundred_seconds(method):
     assert max(run.drift.position_after, run.drift.velocity_after) < 1e-12
 
 
+@pytest.mark.slow
+def test_multistep_methods_say_why_they_are_slow_or_stop_where_a_linkage_can_branch():
+    """The cranks lie flat at t = 0.42 s: LSODA takes twenty times the steps for the last 25 ms, BDF stops."""
+    plate = plate_on_cranks()
+    assert plate.simulate(0.4, initial=START, method="LSODA").steps < 100
+    run = plate.simulate(0.6, initial=START, method="BDF")
+    assert not run.success and "come to depend on each other there" in run.message
+    assert "E504" in run.message and "method='dop853'" in str(run.message)
+    assert plate.simulate(0.6, initial=START).steps < 300
+    slow = plate.simulate(0.425, initial=START, method="LSODA", samples=11)
+    (said,) = (n.text for n in slow.notices if "more than one way" in n.text)
+    assert slow.success and slow.steps > 1000 and "'LSODA' takes very short steps" in said
+
+
 def test_without_projection_the_drift_is_measured():
     run = SYSTEM.simulate(20.0, **RELEASED, method="rk4", step=0.02, project=False)
     assert run.drift.position_before == run.drift.position_after > 1e-6

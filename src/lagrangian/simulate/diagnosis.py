@@ -12,7 +12,7 @@ from lagrangian.graph import evaluate
 from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Outcome
 from lagrangian.integrate.status import RunStatus
 from lagrangian.page.plain import plain
-from lagrangian.simulate import sticking
+from lagrangian.simulate import drift, sticking
 from lagrangian.simulate.integrating import Task, right_hand_side
 from lagrangian.simulate.settling import PARADOX_FIX
 
@@ -62,6 +62,9 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 return broken, "look for a division by zero or a root of a negative number there"
             if said.startswith("["):  # the solver kept the message of an evaluation
                 return said, "a finite value everywhere the run may reach"
+            if branch := drift.branches(outcome):
+                other = "'Radau'" if task.method == "dop853" else "'dop853'"
+                return f"[E504] {branch}", Advice(Argument("method", other), ", which steps over such positions")
             return f"[E504] {said}", _gentler(task, outcome)
         case RunStatus.TOO_MANY:
             return (

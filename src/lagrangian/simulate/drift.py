@@ -30,8 +30,17 @@ LARGEST = 1e-6
 CLOSE = 1e-6
 """Below this margin, a notice says that the run came close to a position where constraints depend on each other."""
 
+NEAR_THE_END = 0.01
+"""The least margin belongs to the end of a run if it is in this last part of it."""
+
 DEPENDENT = 1e-9
 """If the margin stays below this, a row depends on others throughout."""
+
+BRANCHING = 1e-3
+"""A run that ends where the margin has become less than this has come to a position where a linkage can branch."""
+
+MULTISTEP = frozenset({"BDF", "LSODA"})
+"""Methods with a history: noise in the accelerations is in all of it."""
 
 WHERE = "constraints"
 """The subject of notices about a run's constraints."""
@@ -131,6 +140,11 @@ def _close(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]:
         f"at t = {drift.margin_time:.4g} s '{row.element.name}' comes within {angle:.2g} rad "
         "of a position where the system can move in more than one way"
     )
+    if task.method in MULTISTEP:
+        text += (
+            f"; there rounding is a noise in the accelerations, through which '{task.method}' takes very short steps "
+            f"({outcome.steps} in this run) and 'dop853' a few"
+        )
     return (Notice(Code.E508, WHERE, text),)
 
 
@@ -146,6 +160,19 @@ def _at(model: Model, make: object, task: Task, t: float, x: Array) -> dict[str,
     n, size = len(model.coordinates), task.size
     given = {"q": x[:n], "v": x[n:size], "u": np.zeros(len(model.inputs)), "p": task.p, "t": [t]}
     return evaluate(program, {g: list(map(float, values)) for g, values in given.items()})  # type: ignore[return-value]
+
+
+def branches(outcome: Outcome) -> str:
+    """What is to be said of a run that could not go on where constraints come to depend on each other; else empty."""
+    if outcome.drift is None:
+        return ""
+    drift = RunDrift.of_run(outcome.drift)
+    if not DEPENDENT < drift.margin < BRANCHING or outcome.reached - drift.margin_time > NEAR_THE_END * outcome.reached:
+        return ""
+    return (
+        f"the constraints come to depend on each other there (margin {drift.margin:.1g}): the system can move in more "
+        "than one way, and rounding is a noise in its accelerations"
+    )
 
 
 # -- the border of a run ----------------------------------------------------------------------------------------
