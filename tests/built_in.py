@@ -24,6 +24,10 @@ SOME = (
 )  # fmt: skip
 """Examples of every kind, for tests that ask the same of all: in one and two and three dimensions, driven, prescribed,
 with springs, with loops, rolling. The others are asked among the tests that take long."""
+CIRCUITS = ("capacitive-actuator", "dc-motor", "loudspeaker", "magnetic-levitation")
+"""Examples with coils, whose equations are not all F = ma."""
+SATURATED = {"magnetic-levitation"}
+"""Examples whose T* is not quadratic in the rates: their momenta cannot be solved for the rates."""
 FREE = tuple(n for n in examples.names() if n not in CONSTRAINED)
 """Examples with as many coordinates as degrees of freedom."""
 

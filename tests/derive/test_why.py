@@ -8,13 +8,13 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from built_in import LARGE, derivation
+from built_in import CIRCUITS, LARGE, derivation
 from lagrangian import examples
 from lagrangian.derive import why
 from lagrangian.derive.reasons.laws import AGREE, agree
 from lagrangian.page.formula import text
 
-NAMES = [n for n in examples.names() if n not in {"whipple-bicycle", "stewart-platform"}]
+NAMES = [n for n in examples.names() if n not in {"whipple-bicycle", "stewart-platform", *CIRCUITS}]
 LECTURE = ("lecture-1", "lecture-2", "lecture-3a", "lecture-3b")
 
 

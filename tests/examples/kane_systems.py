@@ -10,11 +10,12 @@ from functools import cache
 
 import sympy as sp
 import sympy.physics.mechanics as me
+from circuits_by_hand import BY_HAND, ByHand
 from kane_route import Kane, Residual, t
 from sympy import Symbol, cos, sin, symbols
 
 g = Symbol("g")
-SYSTEMS: dict[str, Callable[[], Kane]] = {}
+SYSTEMS: dict[str, Callable[[], Kane | ByHand]] = {**BY_HAND}
 
 
 def system(*names: str) -> Callable[[Callable[[], Kane]], Callable[[], Kane]]:

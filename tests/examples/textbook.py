@@ -171,6 +171,15 @@ BOOK: dict[str, list[str]] = {
         "m*sin(theta)*x'' + m*l'' - m*l*theta'**2 - m*g*cos(theta) = -F_h",
         "m*l*cos(theta)*x'' + m*l**2*theta'' + 2*m*l*l'*theta' + m*g*l*sin(theta) = 0",
     ],
+    "dc-motor": [
+        "L*q'' + R*q' + K*theta' = u",
+        "(J + m*l**2)*theta'' + b*theta' + m*g*l*sin(theta) = K*q'",
+    ],
+    "loudspeaker": ["L*q'' + R*q' + Bl*x' = u", "m*x'' + b*x' + k*x = Bl*q'"],
+    "capacitive-actuator": [
+        "L*q'' + R*q' + (d - x)*q/(epsilon*A) = u",
+        "m*x'' + b*x' + k*x - q**2/(2*epsilon*A) = 0",
+    ],
     "duffing": ["m*x'' + b*x' + k*x + k3*x**3 = F_0*cos(omega*t)"],
 }
 

@@ -161,6 +161,8 @@ def test_bodies_of_examples_touch_what_holds_them(name: str) -> None:
     """The same asked of the drawing alone, without any rule of mechanics: no body hangs in the air."""
     scene, model = picture(name).scene, built_in.system(name).model
     for body in model.bodies:
+        if body.name == "ball" and name == "magnetic-levitation":
+            continue  # what holds it is a magnet
         place = [model.expand(r) for r in model.position(body.at)]
         own = sum(any(r.has(c.symbol) for r in place) for c in model.coordinates)
         assert own >= model.dimension or held(scene, body.name), body.name

@@ -80,6 +80,8 @@ def _hard(node: sp.Basic) -> bool:
         if not isinstance(exponent, sp.Rational):
             return size(exponent) > INSIDE
         return max(abs(exponent.p), exponent.q) > HIGH and size(base) > 1
+    if isinstance(node, sp.log) and isinstance(node.args[0], sp.cosh):
+        return False  # the co-energy of a coil that saturates; its cosh is asked by itself
     if isinstance(node, (sp.Function, sp.Piecewise, sp.Max, sp.Min)):
         most = 3 * INSIDE if isinstance(node, (sp.sin, sp.cos)) else INSIDE
         return max(size(a) for a in node.args) > most or any(_turns(part) for a in node.args for part in each(a))

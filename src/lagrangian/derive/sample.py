@@ -14,19 +14,24 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, vjp
-from lagrangian.model import Model, time
+from lagrangian.model import Inductor, Model, MutualInductance, time
 from lagrangian.page.plain import plain
 
 TRIES = 60
 """After this many random draws without a finite value, an expression counts as having none anywhere."""
 
 
+SHARED = 0.2
+"""The part of a random number that a mutual inductance gets."""
+
+
 class Sampler:
     """Evaluates expressions at random coordinates, rates, accelerations, parameters, inputs and time.
 
-    Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and there are no special values. With
-    ``values``, parameters that have a value keep it. ``slopes_of`` are expressions whose derivatives by the symbols
-    ``by`` come before the values of ``exprs``, row after row.
+    Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and there are no special values; of a
+    mutual inductance a fifth, because it is smaller than the inductances of its coils. With ``values``, parameters
+    that have a value keep it. ``slopes_of`` are expressions whose derivatives by the symbols ``by`` come before the
+    values of ``exprs``, row after row.
     """
 
     def __init__(
@@ -52,11 +57,16 @@ class Sampler:
         names = tuple(plain(s) for s in self.symbols)
         self._program = Program("sample", graph, {"x": names}, {"y": Output(ids, (len(ids),))}, {})
         self._fixed: dict[sp.Basic, float] = {**model.values} if values else {}
+        own = {s for e in model.branches if isinstance(e, Inductor) for use in e.uses() for s in use.expr.free_symbols}
+        shared = {s for e in model.branches if isinstance(e, MutualInductance) for s in e.M.free_symbols}
+        self._shared = shared - own
 
     def draw(self, seed: int) -> dict[sp.Basic, float]:
         """A random value for every symbol."""
         source = random.Random(seed)
-        drawn: dict[sp.Basic, float] = {s: source.uniform(0.4, 1.6) for s in self.symbols}
+        drawn: dict[sp.Basic, float] = {
+            s: source.uniform(0.4, 1.6) * (SHARED if s in self._shared else 1) for s in self.symbols
+        }
         drawn.update({s: v for s, v in self._fixed.items() if s in drawn})
         return drawn
 

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
-from lagrangian.values.dimensions import LENGTH, NONE
+from lagrangian.model.elements import answers
+from lagrangian.values.dimensions import LENGTH, NONE, Dim
 from lagrangian.values.values import Given, Group, number
 
 Array = NDArray[np.float64]
@@ -18,6 +19,8 @@ Array = NDArray[np.float64]
 TURN = 2 * np.pi
 LENGTHS = 4.0
 """A side that is a length extends to this multiple of the largest length among the parameters."""
+
+CHARGE, CURRENT = Dim.of_unit(answers.CHARGE), Dim.of_unit(answers.CURRENT)
 
 SIDE = 10.0
 """Half the length of a side if no length is known."""
@@ -55,12 +58,21 @@ class Box:
         return q, bool((inside | ~self.given).all() and (q > 0)[self.positive].all())
 
 
-def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None, turns: NDArray[np.bool_]) -> Box:
+def make_box(
+    given: Given,
+    names: tuple[str, ...],
+    asked: Mapping[Any, Any] | None,
+    turns: NDArray[np.bool_],
+    charge: float | None = None,
+) -> Box:
     """The box that the user gave; by default (−π, π] for angles, and a multiple of the lengths of the parameters for
-    the rest."""
+    the rest; ``charge`` is the largest charge of a capacitor, if that is known. A name with a prime is a current."""
     low, high, told = np.empty(len(names)), np.empty(len(names)), np.zeros(len(names), bool)
-    sides = _sides(given, names, asked)
-    reach = _reach(given)
+    dims = tuple(given.states.dims[given.states.names.index(name)] for name in names)
+    sides = _sides(names, dims, asked)
+    reach = {dim: _reach(given, dim) for dim in (LENGTH, CURRENT)}
+    if charge is not None:
+        reach[CHARGE] = LENGTHS * charge
     positive = {c.name for c in given.model.coordinates if c.positive}
     distances = np.array([name in positive for name in names], bool)
     for k, name in enumerate(names):
@@ -68,23 +80,25 @@ def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | No
             low[k], high[k] = sides[name]
             told[k] = True
             continue
-        half = np.pi if turns[k] or given.states.dims[k] == NONE else reach
+        half = np.pi if turns[k] or dims[k] == NONE else reach.get(dims[k] or LENGTH, reach[LENGTH])
         low[k], high[k] = 0.0 if distances[k] else -half, half
     return Box(names, low, high, turns, told, distances)
 
 
-def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None) -> dict[str, tuple[float, float]]:
+def _sides(
+    names: tuple[str, ...], dims: tuple[Dim | None, ...], asked: Mapping[Any, Any] | None
+) -> dict[str, tuple[float, float]]:
     if asked is None:
         return {}
     if not isinstance(asked, Mapping):
         raise RunError(
             "box must be a mapping from coordinates to (low, high)", fix="{coordinate: (low, high)}", code="E501"
         )
-    group = Group("coordinate", names, given.states.dims[: len(names)])
+    group = Group("coordinate", names, dims)
     found: dict[str, tuple[float, float]] = {}
     for key, side in asked.items():
         (name,) = group.values({key: 0.0})
-        dim = given.states.dims[names.index(name)]
+        dim = dims[names.index(name)]
         if isinstance(side, str) or not isinstance(side, Sequence | np.ndarray) or len(side) != 2:
             raise RunError(f"the box of '{name}' must be (low, high) (got {side!r:.40})", code="E501")
         ends = (number(side[0], f"low end of '{name}'", dim), number(side[1], f"high end of '{name}'", dim))
@@ -98,13 +112,13 @@ def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None
     return found
 
 
-def _reach(given: Given) -> float:
-    """Half a side of the box for a coordinate that is not an angle: a multiple of the largest length."""
+def _reach(given: Given, unit: Dim) -> float:
+    """Half a side of the box for a coordinate that is not an angle: a multiple of the largest length, or current."""
     parameters = given.parameters
     if given.dimensions is None:
         return SIDE
     values = {p.name: p.value for p in given.model.parameters}
     lengths = [
-        abs(values[name] or 0.0) for name, dim in zip(parameters.names, parameters.dims, strict=True) if dim == LENGTH
+        abs(values[name] or 0.0) for name, dim in zip(parameters.names, parameters.dims, strict=True) if dim == unit
     ]
     return LENGTHS * max(lengths) if lengths and max(lengths) > 0 else SIDE

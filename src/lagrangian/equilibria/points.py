@@ -46,7 +46,7 @@ class Equilibrium(Brief):
 
     def __str__(self) -> str:
         """Return the equilibrium and its stability as one line."""
-        shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
+        shown = {name: value for name, value in self.at.items() if value or not name.endswith("'")}
         return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.equilibria.box import Box, make_box
+from lagrangian.equilibria.currents import largest_charge, slopes, split_state, steady_currents, without_charges
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.points import Equilibria, Equilibrium
 from lagrangian.equilibria.roots import ENOUGH, EXACT, Forces, Search, distinct, starting_points
@@ -106,6 +107,8 @@ class _Task:
     u: Array
     p: Array
     held_forces: HeldForces | None = None
+    steady: tuple[int, ...] = ()
+    """The charges whose currents are sought."""
 
     def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
         """An equilibrium with its verdict; None if it is outside the box, or is not an equilibrium at other times."""
@@ -114,7 +117,7 @@ class _Task:
         if not inside or not self._rests_always(q):
             return None
         q = self.without_rounding(q)
-        x = np.concatenate([q, np.zeros(len(q))])
+        x = np.concatenate(split_state(q, self.steady))
         names = self.box.names
         return Equilibrium(
             at=dict(zip(self.linearizer.rates.inputs["x"], x.tolist(), strict=True)),
@@ -134,14 +137,15 @@ class _Task:
 
     def _stability(self, x: Array) -> Stability:
         try:
-            return self.linearizer.at_rest(x, self.u, self.p).stability
+            return without_charges(self.linearizer.at_rest(x, self.u, self.p), self.steady)
         except RunError as trouble:  # it is an equilibrium all the same
             return Stability("marginal", trouble.what)
 
     def is_singular(self, q: Array) -> bool:
         """Whether M is singular at q: then h = 0 says nothing, because these coordinates do not describe the
         neighbourhood."""
-        M = self.linearizer.values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
+        at, v = split_state(q, self.steady)
+        M = self.linearizer.values(self.linearizer.mass, q=at, v=v, u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
         width = self.search.width
@@ -171,7 +175,8 @@ class _Task:
                 if np.abs(self.held_forces(q[None], t)[0]).max(initial=0.0) > 1e3 * EXACT:
                     return False
                 continue
-            h = self.linearizer.values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
+            at, v = split_state(q, self.steady)
+            h = self.linearizer.values(program, q=at, v=v, u=self.u, p=self.p, t=t)["h"]
             if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
                 return False
         return True
@@ -188,10 +193,13 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
             fix="describe its orientation by three angles instead (frames about axes)",
             code="E202",
         )
-    box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
+    steady = steady_currents(linearizer)
+    names = tuple(f"{name}'" if k in steady else name for k, name in enumerate(program.inputs["q"]))
+    charge = largest_charge(model, dict(zip(model.parameters, p.tolist(), strict=True)), u) if model.charges else None
+    box = make_box(given, names, asked, _turning(linearizer, u, p), charge)
     starts, held_forces = starting_points(64, box.low, box.high), None
     if linearizer.manifold is None:
-        forces = _forces(program, u, p)
+        forces = _forces(program, u, p, steady)
     else:
         forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale)
     h, K = forces(starts)
@@ -201,7 +209,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
     free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
     search = Search(forces, box.centre(), seek, scale, width, box.turns)
-    return _Task(model, box, search, free, held, linearizer, u, p, held_forces)
+    return _Task(model, box, search, free, held, linearizer, u, p, held_forces, steady)
 
 
 def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
@@ -288,6 +296,9 @@ def _notes(
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
         listed.append(f"no force depends on {what}: any is as good; {names[0]} is held")
+    for name in (task.box.names[k] for k in task.steady):
+        bare = name.removesuffix("'")
+        listed.append(f"no force depends on the charge {bare}: what is sought is its current {name}, steady there")
     if outside:
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")
@@ -326,13 +337,16 @@ def _kernel(program: Program, *names: str) -> machine.Kernel:
     return machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
 
 
-def _forces(program: Program, u: Array, p: Array) -> Forces:
-    """h and K at rest in machine code; where they are not finite, h is `LARGE` and K is 0, so that no step leads on."""
-    kernel = _kernel(program, "h", "K")
+def _forces(program: Program, u: Array, p: Array, steady: tuple[int, ...]) -> Forces:
+    """h and K at rest, or with steady currents, in machine code; where they are not finite, h is `LARGE` and K is 0."""
+    kernel = _kernel(program, "h", "K", *(["D"] if steady else []))
 
-    def forces(q: Array) -> tuple[Array, Array]:
-        got = kernel(q, np.zeros_like(q), u, p, 0.0)
+    def forces(z: Array) -> tuple[Array, Array]:
+        q, v = split_state(z, steady)
+        got = kernel(q, v, u, p, 0.0)
         h, K = np.array(got["h"]), np.array(got["K"])
+        if steady:
+            K = slopes(K, np.array(got["D"]), steady)
         bad = (np.abs(h) >= LARGE).any(axis=1) | (np.abs(K) >= LARGE).any(axis=(1, 2))
         h[bad], K[bad] = LARGE, 0.0
         return h, K

@@ -137,8 +137,9 @@ class Linearizer:
         return measured(self.model, None, self.rates)
 
     def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
-        """The linearization about a point that is known to be an equilibrium."""
-        return self.about(OperatingPoint(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
+        """The linearization about a point that is known to be an equilibrium, with steady currents or at rest."""
+        kind = "steady motion" if x[len(self.model.coordinates) :].any() else "rest"
+        return self.about(OperatingPoint(self.rates.inputs["x"], x, u, p, kind, 0.0), 0.0, None)
 
     def about(self, here: OperatingPoint, t: float, outputs: Any) -> Linearization:
         """The linearization about a point of a known kind."""

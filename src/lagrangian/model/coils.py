@@ -8,8 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagrangian.errors import ModelError
-from lagrangian.model.elements import CircuitBranch, Element
+from lagrangian.model.body_checks import ConstantValues
+from lagrangian.model.elements import CircuitBranch, Element, Inductor
+from lagrangian.model.elements.base import error_of
 from lagrangian.model.model import Model
+from lagrangian.page.plain import plain
 
 
 def check_inertia(name: str, elements: Sequence[Element]) -> None:
@@ -27,10 +30,14 @@ def check_inertia(name: str, elements: Sequence[Element]) -> None:
 
 
 def check_coils(model: Model) -> None:
-    """Raise an error for a charge without inductance, by which the mass matrix would be singular.
+    """Raise an error for an inductance that is not positive, and for a charge without any, by which M would be
+    singular.
 
     With constraints, a charge may be carried along by others.
     """
+    for element in model.branches:
+        if isinstance(element, Inductor) and element.L is not None:
+            _check_positive(ConstantValues.of_model(model).of(element.L), element)
     if model.constraints or not model.charges:
         return
     energies = [e.kinetic(model) for e in model.elements if e.ledger == "T*"]
@@ -43,3 +50,12 @@ def check_coils(model: Model) -> None:
                 "without a coil its equation gives the current, or the charge, from the other coordinates",
                 code="E201",
             )
+
+
+def _check_positive(value: float | None, element: Inductor) -> None:
+    """Raise an error for a constant inductance that is not positive, as far as it is known."""
+    if value is None or value > 0:
+        return
+    what = f"its inductance {plain(element.L)} is {'zero' if value == 0 else 'negative'}"
+    fix = "give it an inductance above 0, or leave it out"
+    raise error_of(element, what, fix=fix, code="E103" if value == 0 else "E102" if value < 0 else "E101")

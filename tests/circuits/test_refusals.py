@@ -1,0 +1,112 @@
+"""What is wrong with a circuit is said where it is described, with what would be right."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+def loop() -> tuple[lg.System, Any, Any]:
+    s = lg.System("loop")
+    return s, s.coordinate("q", unit="C"), s.coordinate("x", unit="m")
+
+
+WRONG: dict[str, tuple[Callable[[lg.System, Any, Any], object], str, str]] = {
+    "no charge": (lambda s, q, x: s.inductor(1), "E412", "it is in no circuit"),
+    "a charge that is a product": (lambda s, q, x: s.inductor(1, q * x), "E412", "is not a sum of charges"),
+    "a current for a charge": (lambda s, q, x: s.resistor(1, q.diff()), "E412", "is not a sum of charges"),
+    "a constant charge": (lambda s, q, x: s.capacitor(1, 2), "E412", "no coordinate is in its charge 2"),
+    "text for a charge": (lambda s, q, x: s.capacitor(1, "q"), "E406", "must be a number or a SymPy expression"),
+    "neither L nor a law": (lambda s, q, x: s.inductor(charge=q), "E416", "one of L, law and coenergy (got none)"),
+    "L and a law": (lambda s, q, x: s.inductor(1, q, law=lambda i: i), "E416", "(got L, law)"),
+    "C and energy": (lambda s, q, x: s.capacitor(1, q, energy=lambda e: e**2), "E416", "(got C, energy)"),
+    "a source without a value": (lambda s, q, x: s.voltage_source(None, q), "E416", "its voltage is missing"),
+    "a motor that drives nothing": (lambda s, q, x: s.transducer(1, q), "E416", "its on is missing"),
+    "one coil twice": (lambda s, q, x: s.mutual_inductance(1, q, q), "E410", "both of its coils have the same charge"),
+    "an inductance of a rate": (lambda s, q, x: s.inductor(x.diff(), q), "E419", "the inductance holds a rate, x'"),
+    "an inductance of an input": (lambda s, q, x: s.inductor(s.input("w"), q), "E417", "holds the input"),
+    "a law without integral": (lambda s, q, x: s.inductor(None, q, law=lambda i: sp.sin(i**3)), "E415", "coenergy"),
+    "a law that cannot be called": (lambda s, q, x: s.resistor(charge=q, law=lambda i: i < 1 and i), "E406", "law"),
+    "a capacitance of 0": (lambda s, q, x: s.capacitor(0, q), "E103", "its capacitance is zero"),
+    "an unknown charge": (lambda s, q, x: s.inductor(1, sp.Function("p")(s.t)), "E402", "p"),
+    "a frame in space": (
+        lambda s, q, x: s.transducer(1, q, on=s.frame(x, axis=(0, 0, 1))), "E414", "about which axis it turns"
+    ),
+    "a name that is not one": (lambda s, q, x: s.resistor(R=1, charge=q, **dict[str, Any](wires=2)), "E501", "wires"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_a_wrong_circuit_is_refused(what: str) -> None:
+    make, code, message = WRONG[what]
+    s, q, x = loop()
+    with pytest.raises(lg.Error) as found:
+        make(s, q, x)
+    assert message in str(found.value), str(found.value)
+    assert found.value.code == code or what == "a name that is not one"
+
+
+@pytest.mark.parametrize(("L", "code"), [(-1, "E102"), (0, "E103"), ("-2 mH", "E102")])
+def test_an_inductance_is_positive(L: Any, code: str) -> None:
+    s, q, _ = loop()
+    s.inductor(s.parameter("L", L) if isinstance(L, str) else L, q)
+    with pytest.raises(lg.Error, match="its inductance") as found:
+        s.derive()
+    assert found.value.code == code
+
+
+def test_charges_without_a_coil_are_told_by_every_verb() -> None:
+    s, q, x = loop()
+    s.particle(1, s.point("P", (x, 0)))
+    s.resistor(1, q)
+    s.capacitor(1, q)
+    for verb in (s.derive, s.compile, s.linearize, s.equilibria, lambda: s.simulate(1)):
+        with pytest.raises(lg.Error, match="no inductance is in the circuit of charge 'q'") as found:
+            verb()
+        assert found.value.code == "E201" and "add an inductor that 'q' flows through" in str(found.value)
+    bare = lg.System("RC")
+    bare.resistor(1, bare.coordinate("q"))
+    with pytest.raises(lg.Error, match="nothing in system 'RC' has inductance"):
+        bare.derive()
+
+
+FILE = """
+name = "loop"
+[coordinates]
+q = { description = "charge", unit = "C" }
+[parameters]
+L = "1 H"
+[[inductor]]
+charge = "q"
+L = "L"
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (('charge = "q"', ""), "charge"),
+        (('charge = "q"', 'charge = "p"'), "'p'"),
+        (('L = "L"\n', 'l = "L"\n'), "'l'"),
+        (('L = "L"', 'law = "L*curent"'), "curent"),
+        (('L = "1 H"', 'L = "1 F"'), "has the unit F, but H is needed"),
+        (('unit = "C"', 'unit = "A"'), "has the unit A, but C is needed"),
+        (('L = "L"', 'law = "L*current^2"'), "L*current^2 has the unit kg m^2/s^2, but Wb is needed"),
+        (("[[inductor]]", "[[indcutor]]"), "inductor"),
+    ],
+)
+def test_a_wrong_file_is_refused_with_its_line(change: tuple[str, str], message: str) -> None:
+    with pytest.raises(lg.Error) as found:
+        lg.loads(FILE.replace(*change)).derive()
+    assert message in str(found.value), str(found.value)
+    lg.loads(FILE).derive()
+
+
+def test_law_symbols_have_no_meaning_elsewhere() -> None:
+    with pytest.raises(lg.Error, match="current"):
+        lg.loads(FILE.replace('L = "L"', 'L = "L*current"'))
