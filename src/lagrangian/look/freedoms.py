@@ -228,14 +228,10 @@ def _rods(drawn: Drawn, parts: Sequence[Player]) -> None:
         drawn.say((drawn.points[a], e), (drawn.points[b], -e))
     rods = [h for k in drawn.points if (h := motions.holds[k]).how is HoldKind.ROD and motions.coordinates(k)]
     for one, two in permutations(rods, 2):
-        if two.holder != one.point and (two.holder != one.holder or one.point > two.point):
-            continue
-        first, second = r[:, one.point] - r[:, one.holder], r[:, two.point] - r[:, two.holder]
-        ratios = np.einsum("sd,sd->s", second, first) / np.einsum("sd,sd->s", first, first)
-        if np.abs(second - ratios[:, None] * first).max() < NONE * motions.size:
-            I, x = np.eye(d), float(ratios[0])
+        x = motions.in_line(one, two)
+        if x is not None and (two.holder == one.point or one.point < two.point):
             ends = (two.point, 1.0), (two.holder, -1.0), (one.point, -x), (one.holder, x)
-            drawn.say(*((drawn.points[k], c * I) for k, c in ends))
+            drawn.say(*((drawn.points[k], c * np.eye(d)) for k, c in ends))
 
 
 def _strung(drawn: Drawn, string: PulleyString) -> None:

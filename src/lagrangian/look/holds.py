@@ -104,6 +104,19 @@ class Motions:
         steady = np.abs(x - x[0]).max() < 1e-7 * self.size
         return bool(steady and np.abs(X).max() < 1e-7 * max(1.0, self.size))
 
+    def in_line(self, one: Hold, two: Hold) -> float | None:
+        """The length of the second rod by that of the first, if both are seen as one: on a line, in every position.
+
+        They share a joint, or the second one begins where the first one ends.
+        """
+        if two.holder not in (one.holder, one.point) or HoldKind.ROD not in (one.how, two.how):
+            return None
+        r = self.views.r
+        first, second = r[:, one.point] - r[:, one.holder], r[:, two.point] - r[:, two.holder]
+        ratios = np.einsum("sd,sd->s", second, first) / np.einsum("sd,sd->s", first, first)
+        straight = float(np.abs(second - ratios[:, None] * first).max()) < 1e-7 * self.size
+        return float(ratios[0]) if straight and one.how is two.how else None
+
     def length(self, a: int, b: int) -> sp.Expr:
         """A constant distance [m]: the parameter that it is, if it is one, otherwise a number."""
         v = self.views

@@ -50,9 +50,10 @@ class MeasureArtist:
             name = coordinate.name
             if name in self.board.hidden or name in skipped or self.board.lacks_circuit(coordinate):
                 continue
-            if not (
-                self._slide(i, name) or self._telescope(i, name) or self._angle(i, name) or self._position(i, name)
-            ):
+            rules = [self._slide, self._telescope, self._angle, self._position]
+            if any(h.how is HoldKind.TELESCOPE and h.along == i for h in self.board.motions.holds):
+                rules = [self._telescope, *rules]
+            if not any(rule(i, name) for rule in rules):
                 self.board.lacks(f"coordinate {name} is not drawn", "[look] pose may show what it moves")
 
     # -- lengths ------------------------------------------------------------------------------------------------

@@ -132,12 +132,15 @@ def _posed(motions: Motions, players: list[SpacePlayer], spins: list[Spin], pose
 
 
 def _wheels(board: Board, players: list[SpacePlayer]) -> list[tuple[int, float, Array]]:
-    """The wheels with their radii [m], each with the way along which what they carry is measured."""
+    """The wheels and boxes with their radii [m], each with the way along which what they carry is measured."""
     found: list[tuple[int, float, Array]] = []
     for x in players:
-        if x.glyph is not BodyGlyph.WHEEL or x.radius is None:
+        if x.glyph is BodyGlyph.WHEEL and x.radius is not None:
+            radius = board.stage.value(x.radius, board.q, board.p)
+        elif x.glyph is BodyGlyph.BLOCK and not board.motions.still(x.point):
+            radius = float(x.half.max())
+        else:
             continue
-        radius = board.stage.value(x.radius, board.q, board.p)
         for k, ways in shifts_of(board.motions).items():
             at = board.r[k] - sum(float(board.q[i]) * e for i, e in ways)
             spots: list[Array] = []

@@ -146,8 +146,10 @@ def _wires(board: Board, parts: list[Player]) -> None:
 def _joints(board: Board, parts: list[Player], rods: list[tuple[int, int]]) -> None:
     """A small circle where something turns about a point; a support where that point does not move."""
     hung: dict[int, list[Array]] = {}
+    holds = board.motions.holds
     for a, b in rods:
-        hung.setdefault(a, []).append(board.at(b) - board.at(a))
+        if board.motions.in_line(holds[a], holds[b]) is None or holds[b].holder != a or a == holds[a].holder:
+            hung.setdefault(a, []).append(board.at(b) - board.at(a))
     for part in parts:
         if part.frame is None or part.glyph not in LINKS or not board.motions.turns(part.frame):
             continue
