@@ -55,7 +55,7 @@ def look(
       lagrangian look carts.toml -o carts.svg --pose "x1=20 cm"
     """
     picture = open_system(file, example).look(
-        pose=assignments(pose, "--pose"), kinds=assignments(kind, "--kind"), hide=hide or (), trail=trail or ()
+        pose=assignments(pose, "--pose"), kinds=assignments(kind, "--kind"), hide=hide, trail=trail
     )
     if output is not None:
         path = picture.save(output, overwrite=force)

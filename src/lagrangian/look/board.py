@@ -65,6 +65,8 @@ class Board:
     """Where a disc on a shaft is seen, by the name of its body."""
     walled: set[tuple[int, float]] = field(default_factory=set[tuple[int, float]])
     """Bodies' points with the sides on which they are tied to walls: −1 for the left or below, 1 for the others."""
+    solids: list[tuple[int, int, float, float]] = field(default_factory=list[tuple[int, int, float, float]])
+    """In space: the solids from back to front, as `Scene.solids`."""
     pinned: frozenset[int] = frozenset()
     """The points at which joints close loops."""
     hidden: frozenset[str] = frozenset()
@@ -176,7 +178,7 @@ class Board:
                 moves,
                 solid,
                 "inside" if inside else "line",
-                facing,
+                facing=facing,
             )
         )
 

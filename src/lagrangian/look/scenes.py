@@ -214,6 +214,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
         tuple(dict.fromkeys(board.handles)),
         room,
         {c.name: float(x) for c, x in zip(model.coordinates, board.q, strict=True)},
+        tuple(board.solids),
     )
     return scene, board.stage.program(anchors)
 

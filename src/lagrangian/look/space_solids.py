@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi
 
 import numpy as np
@@ -28,10 +28,14 @@ SECTIONS = (-1.0, -0.5, 0.0, 0.5, 1.0)
 
 @dataclass(frozen=True)
 class Item:
-    """What is drawn at one depth: the numbers of its parts, and the line [m] about which it lies, ``radius`` [px]."""
+    """What is drawn at one depth: the numbers of its parts, and the line [m] about which it lies, ``radius`` [px].
+
+    ``points`` are the ends of that line.
+    """
 
     first: int
     last: int
+    points: tuple[int, int]
     a: Array
     b: Array
     radius: float
@@ -88,14 +92,20 @@ class Solids:
         first = len(self.board.parts)
         yield
         r = self.board.r
-        self.items.append(Item(first, len(self.board.parts), r[a], r[a if b is None else b], radius, lift))
+        end = a if b is None else b
+        self.items.append(Item(first, len(self.board.parts), (a, end), r[a], r[end], radius, lift))
 
     def sort(self) -> None:
         """Put what is nearer to the eye on top."""
         parts = self.board.parts
         order = self._order()
         inside = {n for item in self.items for n in range(item.first, item.last)}
-        sorted_parts = [parts[n] for item in order for n in range(item.first, item.last)]
+        sorted_parts = [
+            replace(parts[n], group=number) for number, item in enumerate(order) for n in range(item.first, item.last)
+        ]
+        for item in order:
+            a, b = (self.board.anchor(k) for k in item.points)
+            self.board.solids.append((a, b, item.radius, item.lift))
         self.board.parts = [x for n, x in enumerate(parts) if n not in inside] + sorted_parts
         self.items = []
 

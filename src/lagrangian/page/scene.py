@@ -105,6 +105,8 @@ class ScenePart:
     """Whether it is filled with the colour of its line, such as the head of an arrow."""
     paint: Literal["line", "inside"] = "line"
     """The colour of its line: that of lines, or that of insides (a thin one of these on a wide one is a bar)."""
+    group: int | None = None
+    """In space: the solid to which it belongs, as its number in ``Scene.solids``."""
     facing: bool = False
     """Whether it is one side of a plane in space: drawn only where y = 1 is counter-clockwise from x = 1 as seen."""
 
@@ -157,6 +159,9 @@ class Scene:
     """How far [px] bodies that are shifted apart can move without meeting; None if the picture is to scale."""
     pose: Mapping[str, float] = field(default_factory=dict[str, float])
     """The coordinates that are drawn, in SI units, by name."""
+    solids: tuple[tuple[int, int, float, float], ...] = ()
+    """In space: what is drawn at one depth, about the line between two anchors, with its radius and its lift towards the
+    eye [px]. A page asks which of them lies in front as things move and as the view turns."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""
@@ -176,6 +181,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "parts": [_part(part) for part in scene.parts if part.moves],
         "handles": scene.handles,
         "room": scene.room,
+        "solids": scene.solids,
     }
 
 
@@ -192,7 +198,7 @@ def _part(part: ScenePart) -> dict[str, Any]:
         "shiftTowards": placement.shift_towards,
         "across": placement.across,
     }
-    data["facing"] = part.facing
+    data["facing"], data["group"] = part.facing, part.group
     if isinstance(shape, Disc):
         data["disc"] = [*shape.centre, shape.radius]
     elif isinstance(shape, Trace):

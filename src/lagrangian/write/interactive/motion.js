@@ -51,6 +51,7 @@ class Motion {
     this.place();
     this.grow();
     picture.fit(state.reach.box, width, height);
+    this.follow(width, height);
     if (state.set.trail) state.data.trail.forEach((anchor) => this.drawTrail(anchor));
     this.place();
     picture.draw(context, colours, state.lit, width);
@@ -62,6 +63,15 @@ class Motion {
     const { reach } = this.state, box = [...reach.box];
     this.picture.cover(box);
     if (Math.max(box[2] - box[0], box[3] - box[1]) < 4 * reach.first) reach.box = box;
+  }
+
+  /** What leaves the frame for good, such as a body that falls, is followed: the middle of the bodies stays in it. */
+  follow(width, height) {
+    const { picture } = this, spots = picture.scene.handles.map((anchor) => picture.onCanvas(anchor));
+    if (!spots.length) return;
+    const [x, y] = [0, 1].map((i) => spots.reduce((sum, spot) => sum + spot[i], 0) / spots.length);
+    const inside = (at, length) => Math.min(0.9 * length, Math.max(0.1 * length, at)) - at;
+    if (Number.isFinite(x + y)) [picture.left, picture.top] = [picture.left + inside(x, width), picture.top + inside(y, height)];
   }
 
   /** The path of an anchor in the last seconds, fading. */

@@ -27,6 +27,7 @@ SCRIPTS = (
     "history.js",
     "run.js",
     "state.js",
+    "depth.js",
     "picture.js",
     "motion.js",
     "player.js",

@@ -119,7 +119,7 @@ class Picture {
   draw(context, colours, lit, width) {
     const bold = Math.min(1.5, Math.max(0.65, Math.sqrt(this.zoom)));
     context.lineCap = context.lineJoin = "round";
-    for (const part of this.parts) {
+    for (const part of this.ordered()) {
       const transform = part.trace ? null : this.axes(part.placement);
       if (part.facing && transform && transform[0] * transform[3] >= transform[1] * transform[2]) continue; // its back is seen
       context.globalAlpha = !lit || part.elements.some((name) => lit.has(name)) ? 1 : 0.22;
@@ -140,6 +140,14 @@ class Picture {
     }
     context.setLineDash([]);
     context.globalAlpha = 1;
+  }
+
+  /** The parts from back to front: of one layer, solids follow what is none, by their distance from the eye. */
+  ordered() {
+    if (this.depth < 3 || !this.scene.solids.length) return this.parts;
+    const place = new Map(depthOrder(this).map((solid, i) => [solid, i]));
+    const key = ({ layer, group }) => layer * 1e6 + (group === null ? -1 : place.get(group));
+    return [...this.parts].sort((a, b) => key(a) - key(b));
   }
 
   /** Widen a box [left, top, right, bottom], in pixels of the picture, by everything that moves. */

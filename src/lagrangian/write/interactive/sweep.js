@@ -35,10 +35,11 @@ function offerSweep(state, sliders) {
   element("sweep").hidden = !data.p.names.length;
   if (!data.p.names.length) return () => {};
   const chosen = () => Number(element("sweep-of").value);
-  /** The range is that of the parameter's slider; it begins around the value. */
+  /** The range is that of the parameter's slider; it begins around the value, or in the middle of the range if that is 0. */
   const choose = () => {
     const { range, unit } = sliders.rows.find(({ group, index }) => group === "p" && index === chosen()), value = set.p[chosen()];
-    for (const [id, at] of [["sweep-low", 0.7 * value], ["sweep-high", 1.3 * value]]) {
+    const reach = 0.3 * Math.abs(value) || 0.25 * (range.max - range.min);
+    for (const [id, at] of [["sweep-low", value - reach], ["sweep-high", value + reach]]) {
       Object.assign(element(id), { min: range.min, max: range.max, value: String(at) });
     }
     element("sweep-unit").textContent = unit;
