@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from served_app import TOKEN, Served
 
+from accessible import AXE, CONTRAST, LOST, NAMELESS, RULES
 from lagrangian import examples
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -231,28 +232,8 @@ def test_nothing_is_wider_than_the_screen(browser: Any, kind_app: Served, scheme
     for view in ("Models", "Editor", "Your answer", "Motion", "Sweep"):
         page.get_by_role("link", name=view, exact=True).click()
         page.wait_for_selector("section.view:not([hidden])")
-        assert page.evaluate("document.documentElement.scrollWidth") <= width, view
+        assert page.evaluate(LOST) == [], view
     context.close()
-
-
-CONTRAST = """() => {
-  const linear = (x) => x <= .04045 ? x / 12.92 : ((x + .055) / 1.055) ** 2.4;
-  const light = (c) => {
-    const s = c.slice(0, 3).map((x) => linear(x / 255));
-    return .2126 * s[0] + .7152 * s[1] + .0722 * s[2];
-  };
-  const rgb = (s) => s.match(/[\\d.]+/g).map(Number);
-  const bad = [];
-  for (const e of document.querySelectorAll("main *, header *")) {
-    if (!e.checkVisibility() || e.closest(".old, .field, svg, option, :disabled")
-        || ![...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim())) continue;
-    let back = e; while (back && (rgb(getComputedStyle(back).backgroundColor)[3] ?? 1) === 0) back = back.parentElement;
-    const a = light(rgb(getComputedStyle(e).color)), b = light(rgb(getComputedStyle(back).backgroundColor));
-    const ratio = (Math.max(a, b) + .05) / (Math.min(a, b) + .05);
-    if (ratio < 4.5) bad.push(`${ratio.toFixed(2)} ${e.localName}.${e.className} ${e.textContent.slice(0, 30)}`);
-  }
-  return bad;
-}"""
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -270,11 +251,41 @@ def test_all_text_has_contrast(browser: Any, kind_app: Served, scheme: str) -> N
     context.close()
 
 
-NAMELESS = """() => {
-  const named = (e) => e.getAttribute("aria-label") || e.labels?.length || e.textContent.trim();
-  return [...document.querySelectorAll("button, input, select, textarea, a, progress, [role=img]")]
-    .filter((e) => e.checkVisibility() && !named(e)).map((e) => e.outerHTML);
-}"""
+@pytest.mark.skipif(not AXE.exists(), reason="axe-core is not installed: npm install axe-core")
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_app_keeps_the_rules_of_axe(browser: Any, kind_app: Served, scheme: str) -> None:
+    context = browser.new_context(viewport={"width": 1280, "height": 800}, color_scheme=scheme, bypass_csp=True)
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    page.goto(f"{kind_app.address}/#{TOKEN}")
+    page.wait_for_selector("body.started")
+    opened(page, "cart pole")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    for view in ("Models", "Editor", "Your answer", "Motion", "Sweep"):
+        page.get_by_role("link", name=view, exact=True).click()
+        page.wait_for_selector("section.view:not([hidden])")
+        assert page.evaluate(RULES) == [], view
+    context.close()
+
+
+@pytest.mark.parametrize("size", ["640 px of 1280", "letters of 200 %"])
+def test_the_app_at_200_percent_loses_nothing(browser: Any, kind_app: Served, size: str) -> None:
+    """A browser's zoom halves the window in CSS pixels (WCAG 1.4.10); other browsers enlarge letters alone (1.4.4)."""
+    zoomed = size.startswith("640")
+    view = {"width": 640 if zoomed else 1280, "height": 400 if zoomed else 800}
+    context = browser.new_context(viewport=view, device_scale_factor=2 if zoomed else 1)
+    context.set_default_timeout(PATIENCE)
+    page = context.new_page()
+    page.goto(f"{kind_app.address}/#{TOKEN}")
+    page.wait_for_selector("body.started")
+    if not zoomed:
+        page.evaluate("document.documentElement.style.fontSize = '200%'")
+    opened(page, "cart pole")
+    for name in ("Models", "Editor", "Your answer", "Motion", "Sweep"):
+        page.get_by_role("link", name=name, exact=True).click()
+        page.wait_for_selector("section.view:not([hidden])")
+        assert page.evaluate(LOST) == [], name
+    context.close()
 
 
 def test_every_control_has_a_name(page: Any) -> None:

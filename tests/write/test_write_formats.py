@@ -311,7 +311,7 @@ def test_html_is_well_formed_and_self_contained(derivations, name, brief):
 
 def test_html_tells_where_each_term_came_from(derivations):
     rendered = to_html(derivations["example 1"])
-    terms = re.findall(r'<span class="term (\w+)" tabindex="0" aria-label="from ([^"]*)"', rendered)
+    terms = re.findall(r'<span class="term (\w+)" tabindex="0" role="group" aria-label="from ([^"]*)"', rendered)
     assert terms == [
         ("inertia", "particle m"),
         ("damping", "damper b"),

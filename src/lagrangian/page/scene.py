@@ -160,7 +160,7 @@ class Scene:
     pose: Mapping[str, float] = field(default_factory=dict[str, float])
     """The coordinates that are drawn, in SI units, by name."""
     solids: tuple[tuple[int, int, float, float], ...] = ()
-    """In space: what is drawn at one depth, about the line between two anchors, with its radius and its lift towards the
+    """In space: what is drawn at one depth, about the line between two anchors, with its radius and its lift to the
     eye [px]. A page asks which of them lies in front as things move and as the view turns."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:

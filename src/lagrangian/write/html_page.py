@@ -286,7 +286,7 @@ def _terms(side: Math, kinds: list[str]) -> str:
             if kind not in kinds:
                 kinds.append(kind)
             origin, colour = escape(", ".join(term.elements)), _colour(kind)
-            said = f'tabindex="0" aria-label="from {origin}" data-from="{origin}"'
+            said = f'tabindex="0" role="group" aria-label="from {origin}" data-from="{origin}"'
             if term.names:
                 said += f' data-element="{escape(data_element(term.names))}"'
             out.append(f'<span class="term {colour}" {said}>{inner}</span>')
