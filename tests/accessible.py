@@ -53,5 +53,5 @@ LOST = """() => {
   }
   return bad;
 }"""
-"""What lies outside the window or is cut, where nothing scrolls. What only readers of the screen are told is left out, and
-the coloured text of an editor, which lies under its field and slides with it."""
+"""What lies outside the window or is cut, where nothing scrolls. What only readers of the screen are told is left out,
+and so is the coloured text of an editor, which lies under its field and slides with it."""
