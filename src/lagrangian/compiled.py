@@ -159,7 +159,8 @@ class Compiled(Differentiated):
 
     def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
         """Return q̇ = N(q) v, shape ``(..., n_q)``, which equals v except for floating frames."""
-        return self._called(self._kernel("rates"), (q, v, None, None, 0.0))
+        unread = np.ones(len(self.parameters))  # q̇ = N(q) v has no parameters, and they may have no values
+        return self._called(self._kernel("rates"), (q, v, None, unread, 0.0))
 
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
         """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side that ODE solvers

@@ -110,7 +110,8 @@ class System(Designed):
         """Check everything that is computed from the system by independent routes, at random states.
 
         This covers the derived equations, the compiled functions, the exported source and the linearization: see
-        `Derivation.verify`. A system with a floating frame has no derived equations; everything else is checked.
+        `Derivation.verify`. A system with a floating frame and constraints, dry friction or given kinetic energies has
+        no derived equations; everything else is checked.
         ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed.
         """
         from lagrangian.values.values import check_sampling
@@ -118,7 +119,10 @@ class System(Designed):
         check_sampling(states, seed)
         if self.model.floating:
             from lagrangian.derivation import verify_floating
+            from lagrangian.structured.choose import refusal
 
+            if not refusal(self.model):
+                return self.derive().verify(states=states, seed=seed, exports=exports)
             return verify_floating(self.model, states=states, seed=seed, exports=exports)
         return self.derive().verify(states=states, seed=seed, exports=exports)
 

@@ -118,6 +118,15 @@ def doubled_coupling(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     yield
 
 
+def test_systems_whose_parameters_have_no_values_are_verified() -> None:
+    s = lg.System("without values")
+    q = s.coordinate("q")
+    m, k = s.parameters("m k")
+    s.particle(m, s.origin + (q, 0))
+    s.spring(k, deflection=q)
+    assert [str(c.what) for c in s.verify(states=2) if c.holds is False] == []
+
+
 def energies() -> lg.System:
     s = lg.System("energies")
     x, y = s.coordinates("x y")

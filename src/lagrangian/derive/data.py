@@ -195,7 +195,7 @@ class _Data:
         d = self.derivation
         equality = d.equations[index]
         return {
-            "coordinate": d.model.coordinates[index].name,
+            "coordinate": d.model.velocities[index].name.removesuffix("'"),
             "left": self.expression(equality.lhs),
             "right": self.expression(equality.rhs),
             "terms": [

@@ -61,7 +61,9 @@ class _Layout(Items):
         super().__init__(derivation.model, notation, brief=brief, full=full, details=details, named=named)
         self.derivation = derivation
         self.reasoning: Report[Model] | None = None
-        self.from_masses = all(e.ledger != "T*" or e in derivation.model.bodies for e in derivation.model.elements)
+        self.from_masses = not derivation.model.floating and all(
+            e.ledger != "T*" or e in derivation.model.bodies for e in derivation.model.elements
+        )
 
     def document(self, *, drawn: bool, described: bool) -> Document:
         d = self.derivation

@@ -130,8 +130,9 @@ def _refuse_quaternion(frame: Frame) -> None:
         f"frame '{frame.name}' floats with a quaternion: its four entries {listed} tell three angles, so they are "
         "dependent, and its velocities are not the rates of its coordinates",
         place=frame.place,
-        fix="compile, simulate, verify and export take it as it is; to read equations describe the turn by three "
-        "angles instead: frame(yaw, axis=(0, 0, 1)), then frame(pitch, axis=(0, 1, 0), parent=…), then a third",
+        fix="derive writes its equations in velocities that are not the rates of coordinates; for equations in "
+        "coordinates alone, which can be checked, describe the turn by three angles: frame(yaw, axis=(0, 0, 1)), then "
+        "frame(pitch, axis=(0, 1, 0), parent=…), then a third",
         code="E202",
     )
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 
 from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.motion import Motion
-from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times
+from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times, zeros
 from lagrangian.graph import Graph
 
 
@@ -80,3 +80,12 @@ def transported(g: Graph, u: Sequence[int], force: Sequence[int]) -> list[int]:
     """ad_uᵀ (f, m): f × ω and f × v + m × ω."""
     v, w, f, m = u[:3], u[3:], force[:3], force[3:]
     return [*cross(g, f, w), *plus(g, cross(g, f, v), cross(g, m, w))]
+
+
+def transported_momenta(g: Graph, floats: Sequence[Float], v: Sequence[int], momenta: Sequence[int]) -> list[int]:
+    """ad_uᵀ of the momenta of every floating body, 0 for all other velocities."""
+    found = zeros(g, len(v))
+    for at in floats:
+        own = slice(at.v, at.v + 6)
+        found[own] = transported(g, v[own], momenta[own])
+    return found

@@ -18,7 +18,7 @@ from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.dependent import Known, without_dependent
 from lagrangian.dynamics.drags import AttachedDrag, pressing_force, slip_factor
-from lagrangian.dynamics.floating import Float, transported
+from lagrangian.dynamics.floating import Float, transported_momenta
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.row_problem import AttachedRow, Problem, RowSolution
@@ -113,10 +113,9 @@ class Mechanics:
         g, motion = self.graph, self.motion
         momenta = gradient(g, L, self.v)
         rates = motion.second_rate(momenta, vdot)
-        forces = vjp(g, list(motion.rates), gradient(g, L, self.q), list(self.v))
-        for at in self.floats:
-            own = slice(at.v, at.v + 6)
-            forces[own] = plus(g, forces[own], transported(g, self.v[own], momenta[own]))
+        forces = self.motion.along_velocities(gradient(g, L, self.q))
+        if self.floats:
+            forces = plus(g, forces, transported_momenta(g, self.floats, self.v, momenta))
         return minus(g, rates, forces)
 
     @property

@@ -31,7 +31,7 @@ from lagrangian.dynamics.vectors import (
     transposed,
     zeros,
 )
-from lagrangian.graph import Graph, Tangents, jvp, operands, reached
+from lagrangian.graph import Graph, Tangents, jvp, operands, reached, vjp
 
 
 class Motion:
@@ -75,6 +75,10 @@ class Motion:
     def second_rate(self, ids: Sequence[int], vdot: Sequence[int]) -> Vector:
         """The total time derivative of nodes that depend on q, v and t, at v̇ = vdot."""
         return jvp(self.graph, ids, {**self._along, **dict(zip(self.v, vdot, strict=True))})
+
+    def along_velocities(self, slopes: Sequence[int]) -> Vector:
+        """∂/∂π_k = Σ_j ∂q̇_j/∂v_k ∂/∂q_j of something whose slopes by the coordinates are given."""
+        return vjp(self.graph, list(self.rates), slopes, list(self.v))
 
     # -- building -----------------------------------------------------------------------------------------------
 

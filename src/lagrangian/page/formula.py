@@ -28,8 +28,9 @@ class Name(Worded):
     work, "F" force, "lambda" multiplier, "f" and "c" what a constraint keeps at zero, "M" mass matrix, "C" Coriolis
     matrix, "G" gravity and stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian
     or constraint force, "r" a position, "moment" of constraint forces, "pull" and "push" of a rod and a track, "sum"
-    the sign of a sum; matrices "A", "A transposed", "B", "D matrix", "J", "K", "S"; vectors "x vector", "u vector", "y
-    vector", "q vector", "f vector", "gamma vector", "lambda vector". Any other base is shown as it is.
+    the sign of a sum, "pi" the motion that a quasi-velocity makes; matrices "A", "A transposed", "B", "D matrix", "J",
+    "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector", "gamma vector", "lambda vector". Any
+    other base is shown as it is.
     """
 
     base: str

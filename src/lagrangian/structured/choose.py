@@ -48,7 +48,7 @@ def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "
 def is_structured(model: Model, form: AskedForm = "auto") -> bool:
     """Whether a derivation in this form is written in named quantities from the start."""
     if form == "auto":
-        return not refusal(model) and is_long(model)
+        return bool(model.floating) or (not refusal(model) and is_long(model))
     return form == "structured"
 
 
@@ -84,7 +84,9 @@ def _structured(model: Model, detail: Detail) -> Derived:
     if refused:
         raise ModelError(
             f"system '{model.name}' has no structured derivation: {refused}",
-            fix="leave the form out, or ask for the expanded one",
+            fix="leave the form out, or ask for the expanded one"
+            if not model.floating
+            else "compile, simulate, verify and export take it as it is",
             code="E601",
         )
     if detail == "full":
@@ -100,8 +102,6 @@ def refusal(model: Model) -> str:
     """Why a model has no structured derivation; empty if it has one."""
     if model.constraints:
         return "it has constraints"
-    if model.floating:
-        return "a frame floats, whose velocities are not the rates of its coordinates"
     if model.frictions:
         return "it has dry friction"
     given = [e for e in model.elements if e.ledger == "T*" and e not in model.bodies]

@@ -12,7 +12,7 @@ from typing import cast
 
 import sympy as sp
 
-from lagrangian.derive import Derived, LedgerRow
+from lagrangian.derive import Derived, LedgerRow, Step
 from lagrangian.derive.algebra import Algebra
 from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
@@ -23,6 +23,7 @@ from lagrangian.derive.wiggle import study
 from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.model import Model
 from lagrangian.page.formula import EquationTerm, Heading, Item, formula, text
+from lagrangian.structured.floating import by_power, check_speeds, free, moved_by, speeds
 from lagrangian.structured.listing import Listing, listing
 from lagrangian.structured.shares import ListedShares
 from lagrangian.structured.steps import ListedSteps, equalities
@@ -34,39 +35,50 @@ _log = logging.getLogger(__name__)
 def derive_structured(model: Model) -> Derived:
     """Return the equations of motion of a model in named quantities, with the seven steps that lead to them.
 
-    It takes a model without constraints, floating frames and energies that are given directly; see `refusal`.
+    It takes a model without constraints and energies that are given directly; see `refusal`.
     """
     _log.info("deriving: which coordinates move what")
-    wiggle = study(model)
-    efforts = [x for e in model.elements for action in e.works(model) for x in (action.effort, action.rate)]
-    context = Context(model, Algebra(model, efforts), wiggle)
+    early = _in_speeds(model) if model.floating else _in_coordinates(model)
+    step0, step1 = early[:2]
     _log.info("deriving: velocities, momenta and forces")
     found = listing(model)
     write = ListingWriter(found)
     steps = ListedSteps(found, write)
-    step0, step1 = holonomic(context), coordinates(context)
     step2, step3, step4, step5 = steps.kinetic(), steps.potential(), steps.lagrangian(), steps.left_hand_sides()
     _log.info("deriving: step 6, the generalized forces")
-    step6 = forces(context, contributions(context), step1.expressions["relative"])
+    step6 = early[2] or by_power(found, write)
     book = _ledger(steps)
     equations = equalities(found, write)
-    symbols = tuple(c.symbol for c in model.coordinates)
     return Derived(
         model=model,
         steps=(step0, step1, step2, step3, step4, step5, step6),
         T=step2.expressions["T"],
         V=step3.expressions["V"],
         L=step4.expressions["L"],
-        Xi={q: write(x) for q, x in zip(symbols, found.forces, strict=True)},
+        Xi={q: write(x) for q, x in zip(moved_by(model).values(), found.forces, strict=True)},
         equations=equations,
         terms=tuple(_terms(found, equation) for equation in equations),
         matrices=ListedMatrices(found),
-        result=(*_closing(equations), *ledger_items(book)),
+        result=(*_closing(model, equations), *ledger_items(book)),
         ledger=book,
         shares=ListedShares(found, write),
         form="structured",
         definitions=steps.definitions(),
     )
+
+
+def _in_coordinates(model: Model) -> tuple[Step, Step, Step | None]:
+    """Steps 0, 1 and 6 of a system whose speeds are the rates of its coordinates."""
+    efforts = [x for e in model.elements for action in e.works(model) for x in (action.effort, action.rate)]
+    context = Context(model, Algebra(model, efforts), study(model))
+    step1 = coordinates(context)
+    return holonomic(context), step1, forces(context, contributions(context), step1.expressions["relative"])
+
+
+def _in_speeds(model: Model) -> tuple[Step, Step, Step | None]:
+    """Steps 0 and 1 of a system with floating frames; step 6 follows from the powers of the listing."""
+    check_speeds(model)
+    return free(model), speeds(model), None
 
 
 def _terms(found: Listing, equation: sp.Eq) -> tuple[EquationTerm, ...]:
@@ -80,11 +92,14 @@ def _summands(side: sp.Basic) -> tuple[sp.Expr, ...]:
     return tuple(sp.Add.make_args(cast("sp.Expr", side)))
 
 
-def _closing(equations: Sequence[sp.Eq]) -> list[Item]:
+def _closing(model: Model, equations: Sequence[sp.Eq]) -> list[Item]:
+    rates = "one ξ̈" if not model.floating else "the rate of one speed"
     return [
         Heading(text("Equations of motion")),
         *(formula(cast("sp.Expr", e.lhs), cast("sp.Expr", e.rhs), brief=True, boxed=True) for e in equations),
-        text("The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with one ξ̈ at 1."),
+        text(
+            f"The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with {rates} at 1."
+        ),
     ]
 
 

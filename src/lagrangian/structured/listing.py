@@ -29,7 +29,7 @@ class Listing:
     """The nodes of a listing: what may get a name, and the lines of every coordinate.
 
     ``momenta`` are ∂T*/∂ξ̇_i, ``gradients`` ∂T*/∂ξ_i, ``rows`` the left-hand sides d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, ``forces``
-    the Ξ_i.
+    the Ξ_i; of a floating frame the same for its quasi-velocities, see `floating`.
     """
 
     model: Model
@@ -92,7 +92,7 @@ def listing(model: Model) -> Listing:
         bodies,
         candidates,
         [momenta.get(v, zero) for v in m.v],
-        [slopes.of(q) for q in m.q],
+        m.motion.along_velocities([slopes.of(q) for q in m.q]),
         [forces.get(v, zero) for v in m.v],
         m.gathered(m.efforts),
         heights,

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrangian.derive import Origin
+from lagrangian.dynamics.describe import moved
 from lagrangian.dynamics.mechanics import Pairs
 from lagrangian.model import Element
 from lagrangian.structured.listing import Listing
@@ -39,7 +40,7 @@ class ListedShares:
 
     def of(self, index: int) -> Iterator[Origin]:
         """The share of every element in an equation."""
-        name = self.found.model.coordinates[index].name
+        name = moved(self.found.model)[index]
         for element, pairs, step in self._acting():
             share = self.found.mechanics.gathered(pairs)[index]
             if share != self.found.graph.zero:

@@ -31,6 +31,7 @@ from lagrangian.page.formula import (
     formula,
     text,
 )
+from lagrangian.structured.floating import along, laws, left_side, moved_by, quasi_velocities
 from lagrangian.structured.listing import Listing
 from lagrangian.structured.predict import is_long
 from lagrangian.structured.writing import ListingWriter
@@ -237,25 +238,27 @@ class ListedSteps:
         """Momenta, accelerations and forces, their sums inwards, and three short lines for every coordinate."""
         by_xi = Partial(Name("L"), Name("xi", "i", 1))
         law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
-        items: list[Item] = [formula(law, Name("Xi", "i"), brief=True), *self._reason()]
+        items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
+        items += [*laws()] if self.model.floating else []
+        items += self._reason()
         items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
         shown: dict[str, dict[sp.Expr, sp.Expr]] = {"momenta": {}, "gradients": {}, "left_hand_sides": {}}
-        for i, c in enumerate(self.model.coordinates):
+        quasi, moved = quasi_velocities(self.model), moved_by(self.model)
+        for i, (speed, symbol) in enumerate(moved.items()):
             momentum, slope = self.write(self.found.momenta[i]), self.write(self.found.gradients[i])
-            by_rate, by_place = Partial(Name("L"), c.rate), Partial(Name("T*"), c.symbol)
+            by_rate, by_place = Partial(Name("L"), speed.symbol), Partial(Name("T*"), symbol)
             row = self.write(self.found.rows[i])
-            whole = Terms((Total(by_rate), Minus(Partial(Name("L"), c.symbol))))
-            items += [
-                Heading(text(f"Equation {i + 1}: ", c.symbol)),
-                formula(by_rate, momentum),
-                formula(by_place, slope),
-                formula(whole, row, brief=True),
-            ]
-            shown["momenta"][c.symbol], shown["gradients"][c.symbol] = momentum, slope
-            shown["left_hand_sides"][c.symbol] = row
+            whole: Left = Terms((Total(by_rate), Minus(Partial(Name("L"), symbol))))
+            if symbol in quasi:
+                by_place, whole = along(speed), left_side(symbol, *quasi[symbol])
+            items += [Heading(text(f"Equation {i + 1}: ", symbol)), formula(by_rate, momentum)]
+            items += [formula(by_place, slope)] if slope != 0 or symbol not in quasi else []
+            items.append(formula(whole, row, brief=True))
+            shown["momenta"][symbol], shown["gradients"][symbol] = momentum, slope
+            shown["left_hand_sides"][symbol] = row
         reasons = [
-            text(f"equation {i + 1}: all that moves with ", c.symbol, ": its inertia, springs and weights")
-            for i, c in enumerate(self.model.coordinates)
+            text(f"equation {i + 1}: all that moves with ", symbol, ": its inertia, springs and weights")
+            for i, symbol in enumerate(moved.values())
         ]
         return left_hand_sides_step(items, shown, reasons)
 

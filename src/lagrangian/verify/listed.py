@@ -20,6 +20,7 @@ import sympy as sp
 
 from lagrangian import dynamics
 from lagrangian.derive import Derived
+from lagrangian.dynamics.floating import transported_momenta
 from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, from_sympy, gradient
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Check, Name, Text, text
@@ -87,12 +88,15 @@ class _Reading:
         gradients = [self.node(x) for x in step5["gradients"].values()]
         T, V = self.node(d.T), self.node(d.V)
         rates = m.motion.second_rate(momenta, self.a)
-        stored = gradient(g, V, self.inputs.q)
+        stored = m.motion.along_velocities(gradient(g, V, self.inputs.q))
+        turned = transported_momenta(g, m.floats, m.v, momenta)
         lagrange = [
-            g.sub(g.sub(rate, slope), g.neg(force)) for rate, slope, force in zip(rates, gradients, stored, strict=True)
+            g.add(g.sub(rate, g.add(slope, twist)), force)
+            for rate, slope, twist, force in zip(rates, gradients, turned, stored, strict=True)
         ]
         L, Xi = Name("L"), Name("Xi")
         return [
+            *self._kinematics(),
             _Claim(
                 text("the equations are Lagrange's equations of ", L, ", differentiated by the machine: identically"),
                 self.rows(),
@@ -122,6 +126,15 @@ class _Reading:
             ),
         ]
 
+    def _kinematics(self) -> list[_Claim]:
+        """The rates of the coordinates of floating frames, as step 1 shows them; none without such a frame."""
+        shown = self.derivation.steps[1].expressions.get("rates", {})
+        known = dict(zip((c.symbol for c in self.model.coordinates), self.mechanics.motion.rates, strict=True))
+        if not shown:
+            return []
+        what = text("the rates shown are those of the positions and turns that the velocities make: identically")
+        return [_Claim(what, [self.node(x) for x in shown.values()], [known[q] for q in shown])]
+
     def _energies(self) -> list[int]:
         return [self.mechanics.kinetic(), self.mechanics.potential()]
 
@@ -132,8 +145,9 @@ class _Reading:
 def _table(model: Model, inputs: dynamics.Inputs, a: Sequence[int]) -> dict[sp.Basic, int]:
     """The node of every symbol of a model."""
     table: dict[sp.Basic, int] = {time: inputs.t}
-    for c, q, v, vdot in zip(model.coordinates, inputs.q, inputs.v, a, strict=True):
-        table |= {c.symbol: q, c.rate: v, c.acceleration: vdot}
+    table |= {c.symbol: q for c, q in zip(model.coordinates, inputs.q, strict=True)}
+    table |= {v.symbol: node for v, node in zip(model.velocities, inputs.v, strict=True)}
+    table |= {sp.Derivative(v.symbol, time): vdot for v, vdot in zip(model.velocities, a, strict=True)}
     table |= dict(zip((u.symbol for u in model.inputs), inputs.u, strict=True))
     table |= dict(zip((p.symbol for p in model.parameters), inputs.p, strict=True))
     return table

@@ -34,8 +34,10 @@ def described(items: Items, model: Model) -> Section:
 
 def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str, str]]:
     """The symbols: coordinates, parameters with their values, inputs."""
+    floating = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates}
     for c in model.coordinates:
-        yield write.expressions(c.symbol), c.description or "coordinate", f"[{unit(c.unit)}]" if c.unit else ""
+        words = f"{c.name}: {c.description}" if c.name in floating else c.description or "coordinate"
+        yield write.expressions(c.symbol), words, f"[{unit(c.unit)}]" if c.unit else ""
     for p in model.parameters:
         value = "" if p.value is None else measured(p.value, p.unit)
         yield write.expressions(p.symbol), p.description or "parameter", value

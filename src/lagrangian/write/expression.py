@@ -72,12 +72,37 @@ INWARD = "_out"
 """How the name of a sum over all that hangs on something ends."""
 
 
+_POSITION = tuple(Letter(x) for x in "xyz")
+_QUATERNION = tuple(Letter("epsilon", (x,)) for x in "xyzw")
+_SPEEDS = tuple(Letter(base, (x,)) for base in ("v", "omega") for x in "xyz")
+
+
+def _floating(model: Model, others: Mapping[str, Letter]) -> dict[str, Letter]:
+    """The letters of floating frames: x, ε_x, v_x, ω_x; with the frame's name if there are several, or others look so.
+
+    A frame whose letters look like others even then keeps its names as they are spelled.
+    """
+    floats = [(f.name, f.floating) for f in model.floating if f.floating is not None]
+    own = {x.name for _, f in floats for x in (*f.coordinates, *f.velocities)}
+    taken = {(x.base, x.sub) for name, x in others.items() if name not in own}
+    found: dict[str, Letter] = {}
+    for frame, f in floats:
+        names = [x.name for x in (*f.coordinates, *f.velocities)]
+        for index in ((), (frame,)) if len(floats) == 1 else ((frame,),):
+            made = [replace(x, sub=(*x.sub, *index)) for x in (*_POSITION, *_QUATERNION, *_SPEEDS)]
+            if not any((x.base, x.sub) in taken for x in made):
+                found |= dict(zip(names, made, strict=True))
+                break
+    return found
+
+
 class Expressions:
     """Lays out the expressions of one system, whose symbols all look different."""
 
     def __init__(self, model: Model, named: Sequence[NamedSymbol] = ()) -> None:
         moving = [c.symbol for c in model.coordinates] + [d.symbol for d in model.definitions if d.moving]
         found = {**letters(model.symbols), **{x.symbol.name: x.letter for x in named}}
+        found |= _floating(model, found)
         self.letters: Mapping[str, Letter] = found
         ranks = {x.symbol: x.rank for x in named}
         self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model), ranks)

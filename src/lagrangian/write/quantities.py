@@ -108,6 +108,7 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "pull": (Letter("S"), Letter("𝒮")),
     "push": (Letter("N"), Letter("𝒩")),
     "sum": (Letter("Sigma"),),
+    "pi": (Letter("pi"), Letter("Pi")),
 }
 _VECTORS = (
     {letter: letter for letter in "MCGqABJKS"}
