@@ -25,6 +25,7 @@ LARGEST = 1e100
 """Larger values are not compared: their squares would overflow."""
 MOST_FACTORS = 6
 MOST_ALIGNMENTS = 24
+PLAIN = 0.25
 SCALED = 0.7
 """What it costs to take an equation for a scaled one: a factor in one term is likelier than in all others."""
 
@@ -81,7 +82,14 @@ def alignments(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Ali
     found.sort(key=lambda a: a.doubt)
     found = found[:MOST_ALIGNMENTS]
     found += _unsolved(truth, exprs, P)
-    return [replace(a, doubt=0.25 * place + (0.0 if _plain(a) else SCALED)) for place, a in enumerate(found)]
+    return [replace(a, doubt=_doubt(a, place)) for place, a in enumerate(found)]
+
+
+def _doubt(alignment: Alignment, place: int) -> float:
+    """What it costs to take this correspondence: little for equations as they stand, however few terms agree."""
+    if _plain(alignment):
+        return min(0.25 * place, PLAIN)
+    return 0.25 * place + SCALED
 
 
 def _plain(alignment: Alignment) -> bool:

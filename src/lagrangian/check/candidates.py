@@ -49,7 +49,8 @@ class Wrong:
         if v.step is not None:
             return v.step
         if v.rows or v.only is not None or ("L" in v.stated and "V" not in v.stated):
-            return self.module.STEP
+            own = {"T*": 2, "V": 3, "Ξ": 6}.get(v.element.ledger, 5) if v.element is not None else self.module.STEP
+            return self.module.STEP if self.module.STEP in (1, 4, 5, own) else own if own == 6 else 5
         if v.Xi:
             return 6 if v.T == 0 and v.V == 0 else self.module.STEP
         return 2 if v.T != 0 and v.V == 0 else 3 if v.T == 0 else self.module.STEP

@@ -13,6 +13,7 @@ from lagrangian.check.align import LARGEST, Alignment, alignments
 from lagrangian.check.changes.pool import Pool, Possible, pool_of
 from lagrangian.check.numerators import by_numerators, said_of
 from lagrangian.check.own_terms import OwnTerm, own_term, own_terms
+from lagrangian.check.quoted import is_quotable, letters_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import (
     EXOTIC,
@@ -36,6 +37,8 @@ SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
+MOST_TOLD = 24
+"""The largest number of explanations of a line that are put into words."""
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
@@ -79,10 +82,16 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         for found, more in _of_sheet(pool, sheet, wrong, combined, against, left):
             groups.append(found)
             own += more
-    groups = [g for g in groups if g]
+    quotable = letters_of([f.line for f in findings])
+    groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
     return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
+
+
+def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
+    """Whether the words of an explanation quote only what was written."""
+    return all(is_quotable(_mistake(truth, t, explanation.under), written) for t in explanation.told)
 
 
 def _of_sheet(
@@ -223,7 +232,8 @@ def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mi
         rest = line.expr - dissipation(truth)
         values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
         seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-        return singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else [], []
+        found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+        return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -247,6 +257,14 @@ def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mi
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_whole_damper(possible: Possible) -> bool:
+    """Whether a mistake can be made in D, which has no ends, no reactions and no equation: ½ b (rate)² of a damper."""
+    if possible.wrong is not None:
+        v = possible.wrong.variant
+        return v.coordinate is None and "D" in v.stated
+    return possible.change is not None and possible.change.site.coordinate is None
 
 
 def _without_constant(values: Array) -> Array:

@@ -22,7 +22,7 @@ from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.search import SMALL, simple_number
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import Element
+from lagrangian.model import Element, time
 from lagrangian.page.formula import Text, text
 
 MOST_OWN_TERMS = 250
@@ -181,13 +181,19 @@ def own_term(
     written = [t for t in dict.fromkeys(parts) if t != 0]
     own = [t for t in written if t != expr]
     siblings = list(dict.fromkeys(s for t in own for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
+    foreign = foreign_names(pool.truth, expr)
     values = CompiledExpressions([*written, *siblings]).at(pool.truth.states)
     usable = np.isfinite(values).all(axis=1) & (np.abs(values).max(axis=1) > 1e-12)
     usable &= np.abs(values).max(axis=1) < LARGEST
     for k in np.flatnonzero(usable):
         t, v = [*written, *siblings][k], values[k]
         c = float(v @ rest) / float(v @ v)
-        if t == expr or np.abs(rest - c * v).max() > SMALL * np.abs(rest).max() or (number := simple_number(c)) is None:
+        if (
+            t == expr
+            or t in foreign
+            or np.abs(rest - c * v).max() > SMALL * np.abs(rest).max()
+            or (number := simple_number(c)) is None
+        ):
             continue
         if k < len(written):
             idle = _idle(pool, row, t) if number == 1 else None
@@ -197,8 +203,17 @@ def own_term(
             return OwnTerm(row, LINES[kind], lost, forgotten=True, effort=effort_of(pool, kind, row, t))
     if scale is None:
         return None
-    listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use]
+    listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use and t not in foreign]
     return in_place(pool, listed, rest, kind, i, right_terms(pool, kind, i), scale, factor)
+
+
+def foreign_names(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
+    """The names that the system does not have, with both signs: alone they are the name of a line, not its term."""
+    model = truth.model
+    own = {time, *(x.symbol for x in (*model.parameters, *model.inputs, *model.coordinates))}
+    own |= {m.symbol for m in truth.derivation.multipliers.values()}
+    found: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in own}
+    return {y for x in found for y in (x, -x)}
 
 
 def in_place(

@@ -26,7 +26,7 @@ WHY = text("With M ξ̈ = h, ξ̈ = adj(M) h / det M: every acceleration has the
 def solved_from_wrong(pool: Pool, exprs: Sequence[sp.Expr], P: Array) -> list[Explanation]:
     """The mistakes, or pairs of them, with which the rows were set up before they were solved, the likeliest first."""
     truth = pool.truth
-    if not solved(truth, exprs):
+    if not solved(truth, exprs) or solved(truth, truth.rows):  # M is diagonal: rows are only scaled
         return []
     blocks = P.reshape(truth.n, -1, truth.states.motions).transpose(1, 2, 0)  # (places, motions, n)
     size = np.linalg.norm(blocks, axis=1, keepdims=True)

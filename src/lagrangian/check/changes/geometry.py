@@ -52,10 +52,11 @@ class GeometryChanges:
             along: Words = (f" along {AXES[c]}",) if len(position) > 1 else ()
             words: Words = (f"the position of {b.title}", *along)
             brief: Words = (f"the position of {b.title}",)
+            first = 0.01 if any(k == c for k, _ in pieces[1:]) and (c, p) == pieces[0] else 0.0  # x − y: the sign of y
             for instead, kind, cost in _instead_of_piece(p):
                 moved = list(position)
                 moved[c] = cast("sp.Expr", position[c] - p + instead)
-                yield from self._moved(b, moved, kind, cost, words, brief, p, instead)
+                yield from self._moved(b, moved, kind, cost + first, words, brief, p, instead)
         groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
         for c, p in pieces:
             groups.setdefault(_segment(p), []).append((c, p))
@@ -147,13 +148,24 @@ class GeometryChanges:
 
     def _rates_everywhere(self) -> Iterator[LocalChange]:
         """A rate taken as absolute or relative: ξ̇_i ± ξ̇_j in place of ξ̇_i, in one body or in all of T*."""
+        for v in self.s.v:
+            coupled = (
+                [b for b in self.s.bodies if any(x.has(v) and x.has(*others) for x in self.s.velocity(b))]
+                if (others := [w for w in self.s.v if w != v])
+                else []
+            )
+            if len(coupled) < 2:
+                continue
+            words: Words = (Name("T*"),)
+            turned = replaced(self.s.T, {v: -v})
+            yield from self._kinetic(None, turned, self.s.T, "rate_sign", 1.2, words, words, v)
         for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
             for sign in (1, -1):
                 table = {v: v + sign * w}
                 for b in self.s.bodies:
                     old = self.s.kinetic(b)
                     if old.has(v):
-                        words: Words = (f"the kinetic energy of {b.title}",)
+                        words = (f"the kinetic energy of {b.title}",)
                         yield from self._kinetic(
                             b, replaced(old, table), old, "rate", 1.6, words, words, v, v + sign * w
                         )
@@ -171,9 +183,11 @@ class GeometryChanges:
         if omega and len([w for w in omega if w != 0]) == 1 and b.axes is not None:
             own = self.s.rotation(b)
             [right] = [w for w in omega if w != 0]
-            for instead in self._other_rates(right):
+            for instead, cost in self._other_rates(right):
                 turned = tuple(instead if w != 0 else w for w in omega)
-                yield from self._kinetic(b, self.s.rotating(b, turned), own, "omega", 1.8, words, words, right, instead)
+                yield from self._kinetic(
+                    b, self.s.rotating(b, turned), own, "omega", cost, words, words, right, instead
+                )
             for length in self.lengths:
                 yield from self._inertias(b, own, right, mass * length**2)
         for length in self.lengths:
@@ -210,7 +224,8 @@ class GeometryChanges:
                 b, number * full * omega**2 / 2, own, "inertia_form", cost, words, words, None, number * full
             )
 
-    def _other_rates(self, right: sp.Expr) -> list[sp.Expr]:
+    def _other_rates(self, right: sp.Expr) -> list[tuple[sp.Expr, float]]:
+        """Other angular velocities: the right one and a rate too much, likelier than any other."""
         v = self.s.v
         found: list[sp.Expr] = [*v, *(x for a, b in combinations(v, 2) for x in (a + b, a - b))]
         for r in self.lengths[:4]:
@@ -219,8 +234,9 @@ class GeometryChanges:
         found += [r * x for r in ratios for x in v]
         found += [replaced(right, {x: sp.S.Zero}) for x in v]
         by = [right.diff(x) for x in v if right.has(x)]
-        found += [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
-        return [x for x in dict.fromkeys(found) if x not in (0, right, -right)]
+        more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
+        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(more, 1.5)}
+        return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
 
     # -- springs ------------------------------------------------------------------------------------------------------
 

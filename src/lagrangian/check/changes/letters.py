@@ -75,7 +75,9 @@ class LetterChanges:
             for number, kind, cost in ((0, "left_out_of_a_sum", 1.5), (-1, "sign_in_a_sum", 1.7)):
                 effect = self._put(site, atom, scaled({((atom, 1),): Fraction(1)}, number))
                 if effect is not None:
-                    yield LocalChange(kind=kind, cost=cost + site.surcharge, site=site, effect=effect, right=right)
+                    one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
+                    more = cost + one + site.surcharge
+                    yield LocalChange(kind=kind, cost=more, site=site, effect=effect, right=right)
 
     def _powers(self, site: Site, atom: int, exponents: set[int]) -> Iterator[LocalChange]:
         """The square of an atom for the atom, and the other way round."""

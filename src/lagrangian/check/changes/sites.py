@@ -311,10 +311,11 @@ class Sites:
         for key, x in groups.items():
             if key and 1 < len(x) < len(row):
                 words = ("the terms with ", self.ring.product(key), " of the equation of ", self.of.q[i])
+                ledgers = {e.ledger if (e := self.element_of(i, m)) is not None else None for m in x}
                 yield Site(
                     words=words,
                     brief=("the terms of one motion in ", *brief),
-                    step=5,
+                    step=6 if ledgers == {"Ξ"} else 5,
                     coordinate=i,
                     rows={i: x},
                     surcharge=0.5,

@@ -20,7 +20,9 @@ from lagrangian.derive import Derived
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 
-ENERGIES = frozenset({"T", "V", "L", "Xi"})
+ENERGIES = frozenset({"T", "V", "L", "Xi", "D"})
+NO_D = ENERGIES - {"D"}
+"""For what is done to forces of pairs or to single equations: D has neither."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

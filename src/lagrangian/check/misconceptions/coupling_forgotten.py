@@ -30,7 +30,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield Variant(what=what, rows={i: one}, coordinate=i)
             what = text(s.a[i], " is missing in the equation of ", s.q[j], ".")
             yield Variant(what=what, rows={j: other}, coordinate=j)
-            what = text(s.a[i], " and ", s.a[j], " are not coupled in your equations.")
+            what = text(s.a[i], " and ", s.a[j], " are not coupled.")
             yield Variant(what=what, rows={i: one, j: other})
     if every:
         yield Variant(what=text("Every equation contains only its own acceleration."), rows=every)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from lagrangian.check.misconceptions.base import Ingredients, Variant, put
+from lagrangian.check.misconceptions.base import NO_D, Ingredients, Variant, put
 from lagrangian.model import Damper
 from lagrangian.page.formula import text
 
@@ -29,7 +29,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for other in dict.fromkeys(others):
             what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, ".")
             change = {i: -b * other * rate.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
-            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
+            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
             yield from _in_one(s, element, other, change)
             full = {i: -b * other * other.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)

@@ -23,7 +23,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         held = [v for v in s.v if rate.has(v)]
         for v in held if len(held) > 1 else ():
             own = put(rate, {w: sp.S.Zero for w in held if w != v})
-            what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", v, " alone in your equations.")
+            what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", v, " alone.")
             grounded = {i: -b * own * own.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in grounded.items() if x != 0}, element=element)
         for v, w in ((v, w) for v in held for w in s.v if w not in held):

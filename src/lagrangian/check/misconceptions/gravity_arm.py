@@ -21,6 +21,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         mg = s.expand(body.mass) * s.expand(gravity.g)
         for times, word in ((1, "twice"), (-sp.S.Half, "half")):
             what = text(f"The height of {body.title} is taken {word} as far out as its centre of mass.")
+            if not s.angles(own):
+                continue  # on an incline there is no arm: then the weight counts twice or half
             if s.moves(own):
                 yield Variant(what=what, V=times * mg * own, element=gravity)
             if mg * own != V:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.base import NO_D, Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 6
@@ -22,4 +22,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             held = {i: c for i, c in change.items() if c != 0}
             what = text(f"{element.title[:1].upper() + element.title[1:]} is counted in every ", Name("Xi"), ".")
             if held:
-                yield Variant(what=what, Xi=held, element=element, doubt=int(len(shares) == s.n))
+                yield Variant(what=what, Xi=held, element=element, stated=NO_D, doubt=int(len(shares) == s.n))

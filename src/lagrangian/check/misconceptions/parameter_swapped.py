@@ -9,7 +9,6 @@ import sympy as sp
 
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import Name, text
-from lagrangian.page.plain import plain
 
 STEP = 2
 WHY = text("Every element has its own length, stiffness or damping; keep to the letters of the sketch.")
@@ -44,7 +43,7 @@ def _in_elements(s: Ingredients, a: sp.Symbol, b: sp.Symbol) -> Iterator[Variant
     for element in s.model.elements:
         T = s.kinetic(element)
         V = s.expand(element.potential(s.model))
-        what = text(f"{plain(b)} stands in place of {plain(a)} in {element.title}.")
+        what = text(b, " stands in place of ", a, f" in {element.title}.")
         if T.has(a):
             yield Variant(what=what, T=put(T, {a: b}) - T, element=element)
         if V.has(a):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian import bounded
-from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.base import NO_D, Ingredients, Variant
 from lagrangian.check.misconceptions.ends import both_ends
 from lagrangian.page.formula import text
 
@@ -20,7 +20,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for kept, lost in both_ends(s, element):
             what = text(f"Only one end of {element.title} is counted: its reaction on ", *lost.on, " is missing.")
             change = {i: s.xi((kept,), i) - shares.get(i, 0) for i in range(s.n)}
-            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
+            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
         for i, x in shares.items():
             if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):
                 what = text(f"The reaction of {element.title} is missing in the equation of ", s.q[i], ".")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian import bounded
-from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.base import NO_D, Ingredients, Variant
 from lagrangian.check.misconceptions.ends import both_ends
 from lagrangian.page.formula import text
 
@@ -19,7 +19,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for _, turned in both_ends(s, element):
             what = text(f"The reaction of {element.title} on ", *turned.on, " has the wrong sign.")
             change = {i: -2 * s.xi((turned,), i) for i in range(s.n)}
-            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
+            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
         shares = s.shares(element)
         for i, x in shares.items():
             if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):

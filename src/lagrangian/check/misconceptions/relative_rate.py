@@ -22,7 +22,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             turned = _omega(s, body, k)
             translation = half_square(s.expand(body.mass), moved) - s.translation(body) if moved else sp.S.Zero
             rotation = s.rotating(body, turned) - s.rotation(body) if turned else sp.S.Zero
-            what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", s.v[k], " alone in your equations.")
+            what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", s.v[k], " alone.")
             for change in (translation + rotation, translation, rotation):
                 if change != 0:
                     yield Variant(what=what, T=change, element=body, coordinate=k)

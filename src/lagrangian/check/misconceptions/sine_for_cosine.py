@@ -17,7 +17,10 @@ WHY = text(
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Exchange sin and cos, with both signs, in every weight, every spring, all of V, all of T* and every force."""
+    """Exchange sin and cos, with both signs, in every weight, every spring, all of V and every force.
+
+    Components of velocities are left to the local changes: in v², their sines and cosines are those of other angles.
+    """
     pieces = [(gravity, V, f"the weight of {body.title}") for gravity, body, V in s.weights()]
     pieces += [(spring, V, f"the energy of {spring.title}") for spring, _, V in s.springs()]
     for element, V, words in pieces:
@@ -25,11 +28,6 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield Variant(what=text(f"Sine and cosine are exchanged in {words}."), V=other - V, element=element)
     for other in _swapped(s.V):
         yield Variant(what=text("Sine and cosine are exchanged in ", Name("V"), "."), V=other - s.V)
-    for body in s.bodies:
-        own = s.kinetic(body)
-        for other in _swapped(own)[:1]:
-            what = text(f"Sine and cosine are exchanged in the kinetic energy of {body.title}.")
-            yield Variant(what=what, T=other - own, element=body)
     yield from _in_rows(s)
     for element in s.acting:
         shares = s.shares(element)

@@ -22,7 +22,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         title, k = spring.title[:1].upper() + spring.title[1:], s.expand(spring.k)
         if not any(extension.diff(q).has(*s.q) for q in held):
             for q, p in ((q, p) for q in held for p in s.q if p not in held):
-                what = text(f"{title} is stretched by ", q + p, " in your V, as if to the ground.")
+                what = text(f"{title} is stretched by ", q + p, ", as if to the ground.")
                 yield Variant(what=what, V=k * put(extension, {q: q + p}) ** 2 / 2 - V, element=spring)
         if len(held) < 2:
             continue
@@ -36,5 +36,5 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             own = put(extension, {p: sp.S.Zero for p in held if p != q})
             if own.has(sp.nan, sp.zoo):
                 continue
-            what = text(f"{title} is stretched by ", q, " alone in your V.")
+            what = text(f"{title} is stretched by ", q, " alone.")
             yield Variant(what=what, V=k * own**2 / 2 - V, element=spring)
