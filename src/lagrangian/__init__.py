@@ -11,7 +11,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.compare import Comparison, PicturePair, compare
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
-    from lagrangian.derivatives.results import Derivatives, InverseDerivatives
+    from lagrangian.derivatives.results import Derivatives, HessianProduct, InverseDerivatives, Pullback
     from lagrangian.derive import LedgerRow, Origin, Step, Why
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
@@ -49,7 +49,7 @@ else:
             "compare": "Comparison PicturePair compare",
             "compiled": "Compiled",
             "derivation": "Derivation",
-            "derivatives.results": "Derivatives InverseDerivatives",
+            "derivatives.results": "Derivatives HessianProduct InverseDerivatives Pullback",
             "derive": "LedgerRow Origin Step Why",
             "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
@@ -105,6 +105,7 @@ __all__ = [
     "Execution",
     "Fit",
     "Hamiltonian",
+    "HessianProduct",
     "InverseDerivatives",
     "LedgerRow",
     "Linearization",
@@ -119,6 +120,7 @@ __all__ = [
     "Picture",
     "PicturePair",
     "Place",
+    "Pullback",
     "Reaction",
     "Regulator",
     "Report",

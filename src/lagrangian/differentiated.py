@@ -7,13 +7,15 @@ from math import isfinite
 from typing import Any, Literal, overload
 
 import numpy as np
+import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
-from lagrangian.derivatives.results import Derivatives, InverseDerivatives
+from lagrangian.derivatives.results import Derivatives, HessianProduct, InverseDerivatives, Pullback
 from lagrangian.derivatives.steps import Rates, VelocityMap, differentiated, stepped, tableau
 from lagrangian.errors import ModelError, RunError
+from lagrangian.page.plain import plain
 from lagrangian.queries import by_name
 from lagrangian.restricted import Restricted, Values
 
@@ -38,7 +40,7 @@ class Differentiated(Restricted):
         t: ArrayLike = 0.0,
         *,
         a: None = None,
-        wrt: str | Sequence[str] = VARIED,
+        wrt: Any = VARIED,
     ) -> Derivatives: ...
 
     @overload
@@ -51,7 +53,7 @@ class Differentiated(Restricted):
         t: ArrayLike = 0.0,
         *,
         a: ArrayLike,
-        wrt: str | Sequence[str] = VARIED,
+        wrt: Any = VARIED,
     ) -> InverseDerivatives: ...
 
     def derivatives(
@@ -63,15 +65,16 @@ class Differentiated(Restricted):
         t: ArrayLike = 0.0,
         *,
         a: ArrayLike | None = None,
-        wrt: str | Sequence[str] = VARIED,
+        wrt: Any = VARIED,
     ) -> Derivatives | InverseDerivatives:
         """Return the accelerations a = M⁻¹ (Ξ − C v − G) with their exact derivatives, as `lagrangian.Derivatives`.
 
         ∂a/∂x = −M⁻¹ ∂(M a + C v + G − Ξ)/∂x at a held constant: ``d.a_q``, ``d.a_v`` and ``d.Minv`` = ∂a/∂Ξ have the
         shape ``(..., n, n)``, ``d.a_u`` ``(..., n, number of inputs)``, in SI units. For floating frames column k of
-        ``a_q`` is the change along the k-th velocity, δq = N(q) e_k. ``wrt`` says what is computed: "q", "v", "u" and
-        names of parameters, whose derivatives are ``d.a_p["m"]``, ``(..., n)``. Every set is compiled at its first
-        call.
+        ``a_q`` is the change along the k-th velocity, δq = N(q) e_k. ``wrt`` says what is computed: "q", "v", "u",
+        names of parameters, whose derivatives are ``d.a_p["m"]``, ``(..., n)``, and names of single coordinates,
+        velocities and inputs, which are ``d["theta"]``. Names may be symbols; that of a parameter called q, v or u has
+        to be. Every set is compiled at its first call.
 
         With ``a`` given, the forces r = M a + C v + G − Ξ of inverse dynamics are differentiated:
         `lagrangian.InverseDerivatives` with ``d.r``, ``d.r_q``, ``d.r_v``, ``d.r_u``, ``d.r_p`` and ``d.M``.
@@ -82,7 +85,7 @@ class Differentiated(Restricted):
 
         Raises `ModelError` for unknown names in ``wrt``, and what `forward` raises.
         """
-        names = _names(wrt)
+        names = self._names(wrt)
         if a is None:
             kernel = self._slopes(names)
             return Derivatives(kernel.program, self._called(kernel, (q, v, u, p, t)), names)
@@ -173,6 +176,78 @@ class Differentiated(Restricted):
         places = len(self.coordinates)
         return x, *differentiated(table, float(dt), stages, self._tangent(x[..., :places], x[..., places:]))
 
+    def pullback(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values,
+        w: ArrayLike,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        wrt: Any = VARIED,
+    ) -> Pullback:
+        """Return wᵀ ∂a/∂(q, v, u, p) for weights w of the accelerations, as `lagrangian.Pullback`.
+
+        ``g.q`` and ``g.v`` have the shape ``(..., n)``, ``g.u`` ``(..., number of inputs)``, ``g.p["m"]`` ``(...)``,
+        ``g["theta"]`` is one entry; ``g.a`` are the accelerations. It is the gradient of w·a, by one backward pass: a
+        few times the cost of a, whatever the number of entries. ``wrt`` and errors are those of `derivatives`.
+        """
+        names = self._names(wrt)
+        kernel = self._made(
+            ("pullback", names), lambda: dynamics.pullback(self._model, names), still=False, admitted=True
+        )
+        weights = _array(w, self.velocities, "w")
+        return Pullback(kernel.program, self._every(kernel, (q, v, weights, u, p, t)), names)
+
+    def hessian_product(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values,
+        w: ArrayLike,
+        dq: ArrayLike,
+        dv: ArrayLike,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        wrt: Any = VARIED,
+    ) -> HessianProduct:
+        """Return how wᵀ ∂a/∂(q, v, u, p) changes along (dq, dv), as `lagrangian.HessianProduct`.
+
+        These are products of the Hessian matrix of w·a with a vector, by the names of `pullback`. For floating frames
+        dq are components along the velocities, δq = N(q) dq. All arrays are of shape ``(..., n)``.
+        """
+        names = self._names(wrt)
+        kernel = self._made(
+            ("hessian product", names), lambda: dynamics.hessian_product(self._model, names), still=False, admitted=True
+        )
+        given = (_array(x, self.velocities, what) for x, what in ((w, "w"), (dq, "dq"), (dv, "dv")))
+        return HessianProduct(kernel.program, self._every(kernel, (q, v, *given, u, p, t)), names)
+
+    def _every(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Mapping[str, Array]:
+        """The outputs of a kernel by name, one alone too."""
+        found = self._called(kernel, given)
+        return found if isinstance(found, Mapping) else {next(iter(kernel.program.outputs)): found}
+
+    def _names(self, wrt: Any) -> tuple[str, ...]:
+        """What is asked for, as names; a symbol called q, v or u is that parameter, and a text is the group.
+
+        Raises `RunError` for anything else.
+        """
+        listed = [wrt] if isinstance(wrt, (str, sp.Basic)) else wrt
+        if not isinstance(listed, Sequence) or not all(isinstance(name, (str, sp.Basic)) for name in listed):
+            raise RunError(
+                f"wrt must be names (got {wrt!r:.60})",
+                fix="such as ('q', 'v', 'u') and names of parameters",
+                code="E501",
+            )
+        found = [name if isinstance(name, str) else plain(name) for name in listed]
+        for k, name in enumerate(listed):
+            if not isinstance(name, str) and found[k] in VARIED:
+                found[k] = f"{dynamics.PARAMETER}{found[k]}"
+        return tuple(found)
+
     def _free_to_vary(self, name: str) -> None:
         """Raise `ModelError` where constraints tie the variations of a state to each other."""
         if self._model.constraints:
@@ -206,17 +281,6 @@ class Differentiated(Restricted):
         return self._made(
             ("derivatives", wrt), lambda: dynamics.derivatives(self._model, wrt), still=False, admitted=True
         )
-
-
-def _names(wrt: Any) -> tuple[str, ...]:
-    """What is asked for, as names; raises `RunError` for anything else."""
-    if isinstance(wrt, str):
-        return (wrt,)
-    if isinstance(wrt, Sequence) and all(isinstance(name, str) for name in wrt):
-        return tuple(wrt)
-    raise RunError(
-        f"wrt must be names (got {wrt!r:.60})", fix="such as ('q', 'v', 'u') and names of parameters", code="E501"
-    )
 
 
 def _array(given: Any, names: tuple[str, ...], what: str) -> Array:

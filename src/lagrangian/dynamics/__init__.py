@@ -16,7 +16,7 @@ from lagrangian.dynamics.constraint_programs import (
     pushed_bias,
     residual,
 )
-from lagrangian.dynamics.derivatives import VARIED, derivatives, inverse_derivatives, tangent
+from lagrangian.dynamics.derivatives import PARAMETER, VARIED, derivatives, inverse_derivatives, singles, tangent
 from lagrangian.dynamics.describe import describe, placed
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
@@ -52,6 +52,7 @@ from lagrangian.dynamics.programs import (
     rates,
     rhs,
 )
+from lagrangian.dynamics.pullbacks import hessian_product, pullback
 from lagrangian.dynamics.reactions import ReactionProgram, check_joint, reaction
 from lagrangian.dynamics.variational import (
     VariedColumn,
@@ -64,6 +65,7 @@ from lagrangian.dynamics.variational import (
 __all__ = [
     "LEAST_REGULARITY",
     "PARADOX",
+    "PARAMETER",
     "SUPPLY",
     "VARIED",
     "Bodies",
@@ -95,6 +97,7 @@ __all__ = [
     "forward",
     "forward_dual",
     "frame_program",
+    "hessian_product",
     "impacts",
     "inverse",
     "inverse_derivatives",
@@ -115,12 +118,14 @@ __all__ = [
     "power",
     "power_closed",
     "projection",
+    "pullback",
     "pushed_bias",
     "rates",
     "reaction",
     "regime",
     "residual",
     "rhs",
+    "singles",
     "slips",
     "tangent",
     "variational",

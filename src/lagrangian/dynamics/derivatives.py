@@ -62,20 +62,45 @@ class Directions:
         return found
 
 
+PARAMETER = "parameter "
+"""What precedes the name of a parameter that is called as a group is, such as q."""
+
+
 def parameters_in(model: Model, wrt: Sequence[str]) -> tuple[str, ...]:
-    """The parameters among the names of ``wrt``; raises `ModelError` for a name that is neither a group nor a
-    parameter, and for one that is given twice."""
+    """The parameters among the names of ``wrt``.
+
+    Raises `ModelError` for a name that is neither a group nor a parameter, coordinate, velocity or input, and for one
+    that is given twice.
+    """
     known = [p.name for p in model.parameters]
+    single = singles(model)
     for at, name in enumerate(wrt):
-        if name not in VARIED and name not in known:
+        if name not in VARIED and name.removeprefix(PARAMETER) not in known and name not in single:
+            if any(name == c.name for c in model.coordinates):
+                raise ModelError(
+                    f"'{name}' belongs to a floating frame, whose coordinates change along its velocities alone",
+                    fix="'q' gives the derivatives along all velocities",
+                    code="E402",
+                )
+            others = ", ".join([*known, *single][:12]) or "none"
             raise ModelError(
                 f"there is nothing called '{name[:64]}' to differentiate with respect to",
-                fix=did_you_mean(name, known) or f"use 'q', 'v', 'u' and parameters: {', '.join(known[:12]) or 'none'}",
+                fix=did_you_mean(name, [*known, *single]) or f"use 'q', 'v', 'u' and single names: {others}",
                 code="E402",
             )
         if name in wrt[:at]:
             raise ModelError(f"'{name}' is given twice in wrt", fix="name it once", code="E404")
-    return tuple(name for name in wrt if name not in VARIED)
+    return tuple(name for name in wrt if name not in VARIED and name not in single)
+
+
+def singles(model: Model) -> dict[str, tuple[str, int]]:
+    """The coordinates, velocities and inputs that can be named one by one: name → group and place."""
+    found = {c.name: ("q", i) for i, c in enumerate(model.coordinates) if not model.floating}
+    if model.floating:
+        floating = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates}
+        found = {c.name: ("q", i) for i, c in enumerate(model.coordinates) if c.name not in floating}
+    found |= {v.name: ("v", i) for i, v in enumerate(model.velocities)}
+    return found | {u.name: ("u", i) for i, u in enumerate(model.inputs)}
 
 
 def directions_of(model: Model, wrt: Sequence[str]) -> tuple[Graph, Mechanics, Directions]:
@@ -98,7 +123,12 @@ def directions_of(model: Model, wrt: Sequence[str]) -> tuple[Graph, Mechanics, D
     if named:
         groups["p"] = len(named)
         order = [p.name for p in model.parameters]
-        columns += [{g.input("p", order.index(name)): g.one} for name in named]
+        columns += [{g.input("p", order.index(name.removeprefix(PARAMETER))): g.one} for name in named]
+    known = singles(model)
+    if alone := [known[name] for name in wrt if name in known and name not in VARIED]:
+        groups["s"] = len(alone)
+        places = {"q": m.q, "v": m.v, "u": [g.input("u", k) for k in range(len(model.inputs))]}
+        columns += [{places[group][k]: g.one} for group, k in alone]
     return g, m, Directions(groups, columns)
 
 
@@ -157,7 +187,7 @@ class SolvedForward:
         columns = [self.along([g.negative if i == k else g.zero for i in range(n)]) for k in range(n)]
         above = [[columns[max(i, k)][min(i, k)] for k in range(n)] for i in range(n)]
         below = [[columns[min(i, k)][max(i, k)] for k in range(n)] for i in range(n)]
-        return min((above, below), key=lambda rows: _cost(g, [x for row in rows for x in row]))
+        return min((above, below), key=lambda rows: cost_of(g, [x for row in rows for x in row]))
 
     def along_conditions(self, directions: Directions) -> Matrix:
         """∂a along the directions, from the conditions for the minimum that the elimination finds.
@@ -200,7 +230,8 @@ class SolvedForward:
         return found
 
 
-def _cost(g: Graph, ids: Sequence[int]) -> int:
+def cost_of(g: Graph, ids: Sequence[int]) -> int:
+    """The number of operations for each state; those of parameters alone are not counted."""
     return count_operations(g, ids, hoist=["p"]).operations
 
 
@@ -214,12 +245,12 @@ def _solutions(m: Mechanics) -> Iterator[tuple[bool, SolvedForward]]:
                 yield not problem.tape.forms, SolvedForward.of(problem)
 
 
-def _cheapest_solutions(m: Mechanics) -> list[tuple[SolvedForward, Matrix]]:
+def cheapest_solutions(m: Mechanics) -> list[tuple[SolvedForward, Matrix]]:
     """The solution with the fewest operations for a and M⁻¹, along the tape and of the mass matrix, with M⁻¹."""
     best: dict[bool, tuple[int, SolvedForward, Matrix]] = {}
     for dense, solution in _solutions(m):
         Minv = solution.inverse_inertia()
-        cost = _cost(m.graph, [*solution.a, *(x for row in Minv for x in row)])
+        cost = cost_of(m.graph, [*solution.a, *(x for row in Minv for x in row)])
         if dense not in best or cost < best[dense][0]:
             best[dense] = cost, solution, Minv
     return [(solution, Minv) for _, solution, Minv in best.values()]
@@ -231,7 +262,7 @@ def candidates(m: Mechanics, directions: Directions) -> Iterator[tuple[Vector, M
     held = [g.input("a", i) for i in range(n)]
     r = m.inverse(held)
     ways = [_by_rows(g, r, directions), _by_columns(g, r, directions)]
-    for solution, Minv in _cheapest_solutions(m):
+    for solution, Minv in cheapest_solutions(m):
         values = dict(zip(held, solution.a, strict=True))
         width = len(directions.columns)
         for k, D in enumerate(ways):
@@ -268,13 +299,14 @@ def derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
     """q, v, u, p, t → "a" (n,), "Minv" = M⁻¹ = ∂a/∂Ξ (n, n), and ∂a/∂x for every x named in ``wrt``.
 
     ``wrt`` contains "q", "v", "u" and names of parameters, for the outputs "a_q" and "a_v" (n, n), "a_u" (n, number of
-    inputs) and "a_p" (n, number of parameters named, in that order). "a_q" is along the velocities. With
-    constraints "Minv" is ∂a/∂Ξ (`constrained_derivatives`). Raises `ModelError` for other names, and as `forward`.
+    inputs) and "a_p" (n, number of parameters named, in that order), and names of single coordinates, velocities and
+    inputs, for "a_s". "a_q" is along the velocities. With constraints "Minv" is ∂a/∂Ξ (`constrained_derivatives`).
+    Raises `ModelError` for other names, and as `forward`.
     """
     graph, m, directions = directions_of(model, wrt)
     ways = [constrained_slopes(m, directions.columns)] if m.rows else candidates(m, directions)
     found = [{"a": _vector(a), **directions.split("a", slopes), "Minv": _matrix(Minv)} for a, Minv, slopes in ways]
-    outputs = min(found, key=lambda outputs: _cost(graph, [i for x in outputs.values() for i in x.ids]))
+    outputs = min(found, key=lambda outputs: cost_of(graph, [i for x in outputs.values() for i in x.ids]))
     return _program(model, "derivatives", graph, outputs)
 
 
@@ -287,7 +319,7 @@ def inverse_derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
         {"r": _vector(r), **directions.split("r", slopes), "M": M}
         for slopes in (_by_rows(graph, r, directions), _by_columns(graph, r, directions))
     ]
-    outputs = min(found, key=lambda outputs: _cost(graph, [i for x in outputs.values() for i in x.ids]))
+    outputs = min(found, key=lambda outputs: cost_of(graph, [i for x in outputs.values() for i in x.ids]))
     return _program(model, "inverse_derivatives", graph, outputs, groups=("q", "v", "a"))
 
 
