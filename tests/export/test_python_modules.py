@@ -33,6 +33,7 @@ def run(code: str, folder: pathlib.Path) -> list[list[float]]:
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
+@pytest.mark.slow
 @needs["casadi"]
 def test_casadi_gives_the_numbers_of_the_compiled_code(tmp_path: pathlib.Path) -> None:
     holds("cart-pole", "casadi", tmp_path)

@@ -28,6 +28,9 @@ class Language(StrEnum):
     JAX = "jax"
     CASADI = "casadi"
     JULIA = "julia"
+    MODELICA = "modelica"
+    FMU2 = "fmu2"
+    FMU3 = "fmu3"
 
 
 def export(

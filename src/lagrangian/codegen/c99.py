@@ -61,7 +61,7 @@ def to_c(program: Program, *, name: str | None = None) -> tuple[str, str]:
         targets=[f"{c}[{k}]" for c, _, out in outputs for k in range(len(out.ids))],
     )
     source = [f"/* {comment(program.name)} */", f'#include "{function}.h"', "", "#include <math.h>", ""]
-    source += _functions(writer, signature, arguments, [c for c, _, _ in inputs] + [c for c, _, _ in outputs])
+    source += _functions(writer, function, signature, arguments, [c for c, _, _ in inputs] + [c for c, _, _ in outputs])
     return "\n".join(source) + "\n", _header(program, function, signature, inputs, outputs)
 
 
@@ -92,7 +92,7 @@ def _header(program: Program, function: str, signature: str, inputs: list, outpu
     return "\n".join(lines) + "\n"
 
 
-def _functions(writer: Statements, signature: str, declared: list[str], passed: list[str]) -> list[str]:
+def _functions(writer: Statements, function: str, signature: str, declared: list[str], passed: list[str]) -> list[str]:
     """The whole source after its includes, in several functions if it is long."""
     unused = [f"  (void){name};" for name in passed]
     chunks = writer.cut.chunks
@@ -101,9 +101,9 @@ def _functions(writer: Statements, signature: str, declared: list[str], passed: 
     lines: list[str] = []
     calls = [f"  double w[{max(1, writer.cut.scratch)}];"]
     for k, chunk in enumerate(chunks):
-        head = f"static void part_{k}({', '.join([*declared, 'double *w'])})"
+        head = f"static void {function}_part_{k}({', '.join([*declared, 'double *w'])})"
         lines += [head, "{", *unused, "  (void)w;", *writer.statements(chunk), "}", ""]
-        calls.append(f"  part_{k}({', '.join([*passed, 'w'])});")
+        calls.append(f"  {function}_part_{k}({', '.join([*passed, 'w'])});")
     return [*lines, signature, "{", *calls, *writer.leaves(), "}"]
 
 

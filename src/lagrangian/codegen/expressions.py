@@ -7,7 +7,7 @@ node has a name of its own. A `SourceNotation` says how a language writes operat
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -57,11 +57,17 @@ class SourceNotation:
 
 
 def assignments(
-    program: Program, notation: SourceNotation, *, places: Mapping[tuple[str, int], str] | None = None
+    program: Program,
+    notation: SourceNotation,
+    *,
+    places: Mapping[tuple[str, int], str] | None = None,
+    named: str = "x",
+    inline: Collection[str] = (),
 ) -> tuple[list[str], dict[int, str]]:
     """Return the assignments, and the text for each output node.
 
-    ``places``: texts for single inputs, by group and number, instead of the notation's ``element``.
+    ``places``: texts for single inputs, by group and number, instead of the notation's ``element``. ``named``: what the
+    names begin with. ``inline``: operations that stand where they are read.
     """
     nodes, wanted = program.graph.nodes, program.ids
     uses: dict[int, int] = {}
@@ -83,11 +89,12 @@ def assignments(
             remark = notation.remark.format(comment(program.inputs[node[1]][node[2]]))
         else:
             words = expression(node, text, notation)
-            if node[0] == "const" or (uses[i] == 1 and len(words[0]) <= WIDTH // 2):
+            short = uses[i] == 1 and len(words[0]) <= WIDTH // 2
+            if node[0] == "const" or node[0] in inline or short:
                 text[i] = words
                 continue
-        lines.append(notation.assignment.format(f"x{i}", words[0]) + remark)
-        text[i] = (f"x{i}", ATOM)
+        lines.append(notation.assignment.format(f"{named}{i}", words[0]) + remark)
+        text[i] = (f"{named}{i}", ATOM)
     return lines, {i: text[i][0] for i in wanted}
 
 

@@ -46,6 +46,9 @@ TARGETS: dict[str, ExportTarget] = {
     "jax": ExportTarget(".py", "jax_module"),
     "casadi": ExportTarget(".py", "casadi_module"),
     "julia": ExportTarget(".jl", "julia_module"),
+    "modelica": ExportTarget(".mo", "modelica"),
+    "fmu2": ExportTarget(".fmu", "fmu.fmu2"),
+    "fmu3": ExportTarget(".fmu", "fmu.fmu3"),
 }
 """Everything that a system can be exported to; of targets with the same ending the first is meant by it."""
 

@@ -14,6 +14,7 @@ from lagrangian.export import programs, targets
 from lagrangian.graph import Program
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, text
+from lagrangian.verify.foreign.fmus import fmu_answers
 from lagrangian.verify.foreign.julia import julia_answers
 from lagrangian.verify.foreign.octave import octave_answers
 from lagrangian.verify.foreign.python_modules import casadi_answers, jax_answers
@@ -38,6 +39,8 @@ RUNNERS: dict[str, tuple[str, Runner]] = {
     "jax": ("JAX", jax_answers),
     "casadi": ("CasADi", casadi_answers),
     "julia": ("Julia", julia_answers),
+    "fmu2": ("FMPy", fmu_answers),
+    "fmu3": ("FMPy", fmu_answers),
 }
 """Target → the program that runs it, and how."""
 
@@ -80,9 +83,10 @@ def largest_difference(made: Mapping[str, Program], found: Answers, states: Sequ
     for k, state in enumerate(states):
         state = {**state, "x": [*state["q"], *state["v"]]}
         M = np.array(evaluated(made["mass_matrix"], state)["M"], float)
-        for name, program in made.items():
+        for name, outputs in found.items():
+            program = made[name]
             terms = np.ravel(cancelling(name, state, M))
-            for expected, answer in zip(evaluated(program, state).values(), found[name], strict=True):
+            for expected, answer in zip(evaluated(program, state).values(), outputs, strict=True):
                 slow: Array = np.ravel(np.array(expected, float))
                 worst = float(np.maximum(worst, relative(answer[k] - slow, slow, terms)))
     return worst
