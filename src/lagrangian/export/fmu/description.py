@@ -6,14 +6,14 @@ from collections.abc import Iterator, Sequence
 from xml.sax.saxutils import quoteattr
 
 from lagrangian.export.fmu.source import TOLERANCE
-from lagrangian.export.fmu.variables import Variable
+from lagrangian.export.fmu.variables import FmuVariable
 from lagrangian.model import Model
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>'
 TOOL = "lagrangian"
 
 
-def description2(model: Model, variables: Sequence[Variable], stem: str, token: str, duration: float) -> str:
+def description2(model: Model, variables: Sequence[FmuVariable], stem: str, token: str, duration: float) -> str:
     """modelDescription.xml of FMI 2.0."""
     can = 'canGetAndSetFMUstate="true" canSerializeFMUstate="true"'
     name, shown = quoteattr(stem), quoteattr(model.name)
@@ -51,7 +51,7 @@ def description2(model: Model, variables: Sequence[Variable], stem: str, token: 
     return "\n".join([*lines, "  </ModelStructure>", "</fmiModelDescription>", ""])
 
 
-def _attributes2(v: Variable) -> tuple[str, str]:
+def _attributes2(v: FmuVariable) -> tuple[str, str]:
     """The attributes of a variable, and those of its type."""
     kind = {
         "time": 'causality="independent" variability="continuous"',
@@ -69,7 +69,7 @@ def _attributes2(v: Variable) -> tuple[str, str]:
     return kind, inner
 
 
-def description3(model: Model, variables: Sequence[Variable], stem: str, token: str, duration: float) -> str:
+def description3(model: Model, variables: Sequence[FmuVariable], stem: str, token: str, duration: float) -> str:
     """modelDescription.xml of FMI 3.0."""
     can = 'canGetAndSetFMUState="true" canSerializeFMUState="true"'
     name, shown = quoteattr(stem), quoteattr(model.name)
@@ -116,7 +116,7 @@ def build_description(stem: str) -> str:
     return "\n".join([*lines, ""])
 
 
-def _units(variables: Sequence[Variable]) -> Iterator[str]:
+def _units(variables: Sequence[FmuVariable]) -> Iterator[str]:
     """The units that occur, by name."""
     found = sorted({v.unit for v in variables if v.unit})
     if found:

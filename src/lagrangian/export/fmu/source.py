@@ -10,7 +10,7 @@ from typing import Literal
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.codegen.labels import comment
-from lagrangian.export.fmu.variables import Variable
+from lagrangian.export.fmu.variables import FmuVariable
 from lagrangian.export.programs import coordinates_listed, program_of
 from lagrangian.graph import Program
 from lagrangian.integrate import METHODS
@@ -38,7 +38,7 @@ def equations(model: Model) -> dict[str, Program]:
     return found | ({"eq_velocity": velocity} if velocity is not None else {})
 
 
-def source(model: Model, variables: Sequence[Variable], standard: Standard, token: str) -> str:
+def source(model: Model, variables: Sequence[FmuVariable], standard: Standard, token: str) -> str:
     """The whole source file. ``token`` is the GUID of the model description."""
     programs = equations(model)
     head = [
@@ -64,7 +64,7 @@ def source(model: Model, variables: Sequence[Variable], standard: Standard, toke
     return "\n".join([*head, *_numbers(model, variables, programs, token), *body, *parts])
 
 
-def token_of(model: Model, variables: Sequence[Variable], standard: Standard) -> str:
+def token_of(model: Model, variables: Sequence[FmuVariable], standard: Standard) -> str:
     """A GUID made of everything that the source contains: equal sources have equal ones."""
     found = hashlib.sha256(repr(variables).encode())
     found.update(source(model, variables, standard, "").encode())
@@ -82,7 +82,7 @@ def _function(program: Program, name: str) -> str:
     return code.split("#include <math.h>\n", 1)[1].replace(f"void {name}(", f"static void {name}(")
 
 
-def _numbers(model: Model, variables: Sequence[Variable], programs: dict[str, Program], token: str) -> list[str]:
+def _numbers(model: Model, variables: Sequence[FmuVariable], programs: dict[str, Program], token: str) -> list[str]:
     """Sizes, starts and the table of the method."""
     nq, nv = len(model.coordinates), len(model.velocities)
     lam = len(programs["eq_multipliers"].ids) if "eq_multipliers" in programs else 0

@@ -14,7 +14,7 @@ from lagrangian.model.rows import named_conditions
 
 
 @dataclass(frozen=True)
-class Variable:
+class FmuVariable:
     """A variable. Its value reference is its place in the list, and ``derivative`` is that of its state."""
 
     name: str
@@ -25,7 +25,7 @@ class Variable:
     description: str = ""
 
 
-def variables_of(model: Model) -> tuple[Variable, ...]:
+def variables_of(model: Model) -> tuple[FmuVariable, ...]:
     """Time, states x = [q; v], their derivatives, inputs, parameters, T, V and multipliers, in this order.
 
     Raises `ModelError` for a parameter without a value: an FMU needs a start of every parameter.
@@ -49,29 +49,29 @@ def variables_of(model: Model) -> tuple[Variable, ...]:
     return tuple(found)
 
 
-def _listed(model: Model, start: Start) -> Iterator[Variable]:
+def _listed(model: Model, start: Start) -> Iterator[FmuVariable]:
     from lagrangian.simulate.plot import Units  # imported here with everything that knows dimensions
 
     units, table = Units(model), unit_table(model)
     n, m = len(model.coordinates), len(model.velocities)
-    yield Variable("time", "time", "s")
+    yield FmuVariable("time", "time", "s")
     for k, c in enumerate(model.coordinates):
-        yield Variable(c.name, "state", table[c.name], start.x[k], description=c.description or "")
+        yield FmuVariable(c.name, "state", table[c.name], start.x[k], description=c.description or "")
     for k, v in enumerate(model.velocities):
-        yield Variable(v.name, "state", table[v.name], start.x[n + k])
+        yield FmuVariable(v.name, "state", table[v.name], start.x[n + k])
     for k, c in enumerate(model.coordinates):
-        yield Variable(f"der({c.name})", "derivative", _rate(table[c.name]), derivative=1 + k)
+        yield FmuVariable(f"der({c.name})", "derivative", _rate(table[c.name]), derivative=1 + k)
     for k, v in enumerate(model.velocities):
-        yield Variable(f"der({v.name})", "derivative", _rate(table[v.name]), derivative=1 + n + k)
+        yield FmuVariable(f"der({v.name})", "derivative", _rate(table[v.name]), derivative=1 + n + k)
     for k, u in enumerate(model.inputs):
-        yield Variable(u.name, "input", table[u.name], start.u[k], description=u.description or "")
+        yield FmuVariable(u.name, "input", table[u.name], start.u[k], description=u.description or "")
     for k, p in enumerate(model.parameters):
-        yield Variable(p.name, "parameter", table[p.name], start.p[k], description=p.description or "")
-    yield Variable("energy.kinetic", "output", "J", description="kinetic co-energy T*")
-    yield Variable("energy.potential", "output", "J", description="potential energy V")
+        yield FmuVariable(p.name, "parameter", table[p.name], start.p[k], description=p.description or "")
+    yield FmuVariable("energy.kinetic", "output", "J", description="kinetic co-energy T*")
+    yield FmuVariable("energy.potential", "output", "J", description="potential energy V")
     for row in named_conditions(model):
         unit = units.of(multiplier_symbol(row.name))
-        yield Variable(f"multiplier.{row.name}", "output", unit, description="multiplier of a constraint")
+        yield FmuVariable(f"multiplier.{row.name}", "output", unit, description="multiplier of a constraint")
     assert m == len(model.velocities)
 
 
