@@ -350,3 +350,19 @@ def test_a_matrix_that_fits_keeps_its_name() -> None:
     grid = Grid(tuple(tuple(Number(f"−{i}.{j}4567") for j in range(6)) for i in range(6)))
     (line,) = lines((Letter("A"), grid), 96)
     assert [t.math for t in line.right if t.role == "leaf"] == [Letter("A"), grid]
+
+
+@pytest.mark.parametrize(
+    ("number", "written"),
+    [
+        (sp.Rational("0.7071067811865476"), "0.7071067811865476"),  # √2/2 as the machine has it, digit for digit
+        (sp.Rational(1, 65536), "1/65536"),
+        (sp.Rational(3, 20), "3/20"),
+        (sp.Rational("0.000000003"), "3 · 10⁻⁹"),
+        (sp.Rational(10**20 + 1, 10**15), "100000000000000000001/1000000000000000"),  # too many digits to be one
+    ],
+)
+def test_decimal_numbers_are_written_as_such_where_a_fraction_is_long(number: sp.Rational, written: str) -> None:
+    assert unicode(WRITE(number)).strip("()") == written
+    assert written in unicode(WRITE(number * m1))
+    assert unicode(WRITE(-number * m1 / L)).startswith("−")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction
 from typing import Any
 
@@ -189,7 +190,9 @@ class Expressions:
         number = abs(number)
         if under:
             top, bottom = Fraction(number).limit_denominator(10**18).as_integer_ratio()
-            if Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
+            if isinstance(number, Fraction) and _decimal(number):
+                over, top, bottom = [sp.Rational(top, bottom), *over], 1, 1
+            elif Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
                 over, top, bottom = [sp.Float(sp.Rational(*Fraction(number).as_integer_ratio())), *over], 1, 1
             shown: Math = Quotient(self._times(top, over), self._times(bottom, under))
         else:
@@ -303,13 +306,38 @@ def _negative(expr: sp.Expr) -> bool:
     return bool(number.is_extended_real and number.is_negative)
 
 
+LONGEST_DENOMINATOR = 10_000
+"""The denominator above which a fraction that is a decimal number is written as such."""
+
+MOST_DIGITS = 17
+"""Digits that tell a floating-point number from all others; a longer decimal number stays a fraction."""
+
+
+def _decimal(value: Fraction) -> str:
+    """A fraction as a decimal number that equals it, 0.7071067811865476; empty where the fraction is shorter."""
+    under = value.denominator
+    if under <= LONGEST_DENOMINATOR or under % 5 or pow(10, under.bit_length(), under):
+        return ""
+    with localcontext() as exact:
+        exact.prec = MOST_DIGITS
+        made = Decimal(value.numerator) / Decimal(under)
+        return "" if exact.flags[Inexact] else f"{made.normalize()}".lower()
+
+
 def _numeral(value: Any) -> Math:
     """A nonnegative number: 2, ½, 9.81, 1.5·10⁻⁶."""
+    if isinstance(value, Fraction) and (digits := _decimal(value)):
+        return _scientific(digits)
     if isinstance(value, Fraction) and value.denominator != 1:
         return Quotient(Number(str(value.numerator)), Number(str(value.denominator)))
     if isinstance(value, (int, Fraction)):
         return Number(str(int(value)))
-    digits, _, exponent = f"{value:.15g}".partition("e")
+    return _scientific(f"{value:.15g}")
+
+
+def _scientific(written: str) -> Math:
+    """A number as Python writes it: with a power of ten where there is one."""
+    digits, _, exponent = written.partition("e")
     if exponent:
         power = int(exponent)
         raised: Math = Number(str(power)) if power >= 0 else Addition(((True, Number(str(-power))),))
