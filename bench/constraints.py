@@ -265,6 +265,29 @@ def beside_hand(rounds: int, seconds: float) -> str:
     )
 
 
+def call_alone(rounds: int, seconds: float) -> str:
+    """What of Pinocchio's time is the call from Python: the same call for one joint without constraints."""
+    if "Pinocchio" not in found():
+        return ""
+    pin = importlib.import_module("pinocchio")
+    model = pin.Model()
+    model.addJoint(0, pin.JointModelRZ(), pin.SE3.Identity(), "joint")
+    model.appendBodyToJoint(1, pin.Inertia(1.0, np.zeros(3), np.eye(3)), pin.SE3.Identity())
+    data, models, closures = model.createData(), pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
+    pin.initConstraintDynamics(model, data, models, closures)
+    proximal, x = pin.ProximalSettings(1e-14, 1e-12, 20), np.zeros(1)
+    repeat = range(STATES)
+
+    def calls() -> object:
+        return [pin.constraintDynamics(model, data, x, x, x, models, closures, proximal) for _ in repeat]
+
+    each = best({"call": calls}, rounds, seconds)["call"] / STATES
+    return (
+        f"Of Pinocchio's times, {each * 1e9:.0f} ns are the call from Python: the same call for one joint without "
+        "constraints takes as long."
+    )
+
+
 LINKAGES: dict[str, Linkage | Standing] = {
     "four-bar": Linkage((0.5, 1.2, 0.9), ((0.0, 0.0), 0, (1.0, 0.0)), ((1, 2),), (1.0, -0.7, 1.1)),
     "five-bar": Linkage((0.7, 1.1, 0.8, 1.2), ((0.0, 0.0), 0, (1.3, 0.0), 2), ((1, 3),), (2.0, -1.2, 1.2, 1.2)),
@@ -333,7 +356,7 @@ def report(quick: bool) -> list[str]:
     lines += ["difference. Pinocchio: `constraintDynamics`, a call from Python; MuJoCo: `mj_forward`, soft.", ""]
     rows = [measured(name, rounds, seconds) for name in (*LINKAGES, *EXAMPLES)]
     lines += table(["accelerations", "operations", "one call", "batch", "Pinocchio", "MuJoCo"], rows)
-    return [*lines, "", beside_hand(rounds, seconds)]
+    return [*lines, "", call_alone(rounds, seconds), "", beside_hand(rounds, seconds)]
 
 
 def main() -> None:

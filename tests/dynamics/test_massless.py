@@ -48,6 +48,7 @@ def test_a_bead_on_a_parametrized_wire_is_a_pendulum_and_its_multipliers_are_the
         assert dyn.margin(q) > 1e-3
 
 
+@pytest.mark.slow
 def test_its_runs_linearization_and_derivation_are_those_of_the_pendulum() -> None:
     s = bead()
     pendulum = lg.System("pendulum")
@@ -63,6 +64,7 @@ def test_its_runs_linearization_and_derivation_are_those_of_the_pendulum() -> No
     assert all(check.holds for check in s.derive().verified)
 
 
+@pytest.mark.slow
 def test_three_rows_hold_the_parameter_of_a_helix_in_space() -> None:
     """A bead on (cos u, sin u, u/2) in spherical coordinates: u″ = −g h/(1 + h²) with h = 1/2."""
     s = lg.System("helix")

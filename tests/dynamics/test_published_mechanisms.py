@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy as sp
+from sympy.physics import mechanics
 
 import built_in
 import lagrangian as lg
@@ -173,3 +175,40 @@ def test_a_four_bar_moves_as_in_pinocchio() -> None:
             model, data, to_relative @ q, to_relative @ v, np.array([tau, 0, 0]), models, closures, proximal
         )
         assert np.abs(to_relative @ mine - theirs).max() < 1e-11 * np.abs(theirs).max()
+
+
+@pytest.mark.slow
+def test_a_rolling_disc_moves_as_by_kanes_method() -> None:
+    """φ″, θ″, ψ″ of the example against SymPy's `KanesMethod`, with the contact's rates as functions of φ′."""
+    psi, theta, phi, u1, u2, u3 = mechanics.dynamicsymbols("psi theta phi u1 u2 u3")
+    m, r, I, K, g = sp.symbols("m r I K g")
+    N, H, L, D = (mechanics.ReferenceFrame(name) for name in "NHLD")
+    H.orient_axis(N, N.z, psi)
+    L.orient_axis(H, H.x, theta)
+    D.orient_axis(L, L.y, phi)
+    D.set_ang_vel(N, u3 * N.z + u2 * H.x + u1 * L.y)
+    L.set_ang_vel(N, u3 * N.z + u2 * H.x)
+    contact, centre = mechanics.Point("contact"), mechanics.Point("centre")
+    contact.set_vel(N, 0)  # of the disc's matter there: it does not slip
+    centre.set_pos(contact, r * L.z)
+    centre.set_vel(N, D.ang_vel_in(N).cross(r * L.z))
+    wheel = mechanics.RigidBody("disc", centre, D, m, (mechanics.inertia(L, I, K, I), centre))
+    kinematic = [phi.diff() - u1, theta.diff() - u2, psi.diff() - u3]
+    kane = mechanics.KanesMethod(N, [phi, theta, psi], [u1, u2, u3], kd_eqs=kinematic)
+    active, inertial = kane.kanes_equations([wheel], [(centre, -m * g * N.z)])
+    assert active is not None and inertial is not None
+    system = built_in.system("rolling-disc")
+    dyn, p = system.compile(), values(system)
+    generator = np.random.default_rng(11)
+    for _ in range(3):
+        place, rate = generator.uniform(-0.8, 0.8, 5), generator.uniform(-3, 3, 3)
+        still = dict(zip((u1, u2, u3), rate, strict=True))
+        known = {psi: place[2], theta: place[3], phi: place[4]} | {s: p[s.name] for s in (m, r, I, K, g)}
+        changes = [u.diff() for u in (u1, u2, u3)]
+        equations = active + inertial
+        matrix = equations.jacobian(changes).subs(still).subs(known)
+        rest = equations.subs(dict.fromkeys(changes, 0)).subs(still).subs(known)
+        expected = np.linalg.solve(np.array(matrix, float), -np.array(rest, float).ravel())
+        roll = [p["r"] * rate[0] * np.cos(place[2]), p["r"] * rate[0] * np.sin(place[2])]
+        found = dyn.forward(place, [*roll, rate[2], rate[1], rate[0]])
+        assert found[[4, 3, 2]] == pytest.approx(expected, rel=1e-11, abs=1e-11)

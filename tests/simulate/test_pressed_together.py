@@ -33,6 +33,7 @@ def collar(along: tuple[int, ...] = (3, 0, 4)) -> lg.System:
     return s
 
 
+@pytest.mark.slow
 def test_a_collar_slides_up_a_rod_with_the_size_of_the_force_across_it() -> None:
     """N = √((m g cos α)² + 5²), whatever the length of the vector that gives the direction."""
     run = collar().simulate(1.0, initial={"x'": 1.8, "z'": 2.4}, **TIGHT)
@@ -98,6 +99,7 @@ def test_a_rough_pin_holds_a_pendulum_inside_the_circle_of_friction() -> None:
         assert (run.modes["dry"][-1] != 0) == moves
 
 
+@pytest.mark.slow
 def test_a_pin_as_wide_as_the_pendulum_is_a_paradox() -> None:
     """(μ r m a)² < (J + m a²)² is needed: the root of the quadratic equation is unique no more."""
     run = journal(0.799 / 0.4).simulate(0.01, initial={"y": -0.5, "theta'": 5.0, "x'": 2.5})
@@ -107,7 +109,7 @@ def test_a_pin_as_wide_as_the_pendulum_is_a_paradox() -> None:
 
 
 def chain() -> lg.System:
-    """Two rods in absolute coordinates; both pins are rough, and the lower one carries a rough guide's load too."""
+    """Two rods in absolute coordinates; both pins are rough."""
     s = lg.System("chain")
     m, J, a, mu = s.parameters("m J a mu", m=1.5, J=0.2, a="0.4 m", mu="0.05 m")
     above: Any = s.origin
@@ -136,9 +138,9 @@ def hanging(first: float, second: float, rate: float = 0.0) -> dict[str, float]:
 @pytest.mark.slow
 def test_two_rough_pins_are_solved_together() -> None:
     """Newton's and Euler's laws of both rods, with μ √(λx² + λy²) as the friction torque of each pin."""
-    run = chain().simulate(2.0, initial=hanging(0.9, -0.6, 3.0), **TIGHT)
+    run = chain().simulate(0.65, initial=hanging(0.9, -0.6, 3.0), **TIGHT)
     assert run.success and float(run.audit) < 1e-11
-    assert {tuple(pair) for pair in zip(run.modes["dry1"], run.modes["dry2"], strict=True)} >= {(1, 1), (-1, 1)}
+    assert {tuple(pair) for pair in zip(run.modes["dry1"], run.modes["dry2"], strict=True)} >= {(-1, 1), (-1, -1)}
     m, J, a = 1.5, 0.2, 0.4
     two = np.array([m * run["x2''"], m * (run["y2''"] + G)])
     one = np.array([m * run["x1''"], m * (run["y1''"] + G)]) + two
@@ -193,6 +195,7 @@ def test_mistakes(rows: Any, code: str, said: str) -> None:
     assert caught.value.code == code and said in str(caught.value)
 
 
+@pytest.mark.slow
 def test_the_reaction_of_a_joint_without_rows_holds_the_friction_that_rows_press_on() -> None:
     """A pendulum on a rough pin hangs on a cart: the rail carries both weights and the masses' vertical motion."""
     s = lg.System("cart")

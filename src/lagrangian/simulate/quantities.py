@@ -15,7 +15,8 @@ from lagrangian.page.plain import plain
 
 
 def quantity(model: Model, text: str, what: str) -> sp.Expr:
-    """The expression that a text stands for; the name of a constraint's row stands for its multiplier λ.
+    """The expression that a text stands for; the name of a constraint's row, or of its one row, stands for its
+    multiplier λ.
 
     A symbol of the model comes before a row of the same name. Raises `ModelError` for what is neither.
     """
@@ -24,6 +25,8 @@ def quantity(model: Model, text: str, what: str) -> sp.Expr:
     if name in names and name not in model.symbols:
         return multiplier_symbol(name)
     whole = [row for row in names if row.partition(".")[0] == name and "." in row]
+    if len(whole) == 1 and name not in model.symbols:
+        return multiplier_symbol(whole[0])
     if whole and name not in model.symbols:
         raise ModelError(
             f"the constraint '{name[:64]}' has {len(whole)} multipliers",
