@@ -282,3 +282,20 @@ def test_an_animation_says_what_it_is() -> None:
     _, animation = animated("pendulum", speed=0.5)
     assert repr(animation).startswith("<Animation of 'pendulum': 201 frames, 8 s, ")
     assert "0.5 × real time" in "".join(parsed(animation.to_svg()).itertext())
+
+
+def test_what_falls_far_is_followed_and_keeps_its_size() -> None:
+    """A ball that falls for 10 s, 490 m: the frame moves with it, says so, and a floor passes by."""
+    s = lg.System("ball")
+    x, y = s.coordinates("x y")
+    s.particle(s.parameter("m", "1 kg"), at=s.point("P", (x, y)), name="ball")
+    s.gravity(direction=(0, -1), g=9.81)
+    short, far = (s.simulate(t, initial={"x'": 1.0}).animate().motion for t in (0.1, 10.0))
+    assert not short.followed and far.followed and "moves with the bodies" in far.pace
+    assert far.frame[2] < 3 * max(far.scene.size)
+    (ball,) = far.scene.handles
+    assert np.ptp(far.at[:, ball], axis=0) == pytest.approx([0.0, 0.0], abs=1e-6)
+
+
+def test_a_pendulum_is_not_followed() -> None:
+    assert not lg.example("double-pendulum").simulate(5.0).animate().motion.followed

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lagrangian.page.ground import extended
 from lagrangian.page.placing import Drawn, placed, places
-from lagrangian.page.scene import Scene, ScenePart, drawing_order
+from lagrangian.page.scene import Scene, ScenePart, Trace, drawing_order
 
 Array = NDArray[np.float64]
 
@@ -27,6 +27,9 @@ WIDEST, HIGHEST = 640.0, 480.0
 THIN = 0.7
 """Lines are widened so that they are shown with at least this share of their width."""
 
+FAR = 6.0
+"""Bodies that leave the picture by so many times its size, and stay together, are followed."""
+
 NARROWEST = 0.22
 """The smallest ratio of the shorter side of the frame to the longer one."""
 
@@ -39,6 +42,7 @@ class SceneMotion:
     ``duration`` is how long all of it is shown [s]. ``frame`` is the part of the plane that is shown: left, top, width,
     height [px]. ``paths`` (places, 2) are paths that are drawn [px], at equal steps of time, which may be finer than
     those of the frames. ``ending`` says why the motion ends early, if it does.
+    ``followed`` is true where the frame moves with the bodies: places are then those seen from the middle of these.
     """
 
     scene: Scene
@@ -48,6 +52,7 @@ class SceneMotion:
     frame: tuple[float, float, float, float]
     paths: tuple[Array, ...] = ()
     ending: str = ""
+    followed: bool = False
 
     @property
     def count(self) -> int:
@@ -56,9 +61,10 @@ class SceneMotion:
 
     @property
     def pace(self) -> str:
-        """How fast the motion is shown, unless it is real time."""
+        """How fast the motion is shown, unless it is real time, and whether the frame moves with the bodies."""
         speed = float(self.times[-1] - self.times[0]) / self.duration
-        return "" if abs(speed - 1.0) < 0.02 else f"{speed:.4g} × real time"
+        said = [] if abs(speed - 1.0) < 0.02 else [f"{speed:.4g} × real time"]
+        return ", ".join([*said, "the frame moves with the bodies"] if self.followed else said)
 
     @property
     def usual_width(self) -> float:
@@ -88,12 +94,35 @@ def motion(
     [s]. The paths of the scene's trail go through all places.
     """
     fine = restrained(scene, places(scene, positions))
+    away = _away(scene, fine)
+    still = np.ptp(fine, axis=0).max(axis=1) < 1e-6
+    fine = fine - away[:, None]
     paths = tuple(fine[:, anchor] + _drawn_at(scene, anchor) for anchor in scene.trail)
-    whole = SceneMotion(scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending)
-    left, top, right, bottom = _proportioned(*_bounds(whole))
+    whole = SceneMotion(
+        scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending, bool(np.ptp(away) > 0)
+    )
+    left, top, right, bottom = _proportioned(*_bounds(whole, still))
     bottom += WORDS * (right - left) if ending or whole.pace else 0.0
-    parts = tuple(extended(part, fine[0], (left, top, right, bottom)) for part in scene.parts)
+    low, high = away.min(axis=0), away.max(axis=0)
+    reach = left + low[0], top + low[1], right + high[0], bottom + high[1]
+    parts = tuple(extended(part, fine[0], reach) for part in scene.parts)
     return replace(whole, scene=replace(scene, parts=parts), frame=(left, top, right - left, bottom - top))
+
+
+def _away(scene: Scene, at: Array) -> Array:
+    """How far the frame moves (places, 2) [px]: with the middle of the bodies where these leave the picture for good.
+
+    Only what falls or rolls down does: without gravity it is the path that tells, and the frame holds it. The frame stays
+    where bodies go less than `FAR` times the size of the picture, and where they part.
+    """
+    stays = np.zeros((len(at), 2))
+    if not scene.handles or scene.room is not None or all(part.kind != "gravity" for part in scene.parts):
+        return stays
+    bodies = at[:, list(scene.handles)]
+    middle = bodies.mean(axis=1)
+    spread = float(np.hypot(*np.moveaxis(bodies - middle[:, None], -1, 0)).max())
+    gone = float(np.hypot(*(middle - middle[0]).T).max())
+    return middle - middle[0] if gone > FAR * max(*scene.size, spread) else stays
 
 
 def _drawn_at(scene: Scene, anchor: int) -> Array:
@@ -155,10 +184,16 @@ def extent(drawn: list[Drawn]) -> tuple[float, float, float, float] | None:
     return None if np.isinf(low).any() else (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
 
-def _bounds(motion: SceneMotion) -> tuple[float, float, float, float]:
-    """The smallest frame that holds all parts in all frames, with the margin around it."""
+def _bounds(motion: SceneMotion, still: NDArray[np.bool_]) -> tuple[float, float, float, float]:
+    """The smallest frame that holds all parts in all frames, with the margin around it.
+
+    Where the frame moves with the bodies, parts at anchors that are ``still`` (anchors,) pass by.
+    """
     boxes: list[tuple[float, float, float, float]] = []
     for part in motion.parts:
+        used = part.shape.anchors if isinstance(part.shape, Trace) else (part.placement.at, part.placement.towards)
+        if motion.followed and all(still[k] for k in used if k is not None):
+            continue
         if (box := extent(placed(part, motion.at))) is not None:
             half = part.outline / 2
             boxes.append((box[0] - half, box[1] - half, box[2] + half, box[3] + half))
