@@ -28,7 +28,7 @@ from lagrangian.look.space_supports import draw_fixed_axes
 from lagrangian.look.spread import spread
 from lagrangian.look.string_glyphs import draw_strings, draw_unwinding, floor_ends
 from lagrangian.look.string_layout import extent, lay_strings, show_strings
-from lagrangian.look.strings import PulleyString, cast_strings, strings_of, undrawn_string
+from lagrangian.look.strings import PulleyString, carried_string, cast_strings, hidden_pulley, strings_of
 from lagrangian.look.supports import draw_supports
 from lagrangian.look.tie_glyphs import TieArtist
 from lagrangian.look.ties import Resolver
@@ -77,6 +77,13 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
         return _framed(board, model, hints, said, None)
     parts = cast(motions, hints.kinds)
     strings = strings_of(motions, parts)
+    ends = hidden_pulley(motions, parts, strings)
+    if ends is not None:  # the place of the pulley is found: the rules are asked again with it
+        a, b = (model.position(stage.points[k]) for k in ends)
+        stage.add(0, [(x + y) / 2 for x, y in zip(a, b, strict=True)])
+        motions = Motions(stage)
+        parts = cast(motions, hints.kinds)
+        strings = strings_of(motions, parts)
     cast_strings(motions, parts, strings, set(hints.kinds))
     pose = Pose(motions, p, hints.pose)
     to_scale = show_strings(pose, strings)
@@ -101,18 +108,29 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     draw_supports(board, parts, ties, floor_ends(board, parts, laid))
     draw_strings(board, parts, laid)
     draw_unwinding(board, parts)
-    on = undrawn_string(motions, parts, strings)
-    if on is not None:
-        board.lacks(
-            f"the string from {on[0]} to {on[1]} is not drawn, because no point of the model is its moving pulley",
-            "name the place of the pulley in [points]",
-        )
-    say_unjoined(board, parts, hints.lines, strings, set(on or ()))
+    say_unjoined(board, parts, hints.lines, strings, _say_carried(board, parts, strings, hints))
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns, [x.holder for x in strings if x.holder]).draw()
     return _framed(board, model, hints, description(board, parts, ties, turns, strings), room)
+
+
+def _say_carried(board: Board, parts: list[Player], strings: list[PulleyString], hints: Hints) -> tuple[str, ...]:
+    """Say which string over a pulley on a body is not drawn, unless a hint does; return the bodies that were named."""
+    found = carried_string(board.motions, parts, strings)
+    if found is None:
+        return ()
+    on, first, second = found
+    ends = {x.point for x in parts if x.name in (first, second)}
+    drawn = any(ends <= {board.stage.index(p) for p in line.through} for line in hints.lines)
+    if not drawn:
+        board.lacks(
+            f"the string from {first} over a pulley on {on} to {second} is not drawn",
+            "name the place of the pulley in [points], and give a [[look.line]] with "
+            f'through = ["{first}", "the pulley", "{second}"] and kind = "string"',
+        )
+    return found
 
 
 # -- scale ------------------------------------------------------------------------------------------------------------

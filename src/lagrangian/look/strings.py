@@ -94,29 +94,41 @@ def cast_strings(motions: Motions, parts: list[Player], strings: list[PulleyStri
             part.radius = _radius(motions, part, string)
 
 
-def undrawn_string(motions: Motions, parts: list[Player], strings: list[PulleyString]) -> tuple[str, str] | None:
-    """Two bodies on a string whose pulley has no place.
-
-    It is on a body that moves, with the string around its corner, or it moves and is no point: ℓ₁ + (ℓ₂ + ℓ₃)/2 is
-    constant.
-    """
+def carried_string(motions: Motions, parts: list[Player], strings: list[PulleyString]) -> tuple[str, str, str] | None:
+    """A body on which a pulley is, with the string around its corner, and the two bodies on that string; not drawn."""
     down = _down(motions)
-    used = {end.point for x in strings for end in x.ends}
-    free = [x for x in parts if x.glyph in HUNG and x.point not in used]
-    if down is None or motions.stage.dimension == 3 or len(free) < 3:
+    names = {x.point: x.name for x in _unstrung(parts, strings)}
+    if down is None or motions.stage.dimension == 3 or len(names) < 3:
         return None
-    names = {x.point: x.name for x in free}
-    for part in free:
-        for string in _pairs(motions, parts, [k for k in names if k != part.point], part.point, down):
+    for k, name in names.items():
+        for string in _pairs(motions, parts, [h for h in names if h != k], k, down):
             if _runs(motions, string):
                 first, second = (names[end.point] for end in string.ends)
-                return first, second
-    found = {x.point: end for x in free for end in _ends(motions, [x.point], 0, down) if end.along is not None}
-    for one, two, three in itertools.permutations((x for x in free if x.point in found), 3):
-        a, b, c = (found[x.point].slopes for x in (one, two, three))
-        if np.abs(b + c).max() > SAME and _equal(-a, (b + c) / 2) and two.point < three.point:
-            return two.name, three.name
+                return name, first, second
     return None
+
+
+def hidden_pulley(motions: Motions, parts: list[Player], strings: list[PulleyString]) -> tuple[int, int] | None:
+    """Two points on a string over a pulley that moves and is no point of the model.
+
+    ℓ₁ + (ℓ₂ + ℓ₃)/2 is constant, where the other string is over a fixed pulley: so the moving one is midway between the
+    ends of its string, but for a constant.
+    """
+    down = _down(motions)
+    free = _unstrung(parts, strings)
+    if down is None or motions.stage.dimension == 3 or len(free) < 3:
+        return None
+    found = {x.point: end for x in free for end in _ends(motions, [x.point], 0, down) if end.along is not None}
+    for one, two, three in itertools.permutations(found, 3):
+        a, b, c = (found[k].slopes for k in (one, two, three))
+        if two < three and np.abs(b + c).max() > SAME and _equal(-a, (b + c) / 2):
+            return two, three
+    return None
+
+
+def _unstrung(parts: list[Player], strings: list[PulleyString]) -> list[Player]:
+    used = {end.point for x in strings for end in x.ends}
+    return [x for x in parts if x.glyph in HUNG and x.point not in used]
 
 
 # -- rules ------------------------------------------------------------------------------------------------------------

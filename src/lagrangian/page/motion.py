@@ -112,7 +112,7 @@ def motion(
 def _away(scene: Scene, at: Array) -> Array:
     """How far the frame moves (places, 2) [px]: with the middle of the bodies where these leave the picture for good.
 
-    Only what falls or rolls down does: without gravity it is the path that tells, and the frame holds it. The frame stays
+    Only what falls or rolls down does: without gravity it is the path that tells, and the frame holds it. It stays
     where bodies go less than `FAR` times the size of the picture, and where they part.
     """
     stays = np.zeros((len(at), 2))
