@@ -5,6 +5,7 @@ import os
 import pathlib
 import signal
 import sys
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -74,6 +75,82 @@ def test_two_workers_one_of_them_killed_and_then_resumed(
         np.testing.assert_array_equal(again[name], here[name])
 
 
+def slowed() -> None:
+    """Make this worker slow: every chunk takes 0.2 s more."""
+    from lagrangian.integrate import remote
+
+    quick = remote.work
+
+    def slow(*given: Any) -> Any:
+        time.sleep(0.2)
+        return quick(*given)
+
+    remote.work = slow
+
+
+def computed() -> tuple[int, int]:
+    """The process of this worker, and how many studies it has compiled: 0 if it never computed a chunk."""
+    from lagrangian.integrate import remote
+
+    return os.getpid(), len(remote._known)
+
+
+@pytest.mark.slow
+def test_three_workers_one_killed_one_slow_one_joining_late(
+    system: lg.System, here: lg.Ensemble, cluster: Any, tmp_path: pathlib.Path
+) -> None:
+    faults: list[str] = []
+    with distributed.Client(cluster, set_as_default=False) as client:
+        first = {worker: pid for worker, (pid, _) in client.run(computed).items()}
+        slow, doomed = sorted(first)
+        client.run(slowed, workers=[slow])
+
+        def disturb(done: int, count: int) -> None:
+            if not faults and done > count // 8:
+                cluster.scale(3)
+                client.wait_for_workers(3, timeout=30)
+                faults.append("joined")
+            elif len(faults) == 1 and done > count // 2:
+                os.kill(first[doomed], signal.SIGKILL)
+                faults.append("killed")
+
+        there = system.sweep(
+            5.0, GRID, **HOW, store=tmp_path / "a.zarr", scheduler=cluster.scheduler_address, progress=disturb
+        )
+        workers = client.run(computed)
+    assert faults == ["joined", "killed"]
+    assert first[doomed] not in {pid for pid, _ in workers.values()}
+    assert workers[slow][1] == 1
+    assert [1] * 2 >= [count for pid, count in workers.values() if pid not in first.values()] >= [1]
+    for name in here:
+        np.testing.assert_array_equal(there[name], here[name])
+
+
+@pytest.mark.slow
+def test_a_worker_that_hangs_does_not_hold_up_the_sweep(
+    system: lg.System, here: lg.Ensemble, cluster: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from lagrangian.integrate import remote
+
+    monkeypatch.setattr(remote, "DELIVERY", 2.0)
+    hung: list[int] = []
+
+    def hang(done: int, count: int) -> None:
+        if not hung and done > count // 4:
+            with distributed.Client(cluster, set_as_default=False) as client:
+                hung.append(next(iter(client.run(os.getpid).values())))
+            os.kill(hung[0], signal.SIGSTOP)
+
+    try:
+        there = system.sweep(5.0, GRID, **HOW, scheduler=cluster.scheduler_address, progress=hang)
+    finally:
+        for process in hung:
+            os.kill(process, signal.SIGCONT)
+    assert hung
+    for name in here:
+        np.testing.assert_array_equal(there[name], here[name])
+
+
 def test_nobody_answers(system: lg.System, monkeypatch: pytest.MonkeyPatch) -> None:
     from lagrangian.integrate import remote
 
@@ -101,7 +178,7 @@ def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
     from lagrangian.integrate.remote import Dask
 
     class Future:
-        def result(self) -> None:
+        def result(self, timeout: float | None) -> None:
             raise trouble()
 
     dask = object.__new__(Dask)

@@ -1,8 +1,9 @@
 """Computes an ensemble on several machines: chunks are tasks of Dask's distributed scheduler.
 
 Every worker compiles the study itself, once, for its own processor. A task contains its rows, so any worker can compute
-it at any time: if a worker dies, another repeats what it was computing or had not yet delivered. The results return to
-this process, which alone writes them.
+it at any time: if a worker dies, another repeats what it was computing or had not yet delivered. Workers may join while
+a sweep runs. When no chunk is left to send, idle workers get copies of those that are still computed elsewhere, and the
+first result counts; copies have the same bits. The results return to this process, which alone writes them.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import hashlib
 import importlib.metadata
 import pickle
 import threading
+import time
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
@@ -27,6 +29,12 @@ from lagrangian.integrate.store import RESUME
 
 PATIENCE = 30.0
 """The time [s] to wait for the scheduler and a first worker."""
+
+COUNTED = 1.0
+"""The time [s] for which a number of workers is believed."""
+
+DELIVERY = 60.0
+"""The time [s] in which a worker must deliver a result that it has computed, before another computes it again."""
 
 AHEAD = 2
 """The number of scheduled tasks for each thread of the workers, so that none waits for this process."""
@@ -97,7 +105,7 @@ class Dask:
                 "the scheduler has no workers", code="E506", fix="start some with `dask worker ADDRESS`"
             ) from None
         threads = self.client.nthreads().values()
-        self.held, self.threads = max(threads), sum(threads)
+        self.held, self.threads, self._counted = max(threads), sum(threads), time.monotonic()
 
     def close(self) -> None:
         """Disconnect from the scheduler; a client that the user passed stays open."""
@@ -110,29 +118,73 @@ class Dask:
         head = (hashlib.blake2b(packed, digest_size=16).hexdigest(), packed, _version())
         waiting, done = iter(todo), self._lib.as_completed(loop=self.client.loop)
         running: dict[Any, int] = {}
+        finished: set[int] = set()
+        copied: set[int] = set()
+
+        def send(index: int, **where: Any) -> None:
+            future = self.client.submit(work, *head, design.rows(*portions.range(index)), pure=False, **where)
+            running[future] = index
+            done.add(future)
 
         def feed() -> None:
-            while len(running) < AHEAD * max(1, self.threads) and (index := next(waiting, None)) is not None:
-                future = self.client.submit(work, *head, design.rows(*portions.range(index)), pure=False)
-                running[future] = index
-                done.add(future)
+            self._count()
+            while len(running) < AHEAD * max(1, self.threads):
+                if (index := next(waiting, None)) is None:
+                    late = [k for k in running.values() if k not in copied]
+                    idle = self._idle() if late else []
+                    for index in late if idle else ():  # a slow or hanging worker does not hold up the others' end
+                        copied.add(index)
+                        send(index, workers=idle, allow_other_workers=True)
+                    return
+                send(index)
 
         try:
             feed()
             for future in done:
-                values = self._result(future)
-                yield running.pop(future), values
+                index = running.pop(future, None)
+                if index is None or index in finished:  # cancelled, because its copy was faster
+                    continue
+                try:
+                    values = self._result(future, None if index in copied else DELIVERY)
+                except TimeoutError:  # finished, but its worker hangs before it delivers: another computes it again
+                    self.client.cancel([future])
+                    copied.add(index)
+                    send(index, workers=self._idle() or None, allow_other_workers=True)
+                    continue
+                finished.add(index)
+                copies = [other for other, k in running.items() if k == index]
+                for other in copies:
+                    del running[other]
+                self.client.cancel(copies)
+                yield index, values
                 feed()
         finally:
             with contextlib.suppress(Exception):  # the scheduler may be lost: then there is nothing to cancel
                 self.client.cancel(list(running))
             self.close()
 
-    def _result(self, future: Any) -> Values:
-        """The result from a worker; if no worker could compute it, the error."""
+    def _count(self) -> None:
+        """Count the threads of the workers again, as workers come and go; asked at most once a second."""
+        if time.monotonic() - self._counted > COUNTED:
+            with contextlib.suppress(OSError):  # a lost scheduler is reported by the next result
+                self.threads = sum(self.client.nthreads().values()) or self.threads
+            self._counted = time.monotonic()
+
+    def _idle(self) -> list[str]:
+        """The addresses of workers that have nothing to compute."""
         try:
-            return future.result()
-        except Error:
+            return [worker for worker, tasks in self.client.processing().items() if not tasks]
+        except OSError:
+            return []
+
+    def _result(self, future: Any, within: float | None = None) -> Values:
+        """The result from a worker; if no worker could compute it, the error.
+
+        Raises TimeoutError if the worker does not deliver what it has computed ``within`` seconds.
+        """
+        try:
+            return future.result(timeout=within)
+        except (Error, TimeoutError):
             raise
         except self._lib.KilledWorker as trouble:
             raise RunError(
