@@ -43,6 +43,20 @@ def test_outputs_of_an_ensemble_are_the_reactions_of_its_runs():
         assert whole["reaction link"][k] == pytest.approx(np.linalg.norm(link.force, axis=1), rel=1e-6)
 
 
+def test_reactions_of_a_run_are_entries_and_curves():
+    run = arm().simulate(0.2, q1=0.4, q2=-0.6, fixed="q1", samples=11)
+    pin = run.reaction("B")
+    assert run["reaction B"] == pytest.approx(np.hypot(*pin.force.T), abs=1e-12)
+    assert run["reaction B.y"] == pytest.approx(pin.force[:, 1], abs=1e-12)
+    assert run["reaction B.torque"] == pytest.approx(pin.torque, abs=1e-12)
+    figure = run.plot("reaction B", "reaction B.x", "reaction B.torque")
+    assert [ax.get_ylabel().rpartition(" [")[2] for ax in figure.axes] == ["N]", "N m]"]
+    curves = [line.get_ydata() for line in figure.axes[0].get_lines() if len(line.get_ydata()) == 11]
+    assert any(np.array_equal(curve, run["reaction B.x"]) for curve in curves)
+    with pytest.raises(lg.Error, match="'C'"):
+        run.plot("reaction C")
+
+
 def test_what_is_no_joint_is_refused():
     with pytest.raises(lg.Error, match="E4"):
         arm().ensemble(0.1, q1=[0.1, 0.2], outputs="max reaction C")

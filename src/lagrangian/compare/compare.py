@@ -41,7 +41,7 @@ class Derivable(Protocol):
         ...
 
 
-def _hard(a: Derivable | Derived, b: Derivable | Derived, change: object = None) -> bool:
+def _hard(a: Derivable | Derived, b: Derivable | Derived, change: object = None, **_: object) -> bool:
     models = (getattr(x, "model", None) for x in (a, b))
     return any(is_hard(model) for model in models if model is not None)
 

@@ -74,10 +74,11 @@ class JointForces:
     def __call__(self, answer: Mapping[str, Array]) -> dict[str, Array]:
         """The numbers by name, (n, S) each."""
         force, torque = force_and_torque(self.sign, self.dimension, answer)
-        return {name: _part(part, force, torque) for name, part in self.wanted}
+        return {name: part_of(part, force, torque) for name, part in self.wanted}
 
 
-def _part(part: str, force: Array, torque: Array) -> Array:
+def part_of(part: str, force: Array, torque: Array) -> Array:
+    """A component of a force (…, d) or of a torque (…, 1 or 3), or with ``part`` "" the magnitude of the force."""
     if not part:
         return np.sqrt(np.sum(force**2, axis=-1))
     if part.startswith("torque"):

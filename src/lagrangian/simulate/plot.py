@@ -19,6 +19,7 @@ from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.plain import plain
 from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.joint_forces import joint_force
 from lagrangian.simulate.quantities import multiplier_words, quantity, row_of
 from lagrangian.simulate.recorded import Recorded
 from lagrangian.values.dimensions import ENERGY, NONE, RATE, Dim, Dimensions, Mismatch, check_dimensions
@@ -217,7 +218,7 @@ def _state_symbols(model: Model) -> list[Any]:
 def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
     """The figure of the requested quantities; by default, of coordinates, inputs that are not 0, and energies."""
     units, labels = Units(run.model), Labels(run.model)
-    panels = [_panel(run, units, labels, _expression(run.model, x)) for x in asked]
+    panels = [_joint_panel(run, x) or _panel(run, units, labels, _expression(run.model, x)) for x in asked]
     if not asked:
         panels = [_panel(run, units, labels, c.symbol) for c in run.model.coordinates]
         driven = [_panel(run, units, labels, u.symbol) for u in run.model.inputs]
@@ -266,6 +267,14 @@ def _panel(run: Recorded, units: Units, labels: Labels, expr: sp.Expr) -> Panel:
             what or "multiplier", unit, (Series(rf"\lambda\;\mathrm{{{_escaped(row.name)}}}", row.name, values),)
         )
     return Panel(what, unit, (Series(labels.tex(expr), labels.text(expr), values),))
+
+
+def _joint_panel(run: Recorded, asked: Any) -> Panel | None:
+    """The panel of a joint's reaction, "reaction B" or "reaction B.x"; None for anything else."""
+    if not isinstance(asked, str) or (joint := joint_force(run.model, asked)) is None:
+        return None
+    unit = joint.unit.replace("*", " ")
+    return Panel(KINDS[unit], unit, (Series(rf"\mathrm{{{_escaped(asked)}}}", asked, run[asked]),))
 
 
 def _escaped(name: str) -> str:

@@ -23,6 +23,7 @@ from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import drive_symbol, named_conditions
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import Task, remembered
+from lagrangian.simulate.joint_forces import joint_force, part_of
 from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.reaction import Reaction, worked_out
 from lagrangian.viewed import Brief, Entries
@@ -130,10 +131,14 @@ class Recorded(Guided):
 
     def __getitem__(self, asked: Any) -> Array:
         """Return a quantity at every time: a state by name, an expression (SymPy or text), the path of a point (S, d),
-        or the multiplier of a constraint's row, ``run["loop.x"]``."""
+        the multiplier of a constraint's row, ``run["loop.x"]``, or of a joint's reaction |F| or a component,
+        ``run["reaction B"]``, ``run["reaction B.x"]``."""
         if isinstance(asked, str):
             if asked in self.states:
                 return self.y[self.states.index(asked)]
+            if (joint := joint_force(self.model, asked)) is not None:
+                found = self.reaction(joint.joint)
+                return part_of(joint.part, found.force, found.torque.reshape(len(self.t), -1))
             asked = quantity(self.model, asked, "what is asked of the run")
         elif isinstance(asked, (int, slice)):
             raise ModelError(
