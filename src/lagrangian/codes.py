@@ -25,8 +25,8 @@ class Code(StrEnum):
         return made
 
     E101 = "E101", "a number that is not finite", "Masses, inertias, offsets and values must be real and below 1.8e308."
-    E102 = "E102", "a negative mass", "A mass must be positive."
-    E103 = "E103", "a zero mass", "A mass must be positive; leave out a body without mass."
+    E102 = "E102", "a negative mass", "A mass must be positive, and so must an inductance."
+    E103 = "E103", "a zero mass", "A mass, an inductance or a capacitance is not zero; leave out what has none."
     E104 = (
         "E104",
         "a rotation without inertia",
@@ -56,7 +56,7 @@ class Code(StrEnum):
     E201 = (
         "E201",
         "no coordinates, or an idle one",
-        "A system must have coordinates and mass, and every coordinate must move some of the mass.",
+        "A system must have coordinates and mass, and every coordinate must move some; every charge needs a coil.",
     )
     E202 = (
         "E202",

@@ -154,6 +154,7 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
         "quarter-car",
         "lecture-2",
         "planar-quadrotor",
+        "magnetic-levitation",
     ]
     for name in chosen:
         ingredients = Ingredients(derived(name))

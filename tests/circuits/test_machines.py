@@ -122,8 +122,25 @@ def test_two_coupled_circuits_have_two_frequencies() -> None:
 
 
 def test_coils_that_share_more_flux_than_they_have_are_told() -> None:
+    with pytest.raises(lg.Error, match=r"mutual inductance is 0\.003 H, but no coil sends more flux") as found:
+        transformer(1.5).simulate(1)
+    assert found.value.code == "E203"
+    free = lg.System("no values")
+    q1, q2 = free.coordinates("q1 q2")
+    L, M = free.parameters("L M")
+    free.inductor(L, q1, name="one")
+    free.inductor(L, q2, name="two")
+    free.mutual_inductance(M, q1, q2)
     with pytest.raises(lg.Error, match="mass matrix is not positive definite"):
-        transformer(1.5).linearize()
+        free.linearize(params={"L": 1, "M": 2})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", built_in.CIRCUITS)
+def test_exercises_about_machines_have_variants(name: str) -> None:
+    for seed in range(3):
+        sheet = built_in.system(name).worksheet(seed=seed)
+        assert "flux linkage of every coil" in " ".join(str(sheet).split())
 
 
 def test_a_branch_that_two_loops_share_carries_the_difference_of_their_charges() -> None:

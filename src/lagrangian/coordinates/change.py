@@ -242,7 +242,8 @@ def _named(old: Coordinate, value: sp.Expr, symbol: AppliedUndef) -> Coordinate:
     name = symbol.func.__name__
     words = f"{old.name} = {plain(value)}" if name != old.name else f"in place of a {name} that is {plain(value)}"
     unit = old.unit if slope.is_number else None
-    return Coordinate(name, symbol, words if len(words) <= 100 else "", unit, old.place)
+    positive = symbol.is_positive is True
+    return Coordinate(name, symbol, words if len(words) <= 100 else "", unit, old.place, positive=positive)
 
 
 def _counted(n: int, one: str, many: str) -> str:

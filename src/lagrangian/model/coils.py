@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from lagrangian.errors import ModelError
 from lagrangian.model.body_checks import ConstantValues
-from lagrangian.model.elements import CircuitBranch, Element, Inductor
+from lagrangian.model.elements import CircuitBranch, Element, Inductor, MutualInductance
 from lagrangian.model.elements.base import error_of
 from lagrangian.model.model import Model
 from lagrangian.page.plain import plain
@@ -38,6 +38,8 @@ def check_coils(model: Model) -> None:
     for element in model.branches:
         if isinstance(element, Inductor) and element.L is not None:
             _check_positive(ConstantValues.of_model(model).of(element.L), element)
+        elif isinstance(element, MutualInductance):
+            _check_shared(model, element)
     if model.constraints or not model.charges:
         return
     energies = [e.kinetic(model) for e in model.elements if e.ledger == "T*"]
@@ -59,3 +61,25 @@ def _check_positive(value: float | None, element: Inductor) -> None:
     what = f"its inductance {plain(element.L)} is {'zero' if value == 0 else 'negative'}"
     fix = "give it an inductance above 0, or leave it out"
     raise error_of(element, what, fix=fix, code="E103" if value == 0 else "E102" if value < 0 else "E101")
+
+
+def _check_shared(model: Model, element: MutualInductance) -> None:
+    """Raise an error for M² ≥ L₁ L₂, as far as the values are known and the two coils carry just these charges."""
+    numbers = ConstantValues.of_model(model)
+    M = numbers.of(element.M)
+    own = [
+        [numbers.of(e.L) for e in model.branches if isinstance(e, Inductor) and e.L is not None and e.charge == charge]
+        for charge in element.charges
+    ]
+    if M is None or not all(own) or any(L is None for listed in own for L in listed):
+        return
+    first, second = (sum(L for L in listed if L is not None) for listed in own)
+    if first * second > M**2:
+        return
+    raise error_of(
+        element,
+        f"its mutual inductance is {M:g} H, but no coil sends more flux through another than √(L₁ L₂) = "
+        f"{(first * second) ** 0.5:g} H allows",
+        fix="give an M with M² below L₁ L₂",
+        code="E203",
+    )
