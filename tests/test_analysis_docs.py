@@ -16,3 +16,5 @@ def test_the_manuals_python_runs() -> None:
     exec(compile(code, "docs/analysis.md", "exec"), names)
     assert names["along"].A.shape == (11, 4, 4)  # type: ignore[attr-defined]
     assert names["regulator"].K.shape == (1, 4)  # type: ignore[attr-defined]
+    assert names["hover"].A.shape == (12, 12)  # type: ignore[attr-defined]
+    assert abs(names["run"]["hull_x"][-1]) < 0.01  # type: ignore[index]

@@ -34,6 +34,10 @@ class LinearModel(Brief):
     are fewer of them than entries of ``at``. All change by ``basis`` δx, in the order of ``at``; ``basis`` is None
     without constraints. ``multipliers`` are λ of the constraints' rows at the point, by name, empty if rows depend on
     each other.
+
+    With floating frames the states are minimal, too: in place of the four entries of a quaternion there are three small
+    turns about the frame's own axes, ``hull_rx``, ``hull_ry``, ``hull_rz`` [rad]. Then ``back`` is Z⁺ of the basis Z,
+    δx = Z⁺ · (change of all), and ``transport`` is Z⁺ Ż, with which A = Z⁺ (∂f/∂x) Z − Z⁺ Ż.
     """
 
     model: Model
@@ -63,6 +67,8 @@ class LinearModel(Brief):
     noise: tuple[float, float] = (0.0, 0.0)
     basis: Array | None = None
     multipliers: Mapping[str, float] = field(default_factory=dict[str, float])
+    back: Array | None = None
+    transport: Array | None = None
 
     @property
     def coordinates(self) -> tuple[str, ...]:

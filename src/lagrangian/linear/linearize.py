@@ -20,6 +20,7 @@ from lagrangian import dynamics
 from lagrangian.assembly.assemble import fixed_names
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
+from lagrangian.linear.floating_states import FloatingStates
 from lagrangian.linear.jacobians import Arrays, forces, may_kink, rates, reads, values, with_jacobians
 from lagrangian.linear.linearization import Linearization
 from lagrangian.linear.manifold import Manifold, Tangent
@@ -157,13 +158,18 @@ class Linearizer:
         if tangent is not None:
             found, seen = tangent.reduced(found), {**seen, "C": seen["C"] @ tangent.basis}
             found |= {name: np.where(settled[name], found[name], 0.0) for name in settled}
+        floats = None
+        if tangent is None and self.model.floating:
+            floats = FloatingStates.at(self.model, here.x, found["xdot"])
+            found, seen = floats.reduced(found), {**seen, "C": seen["C"] @ floats.basis}
+        minimal = tangent if floats is None else floats
         return Linearization(
             model=self.model,
             A=found["A"],
             B=found["B"],
             C=seen["C"],
             D=seen["D"],
-            states=_independent(program, tangent),
+            states=_independent(program, tangent) if floats is None else floats.names,
             inputs=program.inputs["u"],
             outputs=y.names,
             at=dict(zip(program.inputs["x"], here.x.tolist(), strict=True)),
@@ -183,7 +189,9 @@ class Linearizer:
             changing=self._changes(here),
             minimum=here.kind == "rest" and second is not None and self._minimum(second, here, noise_of_K),
             noise=noise,
-            basis=None if tangent is None else tangent.basis,
+            basis=None if minimal is None else minimal.basis,
+            back=None if floats is None else floats.back,
+            transport=None if floats is None else floats.transport,
             multipliers=multipliers or {},
         )
 

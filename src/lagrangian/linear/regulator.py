@@ -19,6 +19,9 @@ from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]
 
+TURNS = "The turns of a floating frame are 2 vec(e₀* ∘ e)/|e₀|² of its quaternion e, e₀ at the point."
+"""How a law takes the minimal states of floating frames from their coordinates."""
+
 ZERO_GAIN_TOLERANCE = 1e-11
 """Entries below this fraction of the largest in their row are shown as zero."""
 
@@ -38,14 +41,18 @@ class Regulator(Written):
 
     @property
     def law(self) -> dict[sp.Expr, sp.Expr]:
-        """Input symbol → u₀ − K (x − x₀)."""
+        """Input symbol → u₀ − K (x − x₀).
+
+        The turns of a floating frame are taken from its quaternion e, 2 vec(e₀* ∘ e)/|e₀|², which is linear in e.
+        """
         linear = self.linear
-        model = linear.model
-        state = [symbol(model, name) for name in linear.states]
-        away = [x - sp.Float(linear.at[name], 17) for x, name in zip(state, linear.states, strict=True)]
+        names = linear.states if linear.back is None else tuple(linear.at)
+        gains = self.K if linear.back is None else self.K @ linear.back
+        state = [symbol(linear.model, name) for name in names]
+        away = [x - sp.Float(linear.at[name], 17) for x, name in zip(state, names, strict=True)]
         found: dict[sp.Expr, sp.Expr] = {}
-        for u, row in zip(model.inputs, self.K, strict=True):
-            terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True)]
+        for u, row in zip(linear.model.inputs, gains, strict=True):
+            terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True) if k]
             found[u.symbol] = sp.Add(sp.Float(linear.inputs_at[u.name], 17), *terms)
         return found
 
@@ -58,7 +65,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
     """Return the report of a regulator."""
     linear = found.linear
     K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))
-    names = [(name, linear.at[name]) for name in linear.states]
+    names = [(name, linear.at[name]) for name in (linear.states if linear.back is None else linear.at)]
     names += [*zip(linear.inputs, linear.inputs_at.values(), strict=True)]
     point = tuple((_symbol(found, name), text(figure(value))) for name, value in names)
     law: tuple[Item, ...] = (
@@ -66,6 +73,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
         _ordered(found, u, linear.inputs),
         _ordered(found, x, linear.states),
         formula(K, matrix(_swept(found.K, np.sqrt(np.abs(np.diag(found.S)))))),
+        *([] if linear.back is None else [text(TURNS)]),
         text("about the point"),
         Table((text("state, input"), text("value")), point),
     )

@@ -103,7 +103,10 @@ def _matrices(linear: LinearModel) -> Part:
     rate = ("δ", Name(x.base, "", 1), " = ", A, " δ", x, " + ", B, " δ", u, *((" + ", f) if drift else ()))
     items.append(text(*rate, " and δ", y, " = ", C, " δ", x, " + ", D, " δ", u, ", with"))
     items.append(_ordered(linear, x, linear.states))
-    if linear.basis is not None:
+    if linear.back is not None:
+        said = "The quaternions change by small turns about the frames' own axes, in rad: "
+        items.append(text(said, *_listed(linear, [name for name in linear.states if name not in linear.at]), "."))
+    elif linear.basis is not None:
         rest = [name for name in linear.at if name not in linear.states]
         said = f"The constraints leave {len(linear.states)} of {len(linear.at)} states independent"
         items.append(text(said, ": these. ", *_listed(linear, rest), " follow from them."))

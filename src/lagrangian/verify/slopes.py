@@ -46,7 +46,11 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> 
             refused = refused or error.what
             continue
         quotients, doubt = _quotients(rhs, state)
-        if found.basis is not None:  # of what constraints leave independent
+        if found.back is not None:  # of the minimal states of floating frames
+            m = len(found.at)
+            along = found.back @ quotients[:, :m] @ found.basis - found.transport
+            quotients = np.hstack([along, found.back @ quotients[:, m:]])
+        elif found.basis is not None:  # of what constraints leave independent
             kept, m = [list(found.at).index(name) for name in found.states], len(found.at)
             quotients = np.hstack([quotients[kept, :m] @ found.basis, quotients[kept, m:]])
         exact = np.hstack([found.A, found.B])
