@@ -190,3 +190,80 @@ def test_a_name_of_the_system_alone_on_the_right_is_no_energy() -> None:
 def test_unknown_terms_of_an_equation_are_no_words(written: str) -> None:
     with pytest.raises(ParseError):
         parse_answer(f"{PENDULUM} + {written} = 0", derivation("pendulum").model)
+
+
+SLOPE = "m x'' + k x - m g sin(beta) = 0"
+
+
+@cache
+def slope() -> Derivation:
+    """A cart of 2 kg on a slope of 25 degrees, with a spring of 30 N/m: m ẍ + k x = m g sin β = 8.2917703 N."""
+    sys = System("cart on a slope")
+    x = sys.coordinate("x")
+    m, k, beta, g = sys.parameters("m k beta g", m="2 kg", k="30 N/m", beta="25 deg", g="9.81 m/s^2")
+    (t,) = x.args
+    sys.kinetic(m * x.diff(t) ** 2 / 2)
+    sys.potential(k * x**2 / 2 - m * g * x * sp.sin(beta))
+    return sys.derive()
+
+
+@pytest.mark.parametrize(
+    ("written", "right"),
+    [
+        ("2 x'' + 30 x = 8.2917703", True),
+        ("2 x'' + 30 x - 8,292 = 0", True),
+        ("x'' = 4.1459 - 15 x", True),
+        ("m=2, k=30, beta=25 deg, g=9.81: 2 x'' + 30 x = 8.29177", True),
+        ("2 x'' + 30 x = 8.29", False),
+        ("2 x'' + 30 x = 8.2918703", False),
+        ("2 x'' + 30 x = 8.2917", False),
+        ("2 x'' + 30 x = 17.7819", False),
+        ("2 x'' + 8.2918 x = 30", False),
+        ("m x'' + k x = 8.2918", False),
+        ("2.0001 x'' + 30 x = 8.2918", False),
+    ],
+)
+def test_decimals_are_read_as_rounded_from_four_digits_on(written: str, right: bool) -> None:
+    verdict = slope().check(written)
+    assert verdict.right == right, verdict.to_text()
+    assert not right or "as rounded." in " ".join(map(str, verdict.notes))
+
+
+@pytest.mark.parametrize(
+    ("written", "right"),
+    [
+        ("m x'' = m g sin(beta) - S\nS = k x", True),
+        ("m x'' = H + m g sin(beta)\nH/2 = -k x/2", True),
+        (f"m x'' = S1 - S2\nS1 + S2 = m g sin(beta) + k x\nS1 - m g sin(beta) = 0\n{SLOPE}", True),
+        ("m x'' = m g sin(beta) - S\nS = -k x", False),
+        ("m x'' = m g sin(beta) - S - H\nS = k x", False),
+        (f"m x'' = S1 - S2\n{SLOPE.replace('sin', 'cos')}", False),
+    ],
+)
+def test_forces_that_equations_determine_are_eliminated(written: str, right: bool) -> None:
+    assert slope().check(written).right == right
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "mL² θ̈ + b θ̇ + mgL sin θ = 0",
+        "Paso 2. T = ½mL²θ̇²\nPaso 3. V = −mgL cos θ",
+        "h = L(1 − cos θ)\nT = ½ m L² θ̇²\nV = mgh + 0·mḣ²",
+        "L = ½mL²θ̇² + mgL cos θ\ndL/dθ' = m L² θ'        dL/dθ = -m g L sin θ",
+        f"Since {PENDULUM} = 0 always, I get the motion at once:\nT = 1/2 m L^2 theta'^2",
+        f"Balance of torques, f = hinge force * radius\n{PENDULUM} = 0",
+        f"J_A = m L^2 ... used below\n{PENDULUM} = 0",
+        f"angle (phi = 2 theta): {PENDULUM} = 0",
+        "m L² θ̈ = −b θ̇ − m g L sin θ cosθ 1/cosθ",
+        "2 m L² θ̇θ̈ = −2 b θ̇θ̇ − 2 m g L sinθ θ̇",
+    ],
+)
+def test_letters_with_marks_and_words_around_the_pendulum_are_kept_apart(written: str) -> None:
+    verdict = derivation("pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+
+
+def test_a_factor_with_a_raised_digit_in_front_is_no_word() -> None:
+    assert not derivation("pendulum").check("mL² mL² θ̈ + b θ̇ + mgL sin θ = 0").right
+    assert not derivation("pendulum").check("mg² m L² θ̈ + b θ̇ + mgL sin θ = 0").right

@@ -14,10 +14,12 @@ from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import differences, likeness, paired
+from lagrangian.check.eliminated import without_forces
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers
 from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.rounded import unrounded
 from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
 from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
@@ -62,6 +64,11 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
         verdict = check_constrained(truth, written, hint)
         return _named_with_multipliers(truth, written, verdict) if explain else verdict
     written, told = speeds(truth, written)
+    forces = without_forces(truth, written)
+    if forces is not None:
+        verdict = _valued(truth, forces.lines, forces.lines, hint, False)
+        if verdict.right:
+            return replace(verdict, notes=(*told, forces.note, *verdict.notes))
     verdict = _valued(truth, lines, written, hint, explain)
     return replace(verdict, notes=(*told, *verdict.notes))
 
@@ -119,6 +126,8 @@ def _names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
     """The verdict on an answer whose names are known; with ``explain``, also the mistakes that explain it."""
+    lines, told = unrounded(truth, spelling.lines)
+    spelling = replace(spelling, lines=lines, notes=(*spelling.notes, *told))
     judged = _judged(truth, spelling.lines)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:

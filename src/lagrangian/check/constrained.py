@@ -126,7 +126,6 @@ def _verdict(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, give
             notes.append(text("No random position satisfies the constraints, so the equations could not be compared."))
             status = Status.INCOMPLETE
         true = _true_lines(places, len(equations)) if places else set[int]()
-        true = {j for j in true if not _absorbed(places, j)}
         for j, line in enumerate(equations):
             found[id(line)] = _finding(truth, line, j, places, j in true)
         if places and len(true) == len(equations) and not _are_forces(truth, equations, unknown, given=given):
@@ -299,43 +298,6 @@ def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
             if _consistent(places, chosen):
                 return set(chosen)
     return set()
-
-
-def _absorbed(places: Sequence[AnswerAt], j: int) -> bool:
-    """Whether a line is true only because a multiplier takes up whatever is wrong in it.
-
-    A right line is F (M ξ̈ + h) = B λ' with F from its accelerations, and M ξ̈ + h = Aᵀ λ: without its multipliers it
-    is ±F Aᵀ λ. Where accelerations were put in that the constraints give, each multiplier is a number times one of
-    ours.
-    """
-    names = np.abs(np.array([p.by_multiplier[j] for p in places]))
-    if not names.size or names.max() == 0:
-        return False
-    for sign in (1.0, -1.0):
-        if all(_is_reaction(p, j, sign) for p in places):
-            return False
-    used = [k for k in range(names.shape[1]) if names[:, k].max() > 0]
-    return not all(_is_known(places, k) for k in used)
-
-
-def _is_reaction(place: AnswerAt, j: int, sign: float) -> bool:
-    """Whether a line without its multipliers is ±F Aᵀ λ at a state."""
-    slope = place.by_acceleration[j]
-    F = np.linalg.lstsq(place.mass.T, slope, rcond=1e-12)[0]
-    if np.abs(F @ place.mass - slope).max() > SMALL * (1.0 + np.abs(slope).max()):
-        return False
-    reaction = sign * float(F @ place.rows.T @ place.multipliers[: len(place.rows)])
-    return abs(place.value[j] - reaction) <= SMALL * place.size[j]
-
-
-def _is_known(places: Sequence[AnswerAt], k: int) -> bool:
-    """Whether a multiplier of the answer is a number times one of the system's."""
-    found = [_solved(p)[k] for p in places]
-    for i in range(len(places[0].multipliers)):
-        ratios = [x / p.multipliers[i] for x, p in zip(found, places, strict=True) if abs(p.multipliers[i]) > SMALL]
-        if len(ratios) > 2 and max(ratios) - min(ratios) < SMALL * abs(ratios[0]):
-            return True
-    return False
 
 
 def _finding(truth: Reference, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:

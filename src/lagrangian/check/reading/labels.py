@@ -28,6 +28,8 @@ _CALLED = re.compile(
     rf"[(\[]?\s*+{_SHORT}\s*+(?:[)\]][.:]?|[.:]){_NEXT}",
     re.IGNORECASE,
 )
+_STEP_NUMBER = re.compile(rf"\s*(?P<words>[^\W\d_]{{3,14}}\.?\s+){_SHORT}\s?[.:)]{{1,2}}{_NEXT}")
+"""A word with a number: Step 2. T = …, Paso 5. …"""
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
 """A name with a bracket that nothing opens: x), θ)."""
 _ROUNDS = 4
@@ -50,6 +52,8 @@ _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _DONE = re.compile(r"(?<=[\w)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z")
 _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|←)\s[^=]*\Z")
 """What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
+_DOTS = re.compile(r"(?<=[\w)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]*\Z")
+"""Words behind dots: J_A = J + m*l^2 ... used below."""
 _UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
@@ -80,7 +84,7 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
     """Blank out an arrow, a bullet, a number or a label before a statement."""
     for _ in range(_ROUNDS):
         above = line
-        for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _SPOKEN, _CALLED, _OPEN, _LABEL):
+        for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _SPOKEN, _CALLED, _STEP_NUMBER, _OPEN, _LABEL):
             match = form.match(line)
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
@@ -121,7 +125,7 @@ def behind(line: str, words: Words, numbers: Numbering) -> str:
         line = blank(line, unit.start(), len(line))
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
-    for form in (_TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):
+    for form in (_DOTS, _TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):
         if match := form.search(line):
             line = blank(line, match.start(), len(line))
     return line

@@ -51,6 +51,7 @@ TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for k
 _ONE = re.compile(
     r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
 )
+_DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
 _VALUE = re.compile(rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*[^\W\d_]+[^=+()]*", re.DOTALL)
@@ -125,7 +126,7 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, valu
     In a ``value``, m = 2 kg, what follows the number is always a unit.
     """
     number = tokens[-1]
-    if (degrees := re.compile(r"\s*°").match(text, at)) is not None:
+    if (degrees := _DEGREES.match(text, at)) is not None and not words.is_name("deg"):
         more = [("times", "*"), ("name", "pi"), ("over", "/"), ("number", "180")]
         tokens += [AnswerToken(kind, written, number.end, degrees.end()) for kind, written in more]
         return degrees.end()

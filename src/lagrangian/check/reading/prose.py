@@ -5,19 +5,20 @@ from __future__ import annotations
 import re
 
 from lagrangian.check.reading.markup import blank
-from lagrangian.check.reading.words import Words
+from lagrangian.check.reading.words import Words, function_of
 
 _REMARK = re.compile(r"(?<=\s)\(([^\W\d_][^()=+*/^\n]*)\)")
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
-_IDENTIFIER = re.compile(r"[^\W\d]\w*")
-_WORD = re.compile(r"[^\W\d_]+(?:['’-][^\W\d_]+)*")
+_IDENTIFIER = re.compile(r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*")
+_LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
+_WORD = re.compile(rf"{_LETTER}+(?:['’-]{_LETTER}+)*")
 _TWO = re.compile(r"(?<!\w)([^\W\d_]{2,})(?=[ \t]([^\W\d_]{2,})(?![\w'’′(\[]))")
 _BRACKETS = re.compile(r"[()\n]")
 _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
-_ONE = r"[^\W\d_]+(?:['’-][^\W\d_]+)*"
+_ONE = rf"{_LETTER}+(?:['’-]{_LETTER}+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
 _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
@@ -59,6 +60,8 @@ def stated_remarks(text: str) -> str:
             start = opened.pop()
             if not opened and _INSIDE.search(text, start, at) and (start == 0 or text[start - 1].isspace()):
                 letters[start] = letters[at] = ";"
+                if text[at + 1 : at + 2] == ":":  # drum (psi = phi/n): J psi'' = …
+                    letters[at + 1] = " "
     return "".join(letters)
 
 
@@ -88,8 +91,11 @@ def without_lead(text: str, words: Words) -> str:
     return blank(text, 0, end) if end > match.start(1) else text
 
 
-def without_tail(text: str, words: Words) -> str:
-    """Return a statement without the words behind it: s = r - l holds, φ = π/2 − θ be the angle from the top."""
+def without_tail(text: str, words: Words, *, led: bool = False) -> str:
+    """Return a statement without the words behind it: s = r - l holds, φ = π/2 − θ be the angle from the top.
+
+    ``led``: there were words in front, too, so that a single one may be behind: since r = R always.
+    """
     if "=" not in text:
         return text
     if (said := _EXPLAINED.search(text)) is not None and _explains(said[1], words):
@@ -101,7 +107,7 @@ def without_tail(text: str, words: Words) -> str:
             break
         end, count, linked = match.start(1), count + 1, linked or links
     apart = count == 1 and text[max(0, end - 2) : end].isspace()  # D = …   Rayleigh
-    if count < (1 if linked or apart else 2) or not _ENDS.search(text[:end]):
+    if count < (1 if linked or apart or led else 2) or not _ENDS.search(text[:end]):
         return text
     return blank(text, end, len(text))
 
@@ -133,6 +139,19 @@ def has_words(text: str, words: Words) -> bool:
         if any(_links(x, words) for x in pair) and any(_is_word(x, words) for x in pair):
             return True
     return False
+
+
+def in_words(text: str, words: Words) -> bool:
+    """Whether a side of a statement consists of words alone: f = tooth force * radius."""
+    sides = text.split("=")
+    listed = [_IDENTIFIER.findall(side) for side in sides]
+    told = any(
+        _TWO.search(side) is not None
+        and all(len(x) >= _SHORTEST and x.isalpha() and not words.names.known(x) and not function_of(x) for x in named)
+        for side, named in zip(sides, listed, strict=True)
+    )
+    own = any(words.names.known(x) for named in listed for x in named)
+    return len(sides) > 1 and told and not own
 
 
 def _is_word(written: str, words: Words) -> bool:

@@ -22,7 +22,7 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.programs import without_programs
-from lagrangian.check.reading.prose import LINKING, has_words
+from lagrangian.check.reading.prose import LINKING, has_words, in_words
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
@@ -52,6 +52,7 @@ _VECTOR = re.compile(
     r"(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
     r"(?=[^=]*\Z)"
 )
+_FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 
@@ -158,7 +159,8 @@ def _words(lines: Lines, text: str) -> Words:
     own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
     for match in _CALLED.finditer(text):  # with the total mass M_t = …
         word = match[1]
-        if word.lower() in LINKING or (len(word) > LONGEST_NAME and not lines.names.known(word)):
+        long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
+        if word.lower() in LINKING or (long and not lines.names.known(word)):
             own.setdefault(match[2])
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
     lines.names.scope.taken = frozenset(key(name) for name in own)
@@ -185,7 +187,8 @@ def _parsed(
         try:
             found.append(Statement(tuple(parser(own).sides()), own))
         except ParseError as error:
-            stated = _is_stated(written, words_of) and not _is_vector(written, lines)
+            whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
+            stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
             (errors if stated or error.code == "E703" else words).append(error)
             if len(errors) >= MAX_ERRORS or error.code == "E703":
                 break
@@ -200,10 +203,11 @@ def _is_vector(row: str, lines: Lines) -> bool:
     return match is not None and not lines.names.known(match["name"]) and not lines.names.known(match["unit"])
 
 
-def _is_stated(row: str, words: Words) -> bool:
-    """Whether a row that cannot be read is a statement, and no heading and no sentence."""
-    linked = sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", row))
-    return "=" in row and linked < MANY_WORDS and not has_words(row, words)
+def _is_stated(row: str, whole: str, words: Words) -> bool:
+    """Whether a row that cannot be read is a statement, and no heading and no sentence; ``whole`` has the words in
+    front of it."""
+    linked = sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", whole))
+    return "=" in row and linked < MANY_WORDS and not has_words(row, words) and not in_words(row, words)
 
 
 def _place(source: Source, latex: ExpandedLatex | None, start: int, offset: int) -> Place:

@@ -52,7 +52,7 @@ _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
-_NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=[^\W\d_]\w{0,8}\*?[ \t]*=(?!=))"
+_NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\w{0,8}['′*]?[ \t]*=(?!=))"
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = r"(?P<stop>(?<=[\w)\]'’′″²³])\.(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2}))"
 _BETWEEN = re.compile(
@@ -88,11 +88,17 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
-    found = [AnswerRow(row.start, without_tail(without_lead(row.text, words), words)) for row in split]
+    found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
     if len(found) > 1:
         found = [row for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
     stated = [row for row in found if not is_prose(row.text, words)]
     return stated or found[:1]
+
+
+def _bare(text: str, words: Words) -> str:
+    """A statement without the words in front of it and behind it."""
+    bare = without_lead(text, words)
+    return without_tail(bare, words, led=bare != text and "=" in text)
 
 
 def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:

@@ -16,7 +16,7 @@ from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
 from lagrangian.read.functions import ALIASES
-from lagrangian.read.letters import key
+from lagrangian.read.letters import key, undotted
 
 RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
 """Functions of answers that are 1 over another."""
@@ -163,7 +163,7 @@ class Words:
     def _is_part(self, part: str, extra: bool, word: str) -> bool:
         if part[0] in "_0123456789" or part.endswith("_"):
             return False
-        if self.names.scope.meanings(part)[0] or key(part) in self._own:
+        if self.names.scope.meanings(part)[0] or key(undotted(part)[0]) in self._own:
             return True
         if any(self.names.changes(stem) and len(part) - len(stem) > 2 for _, stem in spelled_rates(part)):
             return True

@@ -1,0 +1,91 @@
+"""Eliminates the constraint forces that an answer by Newton's laws names: m x'' = m g - S, J x''/R = S R."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+
+MAX_FORCES = 12
+"""The largest number of forces that are eliminated."""
+
+FEWEST_STATEMENTS = 2
+"""The fewest statements in which a force occurs; one that occurs in a single one says nothing."""
+
+LONGEST = 2_000
+"""The largest number of operations of an equation in which a force is written out."""
+
+
+@dataclass(frozen=True)
+class Eliminated:
+    """The lines without the forces, and what to say about them."""
+
+    lines: tuple[AnsweredLine, ...]
+    note: Text
+
+
+def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminated | None:
+    """Return the lines with every unknown name written out that a line determines, without this line.
+
+    A name is determined by a line in which it occurs linearly, and must occur in another statement. Returns None if
+    there is none, or if a name remains.
+    """
+    left = _unknown(truth, lines)
+    if not left or len(left) > MAX_FORCES:
+        return None
+    names = sorted(map(plain, left))
+    if any(len({line.text for line in lines if line.expr.has(x)}) < FEWEST_STATEMENTS for x in left):
+        return None
+    out = list(lines)
+    while left:
+        found = min(
+            (
+                (len(_unknown(truth, [line])), k, name)
+                for k, line in enumerate(out)
+                if line.kind == "equation"
+                for name in sorted(left, key=str)
+                if _slope(line.expr, name) is not None
+            ),
+            default=None,
+            key=lambda x: x[:2],
+        )
+        if found is None:
+            return None
+        _, k, name = found
+        slope = _slope(out[k].expr, name)
+        assert slope is not None
+        value = -cast("sp.Expr", out[k].expr.xreplace({name: sp.S.Zero})) / slope
+        del out[k]
+        out = [replace(x, expr=cast("sp.Expr", x.expr.xreplace({name: value}))) for x in out]
+        left = left - {name}
+        if any(bounded.operations(x.expr) > LONGEST for x in out):
+            return None
+    verb = "were" if len(names) > 1 else "was"
+    return Eliminated(tuple(out), text(f"{', '.join(names)} {verb} eliminated: your equations say what they are."))
+
+
+def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
+    """The names in equations that the system does not have."""
+    model = truth.model
+    known: set[sp.Basic] = {time, *(p.symbol for p in model.parameters), *(c.symbol for c in model.coordinates)}
+    known |= {*(u.symbol for u in model.inputs), *(d.symbol for d in model.definitions)}
+    told = [line.expr for line in lines if line.kind == "equation"]
+    return {x for expr in told for x in (*expr.free_symbols, *expr.atoms(AppliedUndef))} - known
+
+
+def _slope(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:
+    """The factor of a name in an expression that is linear in it; None if it is not."""
+    if not expr.has(name) or any(d.has(name) for d in expr.atoms(sp.Derivative)):
+        return None
+    slope = bounded.diff(expr, name)
+    return None if slope == 0 or slope.has(name) else slope

@@ -1,0 +1,109 @@
+"""Reads the decimals of an answer in numbers as rounded: 1.8126156 for m cos(25°) = 1.81261557…
+
+A number is read as a coefficient of the right equations if it is this coefficient, rounded to its last digit. The
+answer is then compared exactly, so that a coefficient in a wrong place stays wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+
+FEWEST_DIGITS = 4
+"""The fewest significant digits of a number that may be rounded."""
+
+LONGEST = 1_000
+"""The largest number of operations of an equation whose coefficients are sought."""
+
+MAX_COEFFICIENTS = 30
+"""The largest number of coefficients of an equation whose ratios are formed."""
+
+MAX_SOLVED = 4
+"""The most coordinates of a system whose equations are solved for the accelerations."""
+
+
+def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The lines with rounded numbers replaced by the coefficients that they stand for, and a note about them."""
+    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational)}
+    rounded = {x: unit for x in numbers if (unit := _last_digit(x)) is not None}
+    if not rounded or not truth.values:
+        return tuple(lines), ()
+    table: dict[sp.Basic, sp.Expr] = {}
+    known = coefficients(truth)
+    for x, unit in rounded.items():
+        near = [(abs(value - float(x)), exact) for value, exact in known if abs(value - float(x)) <= 0.5000001 * unit]
+        if near and all(exact != x for _, exact in near):
+            meant = min(near, key=lambda pair: pair[0])[1]
+            table |= {x: meant, -x: -meant}
+    if not table:
+        return tuple(lines), ()
+    put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in lines)
+    told = sorted({float(abs(cast("Any", x))) for x in table})
+    many = len(told) > 1
+    note = text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if many else 'was'} read as rounded.")
+    return put, (note,)
+
+
+def _last_digit(x: Any) -> float | None:
+    """The unit of the last decimal of a number with enough digits; None for another one."""
+    below, power = int(x.q), {2: 0, 5: 0}
+    for prime in power:
+        while below % prime == 0:
+            below, power[prime] = below // prime, power[prime] + 1
+    decimals = max(power.values())
+    if below != 1 or decimals > 30 or len(str(abs(x.p) * 10**decimals // x.q)) < FEWEST_DIGITS:
+        return None
+    return 10.0**-decimals
+
+
+@lru_cache(maxsize=32)
+def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
+    """The sizes of all numbers by which motions are multiplied in the right equations and energies, and their ratios in
+    each of them."""
+    found: dict[sp.Expr, float] = {}
+    for expr in (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi):
+        for form in _forms(expr):
+            own = _coefficients(form)
+            found.update(own)
+            few = list(own.items())[:MAX_COEFFICIENTS]
+            found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
+    found.update({value: float(value) for value in truth.values.values() if value.is_number})
+    return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
+
+
+def _forms(expr: sp.Expr) -> Iterator[sp.Expr]:
+    """An expression expanded, and with the sines and cosines of sums expanded."""
+    if bounded.operations(expr) > LONGEST:
+        return
+    yield bounded.expand(expr)
+    sums = {f: sp.expand_trig(f) for f in expr.atoms(sp.sin, sp.cos) if f.args[0].is_Add}
+    if sums:
+        yield bounded.expand(cast("sp.Expr", expr.xreplace(sums)))
+
+
+def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
+    """The numbers by which what moves is multiplied in an expanded expression."""
+    sums: dict[sp.Expr, sp.Expr] = {}
+    for term in sp.Add.make_args(expr):
+        number, moving = term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
+        sums[moving] = sums.get(moving, sp.S.Zero) + number
+    return {x: float(x) for x in sums.values() if x.is_number and x.is_finite and x.is_real}
+
+
+def _solved(truth: Reference) -> list[sp.Expr]:
+    """The right equations solved for the accelerations, if their mass matrix consists of numbers."""
+    M = sp.Matrix(truth.derivation.mass_matrix.applyfunc(truth.expand))
+    if truth.n > MAX_SOLVED or not all(x.is_number for x in M.flat()) or M.det() == 0:
+        return []
+    return list((M.inv() * sp.Matrix(truth.rows)).flat())
