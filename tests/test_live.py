@@ -425,3 +425,24 @@ def test_data_cannot_end_its_element() -> None:
     text = embedded({"a": "</script><!-- &\u2028"})
     assert not set("<>&\u2028") & set(text)
     assert json.loads(text) == {"a": "</script><!-- &\u2028"}
+
+
+@pytest.mark.slow
+@in_browser
+def test_a_body_that_floats_shows_its_equations_and_stays_in_sight_as_it_falls(browser: Any, tmp_path: Path) -> None:
+    system = lg.System("falling plate")
+    plate = system.floating_frame("plate")
+    system.rigid_body(1, (0.1, 0.1, 0.2), plate.origin, plate)
+    system.particle(1, plate.point(1, 0, 0))
+    system.gravity(direction=(0, 0, -1))
+    picture = system.look()
+    path = tmp_path / "plate.html"
+    path.write_text(live_page(system.model, picture.scene, picture.program), encoding="utf-8")
+    shown = Opened(browser, path.as_uri())
+    assert shown.page.locator(".result .equation").count() == 6
+    shown.run_to(2.0)
+    first, second = shown.page.evaluate("livePage.handles()")
+    assert math.dist(first, second) > 20  # pixels: the frame that holds all it falls, 490 m in ten seconds, leaves 1
+    assert all(0 < y < 1000 for _, y in (first, second))
+    assert shown.trouble == []
+    shown.context.close()

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from lagrangian import dynamics
-from lagrangian.derive import derive, pages
+from lagrangian.derive import pages
 from lagrangian.derive.algebra import OutOfReach
 from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program, replaced
@@ -21,6 +21,7 @@ from lagrangian.simulate.browser import BrowserModule, browser_module
 from lagrangian.simulate.events import Event
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.simulation import named
+from lagrangian.structured.choose import derive_in_form
 from lagrangian.values.values import Given
 from lagrangian.write.blocks import element_titles
 from lagrangian.write.described import system_section
@@ -69,7 +70,7 @@ def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Eve
 def _document(model: Model) -> Document:
     """The derivation, or the description of the system and the reason why its equations cannot be written out."""
     try:
-        return pages.lay_out(derive(model), details=True)
+        return pages.lay_out(derive_in_form(model), details=True)
     except (ModelError, OutOfReach) as reason:
         words = f"The equations are not written out: {reason.what}."
         said = Section("result", ("Result",), (Paragraph((words,), "note"),))

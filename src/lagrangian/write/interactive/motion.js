@@ -15,16 +15,19 @@ class Motion {
     Object.assign(this, { state, picture });
   }
 
-  /** Run ahead to know how far things go; the frame then holds the motion. */
+  /** Run ahead to know how far things go; the frame then holds the motion, up to three times the size of the picture. */
   measure() {
-    const { state, picture } = this, { run, size } = state;
-    const box = [Infinity, Infinity, -Infinity, -Infinity], states = Array.from({ length: size }, () => [Infinity, -Infinity]), energy = [Infinity, -Infinity];
+    const { state, picture } = this, { run, size } = state, most = 3 * Math.max(...picture.scene.size);
+    let box = [Infinity, Infinity, -Infinity, -Infinity];
+    const states = Array.from({ length: size }, () => [Infinity, -Infinity]), energy = [Infinity, -Infinity];
     const widen = (pair, x) => ([pair[0], pair[1]] = [Math.min(pair[0], x), Math.max(pair[1], x)]);
     const passed = run.measure(state.stored(0), state.span);
     picture.spread(passed);
     for (const { x, t } of passed) {
       picture.place(x, t);
-      picture.cover(box);
+      const wider = [...box];
+      picture.cover(wider);
+      if (Math.max(wider[2] - wider[0], wider[3] - wider[1]) < most) box = wider; // what goes further is followed
       x.forEach((value, i) => widen(states[i], value));
       const [h, , T, V] = run.energies(x, t);
       for (const e of [T, V, h]) widen(energy, e);
@@ -35,7 +38,7 @@ class Motion {
       box[low] -= lacking + margin;
       box[high] += lacking + margin;
     }
-    state.reach = { box, states, energy, first: Math.max(box[2] - box[0], box[3] - box[1]) };
+    state.reach = { box, states, energy, most: Math.max(box[2] - box[0], box[3] - box[1], most) };
     state.stale = true;
   }
 
@@ -58,11 +61,11 @@ class Motion {
     if (this.held) this.drawHeld();
   }
 
-  /** What goes further than the run ahead widens the frame, up to four times. */
+  /** What goes further than the run ahead widens the frame, as far as that may be. */
   grow() {
     const { reach } = this.state, box = [...reach.box];
     this.picture.cover(box);
-    if (Math.max(box[2] - box[0], box[3] - box[1]) < 4 * reach.first) reach.box = box;
+    if (Math.max(box[2] - box[0], box[3] - box[1]) <= reach.most) reach.box = box;
   }
 
   /** What leaves the frame for good, such as a body that falls, is followed: the middle of the bodies stays in it. */
