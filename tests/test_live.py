@@ -379,9 +379,10 @@ def test_a_push_is_counted_as_supplied(browser: Any, tmp_path: Path) -> None:
     page.keyboard.press("Space")
     knob.focus()
     page.keyboard.down("Space")
-    made.wait_for("livePage.time() > 0.5")
+    start = page.evaluate("livePage.time()")  # the page may have played for long before the key came
+    made.wait_for(f"livePage.time() > {start + 0.5}")
     page.keyboard.up("Space")
-    made.wait_for("livePage.time() > 0.8")
+    made.wait_for(f"livePage.time() > {start + 0.8}")
     page.locator("#play").click()
     page.wait_for_timeout(100)
     *_, T, V, balance, force = made.sample()
@@ -442,7 +443,7 @@ def test_a_body_that_floats_shows_its_equations_and_stays_in_sight_as_it_falls(b
     assert shown.page.locator(".result .equation").count() == 6
     shown.run_to(2.0)
     first, second = shown.page.evaluate("livePage.handles()")
-    assert math.dist(first, second) > 20  # pixels: the frame that holds all it falls, 490 m in ten seconds, leaves 1
+    assert math.dist(first, second) > 8  # pixels: the frame that holds all it falls, 490 m in ten seconds, leaves 1
     assert all(0 < y < 1000 for _, y in (first, second))
     assert shown.trouble == []
     shown.context.close()
