@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import combinations
 from math import sqrt
 
 import numpy as np
@@ -112,7 +113,19 @@ def disk_with_pendulum() -> lg.System:
     return s
 
 
+def hoist() -> lg.System:
+    """A load on a string over a pulley, whose other end is tied to the ground by a spring (Rao, problem 2.6)."""
+    s, p, (a,) = start("hoist", "a")
+    s.rigid_body(p["M"], p["J"], at=s.point("O", (0, 0)), frame=s.frame(-a), name="pulley")
+    s.particle(p["m"], at=s.point("P", (p["r"], -p["r"] * a - p["h"])), name="load")
+    s.spring(p["k"], deflection=p["r"] * a)
+    s.damper(p["c"], deflection=p["r"] * a)
+    s.gravity(direction=(0, -1), g=9.81)
+    return s
+
+
 SYSTEMS = {
+    "hoist": (hoist, {"rope": 2, "spring": 1, "damper": 1, "wheel": 2}),
     "coupled pendulums": (coupled_pendulums, {"rod": 2, "spring": 1}),
     "half car": (half_car, {"spring": 4, "link": 2}),
     "unbalanced rotor": (rotor, {"ball": 1, "block": 1}),
@@ -171,6 +184,29 @@ def test_a_reaction_wheel_has_the_radius_of_its_inertia() -> None:
     picture = reaction_wheel().look()
     radii = [n[2] for part, numbers in moved(picture) for n in numbers if part.kind == "wheel" and len(n) == 3]
     assert radii == pytest.approx([sqrt(2 * 0.02 / 2) * picture.scene.scale])
+
+
+def test_both_ends_of_a_hoist_move_alike_and_its_string_touches_the_rim() -> None:
+    picture = hoist().look()
+    radius = 0.1 * picture.scene.scale
+    ends: dict[float, list[float]] = {}
+    for step in (0.0, 0.3):
+        parts = moved(picture, step)
+        (wheel,) = [n[0] for part, n in parts if part.kind == "wheel" and len(n) == 1]
+        ropes = sorted(([n[0], n[1]] for part, n in parts if part.kind == "rope"), key=lambda rope: rope[0][0])
+        assert [rope[0][0] - wheel[0] for rope in ropes] == pytest.approx([-radius, radius])
+        assert [rope[0][1] - wheel[1] for rope in ropes] == pytest.approx([0.0, 0.0], abs=1e-6)
+        ends[step] = [float(rope[1][1]) for rope in ropes]
+    left, right = (ends[0.3][i] - ends[0.0][i] for i in (0, 1))
+    assert right == pytest.approx(0.3 * radius) and left == pytest.approx(-0.3 * radius)
+    assert "a string from the load to the rim of the pulley" in picture.description.lower()
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_no_label_of_an_unfamiliar_system_meets_another(name: str) -> None:
+    boxes = [label.box for label in SYSTEMS[name][0]().look().scene.labels]
+    for (x, y, w, h), (a, b, c, d) in combinations(boxes, 2):
+        assert x + w <= a or a + c <= x or y + h <= b or b + d <= y
 
 
 def test_a_rod_lies_before_the_disk_on_whose_axle_it_hangs() -> None:

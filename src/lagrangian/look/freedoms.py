@@ -20,6 +20,7 @@ from lagrangian.look.board import Board
 from lagrangian.look.cast import BodyGlyph, Player, geared
 from lagrangian.look.couplers import couplers
 from lagrangian.look.hints import LookLine
+from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.pose import up_axis
 from lagrangian.look.strings import PulleyString
@@ -101,7 +102,7 @@ def say_unjoined(
     board: Board,
     parts: Sequence[Player],
     lines: Iterable[LookLine],
-    strings: Iterable[PulleyString] = (),
+    strings: Iterable[PulleyString | Hoist] = (),
     told: Collection[str] = (),
 ) -> None:
     """Say which bodies move together without a part of the picture that shows why; of ``told`` it is said already."""
@@ -121,7 +122,10 @@ def say_unjoined(
 
 
 def unjoined(
-    motions: Motions, parts: Sequence[Player], strings: Iterable[PulleyString] = (), lines: Iterable[set[int]] = ()
+    motions: Motions,
+    parts: Sequence[Player],
+    strings: Iterable[PulleyString | Hoist] = (),
+    lines: Iterable[set[int]] = (),
 ) -> list[list[str]]:
     """Names of bodies that move together in the model and not in the picture, one list for each connection.
 
@@ -141,7 +145,10 @@ def unjoined(
         _owned(drawn, part)
     _rods(drawn, parts)
     for string in strings:
-        _strung(drawn, string)
+        if isinstance(string, Hoist):
+            _hoisted(drawn, string)
+        else:
+            _strung(drawn, string)
     for one, two in geared(motions, parts):
         _meshing(drawn, one, two)
     _on_floor(drawn)
@@ -249,6 +256,19 @@ def _strung(drawn: Drawn, string: PulleyString) -> None:
         if float(own @ own) > 0:
             ratio = float(run @ own) / float(own @ own)
             drawn.say((drawn.frames[pulley.frame], np.full((1, 1), -ratio)), *blocks[:2])
+
+
+def _hoisted(drawn: Drawn, hoist: Hoist) -> None:
+    """A load falls by what its wheel unwinds."""
+    fall, turn = (
+        hoist.down @ drawn.motions.views.J[0, hoist.load.point],
+        turning(drawn.motions, hoist.wheel.frame or 0)[0],
+    )
+    ratio = float(fall @ turn) / float(turn @ turn)
+    drawn.say(
+        (_known(drawn, hoist.load.point), hoist.down[None]),
+        (drawn.frames[hoist.wheel.frame or 0], np.full((1, 1), -ratio)),
+    )
 
 
 def _meshing(drawn: Drawn, one: Player, two: Player) -> None:

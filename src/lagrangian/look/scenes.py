@@ -17,6 +17,7 @@ from lagrangian.look.couplers import couplers
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
 from lagrangian.look.freedoms import say_unjoined
 from lagrangian.look.hints import Hints
+from lagrangian.look.hoists import draw_hoists, hoists_of, lay_hoists
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.kinematics import Kinematics
 from lagrangian.look.labels import placed_labels
@@ -85,6 +86,7 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
         parts = cast(motions, hints.kinds)
         strings = strings_of(motions, parts)
     cast_strings(motions, parts, strings, set(hints.kinds))
+    hoists = hoists_of(motions, parts, strings)
     pose = Pose(motions, p, hints.pose)
     to_scale = show_strings(pose, strings)
     board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))
@@ -98,22 +100,24 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     resolver = Resolver(motions, parts, turns)
     tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
     ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
-    room = spread(board, parts, ties, {end.point for x in strings for end in x.ends})
+    strung = {end.point for x in strings for end in x.ends} | {x.load.point for x in hoists}
+    room = spread(board, parts, ties, strung)
     laid = lay_strings(board, parts, strings)
+    lay_hoists(board, hoists)
     draw_bodies(board, parts)
     turns = turns_of(motions, parts, board.tips)
     resolver.turns = turns
     ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
-    TieArtist(board, parts, ties).draw()
+    TieArtist(board, parts, draw_hoists(board, hoists, ties)).draw()
     draw_supports(board, parts, ties, floor_ends(board, parts, laid))
     draw_strings(board, parts, laid)
     draw_unwinding(board, parts)
-    say_unjoined(board, parts, hints.lines, strings, _say_carried(board, parts, strings, hints))
+    say_unjoined(board, parts, hints.lines, [*strings, *hoists], _say_carried(board, parts, strings, hints))
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns, [x.holder for x in strings if x.holder]).draw()
-    return _framed(board, model, hints, description(board, parts, ties, turns, strings), room)
+    return _framed(board, model, hints, description(board, parts, ties, turns, [*strings, *hoists]), room)
 
 
 def _say_carried(board: Board, parts: list[Player], strings: list[PulleyString], hints: Hints) -> tuple[str, ...]:

@@ -63,7 +63,7 @@ class PulleyString:
 
 def strings_of(motions: Motions, parts: list[Player]) -> list[PulleyString]:
     """The strings over pulleys of a system in the plane with gravity; those on moving pulleys come last."""
-    down = _down(motions)
+    down = down_of(motions)
     if down is None or motions.stage.dimension == 3 or not motions.views.J.size:
         return []
     hung = [part.point for part in parts if part.glyph in HUNG]
@@ -96,7 +96,7 @@ def cast_strings(motions: Motions, parts: list[Player], strings: list[PulleyStri
 
 def carried_string(motions: Motions, parts: list[Player], strings: list[PulleyString]) -> tuple[str, str, str] | None:
     """A body on which a pulley is, with the string around its corner, and the two bodies on that string; not drawn."""
-    down = _down(motions)
+    down = down_of(motions)
     names = {x.point: x.name for x in _unstrung(parts, strings)}
     if down is None or motions.stage.dimension == 3 or len(names) < 3:
         return None
@@ -114,7 +114,7 @@ def hidden_pulley(motions: Motions, parts: list[Player], strings: list[PulleyStr
     ℓ₁ + (ℓ₂ + ℓ₃)/2 is constant, where the other string is over a fixed pulley: so the moving one is midway between the
     ends of its string, but for a constant.
     """
-    down = _down(motions)
+    down = down_of(motions)
     free = _unstrung(parts, strings)
     if down is None or motions.stage.dimension == 3 or len(free) < 3:
         return None
@@ -134,7 +134,7 @@ def _unstrung(parts: list[Player], strings: list[PulleyString]) -> list[Player]:
 # -- rules ------------------------------------------------------------------------------------------------------------
 
 
-def _down(motions: Motions) -> Array | None:
+def down_of(motions: Motions) -> Array | None:
     """The direction of gravity, if there is any."""
     for element in motions.stage.model.elements:
         if element.kind == "gravity":

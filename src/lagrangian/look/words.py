@@ -14,6 +14,7 @@ import numpy as np
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.couplers import couplers
+from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import Hold, HoldKind
 from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.strings import PulleyString
@@ -42,7 +43,7 @@ def description(
     parts: list[Player],
     ties: Sequence[Tie],
     turns: Sequence[Turn],
-    strings: Sequence[PulleyString] = (),
+    strings: Sequence[PulleyString | Hoist] = (),
 ) -> str:
     """The bodies and what holds them; what ties them together; what acts on them; the coordinates."""
     words = _Sentences(board, parts, list(ties), list(turns))
@@ -275,8 +276,10 @@ class _Sentences:
         pairs = couplers(self.motions, self.parts)
         return [f"a rod between {self.owner(a)} and {self.owner(b)}" for a, b in pairs]
 
-    def string(self, string: PulleyString) -> str:
+    def string(self, string: PulleyString | Hoist) -> str:
         """What a string joins, and over what."""
+        if isinstance(string, Hoist):
+            return f"a string from {self.body(string.load)} to the rim of {self.body(string.wheel)}"
         moving = self.owner(string.holder)
         over = (
             "a hole"
