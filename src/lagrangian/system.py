@@ -265,8 +265,8 @@ class System(Designed):
         ``name.c`` (with ``name.h``), ``name.py`` and ``name.js`` are source code without dependencies, ``name.m``
         functions ``name_forward.m``, … for MATLAB and Octave with the script ``name_steps.m``, ``name.jl`` a module of
         Julia, ``name.mo`` a model of Modelica, ``name.fmu`` a unit of FMI 2 (``to="fmu3"``: FMI 3), and ``name.wasm``
-        the integrator for browsers; with ``to``, ``name.py`` is a module of "jax" or "casadi". `docs/exports.md` lists
-        all targets. Return the paths of the files.
+        the integrator for browsers; with ``to``, ``name.py`` is a module of "jax" or "casadi", and ``name.c`` an
+        S-function of "simulink". `docs/exports.md` lists all targets. Return the paths of the files.
 
         Raises `ModelError` for an ending or a target that is not supported, and `Error` if a file exists, unless
         ``overwrite``, or if it cannot be written.

@@ -24,9 +24,19 @@ needs_fmpy = pytest.mark.skipif(
     find_spec("fmpy") is None or shutil.which("cc") is None, reason="FMPy or a C compiler is not installed"
 )
 VERSIONS = ("fmu2", "fmu3")
-STIFF = {"andrews-squeezer": 0.004, "kapitza-pendulum": 0.1, "two-disk-shaft": 0.1, "lecture-3b": 0.1, "two-carts": 0.1,
-         "spring-net": 0.1}  # fmt: skip
+STIFF = {
+    "andrews-squeezer": 0.004,
+    "dc-motor": 0.02,
+    "kapitza-pendulum": 0.1,
+    "two-disk-shaft": 0.1,
+    "lecture-3b": 0.1,
+    "two-carts": 0.1,
+    "spring-net": 0.1,
+}
 """Shorter runs of systems with high frequencies, for which CVode takes more steps than FMPy allows, or loses digits."""
+
+SMALL = ("capacitive-actuator",)
+"""Systems whose states are so small that CVode, whose absolute tolerance is for states near 1, loses a digit."""
 
 
 def exported_to(folder: pathlib.Path, name: str, version: str) -> pathlib.Path:
@@ -47,14 +57,16 @@ def run(path: pathlib.Path, kind: str, duration: float, names: list[str], **more
 
 def compare_runs(name: str, version: str, folder: pathlib.Path) -> None:
     s = built_in.system(name)
-    start, duration = start_of(s.model), STIFF.get(name, 0.5)
+    start = start_of(s.model)
+    duration = min(STIFF.get(name, 0.5), start.duration / 10)
     names = [c.name for c in s.model.coordinates] + [v.name for v in s.model.velocities]
     inputs = {u.name: x for u, x in zip(s.model.inputs, start.u, strict=True)}
-    ours = s.simulate(duration, samples=11, inputs=inputs, method="dop853", rtol=1e-13, atol=1e-14)
+    ours = s.simulate(duration, samples=11, inputs=inputs, method="dop853", rtol=1e-13, atol=1e-18)
     path = exported_to(folder, name, version)
     for kind in ("CoSimulation", "ModelExchange"):
         theirs = run(path, kind, duration, names)
-        np.testing.assert_allclose(theirs, ours.y[:, -1], rtol=0, atol=1e-9 * np.abs(ours.y).max(), err_msg=kind)
+        tolerance = 1e-8 if name in SMALL and kind == "ModelExchange" else 1e-9
+        np.testing.assert_allclose(theirs, ours.y[:, -1], rtol=0, atol=tolerance * np.abs(ours.y).max(), err_msg=kind)
 
 
 @needs_fmpy

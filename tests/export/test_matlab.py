@@ -13,6 +13,7 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
 from lagrangian.codegen import to_matlab
+from lagrangian.export import exported_files, steps
 from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.graph.graph import UNARY
 from lagrangian.verify.foreign import checks
@@ -113,13 +114,24 @@ def test_names_that_matlab_would_cut_are_refused(tmp_path: pathlib.Path) -> None
         to_matlab(Program("x", Graph(), {}, {}, {}), name="a" * 64)
 
 
-def test_a_system_without_equations_gets_functions_and_says_why_there_are_no_steps(tmp_path: pathlib.Path) -> None:
+def test_a_floating_frame_has_rates_and_its_steps(tmp_path: pathlib.Path) -> None:
     s = lg.System("satellite")
     hull = s.floating_frame("hull")
     s.rigid_body(500, (80, 90, 120), at=hull.origin, frame=hull)
     names = [p.name for p in s.export(tmp_path / "satellite.m")]
     assert {"satellite_rates.m", "satellite_rhs.m", "satellite_steps.m"} <= set(names)
-    assert "The steps are not shown:" in (tmp_path / "satellite_steps.m").read_text(encoding="utf-8")
+    text = (tmp_path / "satellite_steps.m").read_text(encoding="utf-8")
+    assert "%% 2  Kinetic" in text or "The steps are not shown:" in text
+
+
+def test_where_there_is_no_derivation_the_script_says_why(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(model: object) -> str:
+        raise lg.ModelError("the equations are too long to write")
+
+    monkeypatch.setattr(steps, "_derived", refuse)
+    text = str(exported_files(built_in.system("crane").model, "matlab", "crane")["crane_steps.m"])
+    assert "% The steps are not shown: the equations are too long to write." in text
+    assert "a = crane_forward(q, v, u, p, t)" in text
 
 
 @needs_octave

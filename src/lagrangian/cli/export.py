@@ -28,6 +28,7 @@ class Language(StrEnum):
     JAX = "jax"
     CASADI = "casadi"
     JULIA = "julia"
+    SIMULINK = "simulink"
     MODELICA = "modelica"
     FMU2 = "fmu2"
     FMU3 = "fmu3"

@@ -46,6 +46,7 @@ TARGETS: dict[str, ExportTarget] = {
     "jax": ExportTarget(".py", "jax_module"),
     "casadi": ExportTarget(".py", "casadi_module"),
     "julia": ExportTarget(".jl", "julia_module"),
+    "simulink": ExportTarget(".c", "simulink.sfunction", longest=50),
     "modelica": ExportTarget(".mo", "modelica"),
     "fmu2": ExportTarget(".fmu", "fmu.fmu2"),
     "fmu3": ExportTarget(".fmu", "fmu.fmu3"),

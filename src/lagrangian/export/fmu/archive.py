@@ -39,7 +39,7 @@ def archive(model: Model, stem: str, standard: Standard) -> bytes:
     """
     variables, duration = variables_of(model), start_of(model).duration
     token = token_of(model, variables, standard)
-    code = source(model, variables, standard, token)
+    code = source(model, standard, token)
     describe = description2 if standard == 2 else description3
     files: dict[str, bytes] = {
         "modelDescription.xml": describe(model, variables, stem, token, duration).encode("utf-8"),

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from importlib.resources import files
 from typing import Literal
 
-from lagrangian import codegen as machine
-from lagrangian import dynamics
 from lagrangian.codegen.labels import comment
+from lagrangian.export.equations import equations, sizes_and_starts, static_function
 from lagrangian.export.fmu.variables import FmuVariable
-from lagrangian.export.programs import coordinates_listed, program_of
+from lagrangian.export.programs import coordinates_listed
+from lagrangian.export.start import start_of
 from lagrangian.graph import Program
 from lagrangian.integrate import METHODS
 from lagrangian.integrate.methods.explicit import Explicit
@@ -27,18 +27,7 @@ TOLERANCE = 1e-9
 """The tolerance of these steps unless the importing program gives one."""
 
 
-def equations(model: Model) -> dict[str, Program]:
-    """The programs of an FMU by the names of their functions."""
-    found = {"eq_rhs": program_of(model, "rhs"), "eq_energy": program_of(model, "energy")}
-    if not model.constraints:
-        return found
-    position, velocity = dynamics.projection(model)
-    found["eq_multipliers"] = program_of(model, "multipliers")
-    found |= {"eq_position": position} if position is not None else {}
-    return found | ({"eq_velocity": velocity} if velocity is not None else {})
-
-
-def source(model: Model, variables: Sequence[FmuVariable], standard: Standard, token: str) -> str:
+def source(model: Model, standard: Standard, token: str) -> str:
     """The whole source file. ``token`` is the GUID of the model description."""
     programs = equations(model)
     head = [
@@ -59,15 +48,15 @@ def source(model: Model, variables: Sequence[FmuVariable], standard: Standard, t
         "#endif",
         "",
     ]
-    body = [_function(program, name) for name, program in programs.items()]
+    body = [static_function(program, name) for name, program in programs.items()]
     parts = [_text("instance"), _text(f"fmi{standard}")]
-    return "\n".join([*head, *_numbers(model, variables, programs, token), *body, *parts])
+    return "\n".join([*head, *_numbers(model, programs, token), *body, *parts])
 
 
 def token_of(model: Model, variables: Sequence[FmuVariable], standard: Standard) -> str:
     """A GUID made of everything that the source contains: equal sources have equal ones."""
     found = hashlib.sha256(repr(variables).encode())
-    found.update(source(model, variables, standard, "").encode())
+    found.update(source(model, standard, "").encode())
     text = found.hexdigest()
     return "{" + "-".join((text[:8], text[8:12], text[12:16], text[16:20], text[20:32])) + "}"
 
@@ -76,24 +65,10 @@ def _text(name: str) -> str:
     return (files("lagrangian.export.fmu") / f"{name}.c").read_text(encoding="utf-8")
 
 
-def _function(program: Program, name: str) -> str:
-    """A program as a static function, without the includes of its own file."""
-    code, _ = machine.to_c(program, name=name)
-    return code.split("#include <math.h>\n", 1)[1].replace(f"void {name}(", f"static void {name}(")
-
-
-def _numbers(model: Model, variables: Sequence[FmuVariable], programs: dict[str, Program], token: str) -> list[str]:
+def _numbers(model: Model, programs: dict[str, Program], token: str) -> list[str]:
     """Sizes, starts and the table of the method."""
-    nq, nv = len(model.coordinates), len(model.velocities)
-    lam = len(programs["eq_multipliers"].ids) if "eq_multipliers" in programs else 0
-    sizes = {"NQ": nq, "NX": nq + nv, "NU": len(model.inputs), "NP": len(model.parameters), "NL": lam}
-    sizes |= {"HAS_POSITION": int("eq_position" in programs), "HAS_VELOCITY": int("eq_velocity" in programs)}
-    lines = [f"#define {name} {value}" for name, value in sizes.items()]
-    lines += [f'#define TOKEN "{token}"', "#define START_TIME 0.0", f"#define TOLERANCE {TOLERANCE!r}", ""]
-    for name, role in (("x", "state"), ("u", "input"), ("p", "parameter")):
-        starts = [v.start for v in variables if v.role == role]
-        listed = ", ".join([*(repr(float(s or 0.0)) for s in starts), "0.0"])
-        lines.append(f"static const double start_{name}[{len(starts) + 1}] = {{{listed}}};")
+    lines = [*sizes_and_starts(model, start_of(model), programs), ""]
+    lines += [f'#define TOKEN "{token}"', "#define START_TIME 0.0", f"#define TOLERANCE {TOLERANCE!r}"]
     method = METHODS[METHOD]
     assert isinstance(method, Explicit)
     table, n = method.table, len(method.table.c)

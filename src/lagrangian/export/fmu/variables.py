@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lagrangian.errors import ModelError
+from lagrangian.export.equations import check_values
 from lagrangian.export.programs import unit_table
 from lagrangian.export.start import Start, start_of
 from lagrangian.model import Model
@@ -30,14 +31,7 @@ def variables_of(model: Model) -> tuple[FmuVariable, ...]:
 
     Raises `ModelError` for a parameter without a value: an FMU needs a start of every parameter.
     """
-    for p in model.parameters:
-        if p.value is None:
-            raise ModelError(
-                f"parameter '{p.name}' has no value, and an FMU needs the start of every parameter",
-                place=p.place,
-                fix="declare a value; the program that imports the FMU can change it",
-                code="E401",
-            )
+    check_values(model, "an FMU")
     found = list(_listed(model, start_of(model)))
     seen: dict[str, int] = {}
     for k, variable in enumerate(found):

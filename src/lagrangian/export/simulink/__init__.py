@@ -1,0 +1,1 @@
+"""Writes a system as a C S-function of Simulink."""
