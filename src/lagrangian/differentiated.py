@@ -14,13 +14,16 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.derivatives.results import Derivatives, HessianProduct, InverseDerivatives, Pullback
 from lagrangian.derivatives.steps import Rates, VelocityMap, differentiated, stepped, tableau
-from lagrangian.errors import ModelError, RunError
+from lagrangian.errors import RunError
 from lagrangian.page.plain import plain
 from lagrangian.queries import by_name
 from lagrangian.restricted import Restricted, Values
 
 Array = NDArray[np.float64]
 VARIED = dynamics.VARIED
+
+DEPENDENT = 1e-9
+"""A singular value of the rows of constraints, each of length 1, below this counts as 0."""
 
 
 class Differentiated(Restricted):
@@ -102,9 +105,11 @@ class Differentiated(Restricted):
         δx = (δq, δv), A = [[0, 1], [∂a/∂q, ∂a/∂v]] and B = [[0], [∂a/∂u]] with n velocities. For a floating frame δq
         are the six components ξ along its velocities, δq = N(q) ξ, whose rate is ξ̇ = δv − ad_v ξ with the Lie bracket
         of velocities; −ad_v then stands in place of 0. About an equilibrium `System.linearize` returns the same in
-        coordinates, with poles and modes. Raises as `derivatives`, and for constraints.
+        coordinates, with poles and modes.
+
+        With constraints A and B belong to `forward` in all states; only the changes T y that satisfy the constraints,
+        with T from `allowed_changes`, are changes of a motion. Raises as `derivatives`.
         """
-        self._free_to_vary("linearized")
         d = self.derivatives(q, v, u, p, t)
         n = len(self.velocities)
         A, B = np.zeros((*d.a.shape[:-1], 2 * n, 2 * n)), np.zeros((*d.a.shape[:-1], 2 * n, len(self.inputs)))
@@ -159,10 +164,11 @@ class Differentiated(Restricted):
         ``method`` is "rk4", "midpoint" or "euler". With ``derivatives``, return x₁, A and B: A = ∂x₁/∂x has the shape
         ``(..., 2n, 2n)`` and B = ∂x₁/∂u ``(..., 2n, n_u)``. They are the exact derivatives of this discrete step, not
         of the motion that it approximates, in δx = (δq, δv); for a floating frame δq are components along its
-        velocities, before and after the step. Raises as `derivatives`, for constraints, and for another method or step.
+        velocities, before and after the step. With constraints a step leaves them by its own error, and `assemble`
+        returns to them; its derivatives are those along T of `allowed_changes`, and A T lies in the T of the new state
+        to that error. Raises as `derivatives`, and for another method or step.
         """
         table = tableau(method)
-        self._free_to_vary("step")
         if isinstance(dt, bool) or not isinstance(dt, (int, float, np.floating, np.integer)) or not isfinite(dt):
             raise RunError(f"dt must be a finite number of seconds (got {dt!r:.60})", code="E501")
         start, time = (_array(q, self.coordinates, "q"), _array(v, self.velocities, "v")), np.asarray(t, float)
@@ -175,6 +181,33 @@ class Differentiated(Restricted):
             return x
         places = len(self.coordinates)
         return x, *differentiated(table, float(dt), stages, self._tangent(x[..., :places], x[..., places:]))
+
+    def allowed_changes(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> Array:
+        """Return T, shape ``(..., 2n, k)``: the changes δx = T y are those that satisfy the constraints.
+
+        δx = (δq, δv) as in `linearized`, ∂f δq = 0 for rows on positions and A δv + ∂(A v)/∂q δq = 0 for all rows. The
+        columns are orthonormal, so that y = Tᵀ δx; of a step x₁ = A x₀ + B u with T₀ and T₁ before and after it, T₁ᵀ A
+        T₀ and T₁ᵀ B are the matrices in the fewest states. Without constraints T = 1. Raises `RunError` if as many
+        rows are not independent in every one of the states, as where a linkage can branch.
+        """
+        kernel = self._made("changes", lambda: dynamics.changes(self._model), still=False)
+        rows = self._called(kernel, (q, v, None, p, t)) if kernel.program.outputs["rows"].ids else None
+        n = 2 * len(self.velocities)
+        if rows is None:
+            lead = np.broadcast_shapes(np.shape(q)[:-1], np.shape(v)[:-1])
+            return np.broadcast_to(np.eye(n), (*lead, n, n)).copy()
+        found = np.asarray(rows["rows"] if isinstance(rows, Mapping) else rows)
+        size = np.linalg.norm(found, axis=-1, keepdims=True)
+        _, singular, right = np.linalg.svd(found / np.where(size > 0, size, 1.0))
+        ranks = (singular > DEPENDENT).sum(axis=-1)
+        rank = int(ranks.max(initial=0))
+        if (ranks != rank).any():
+            raise RunError(
+                f"the constraints restrict {int(ranks.min())} changes in one of the states and {rank} in another",
+                fix="leave out states in which one constraint depends on others; margin(q) is 0 there",
+                code="E501",
+            )
+        return np.ascontiguousarray(np.swapaxes(right[..., rank:, :], -1, -2))
 
     def pullback(
         self,
@@ -247,16 +280,6 @@ class Differentiated(Restricted):
             if not isinstance(name, str) and found[k] in VARIED:
                 found[k] = f"{dynamics.PARAMETER}{found[k]}"
         return tuple(found)
-
-    def _free_to_vary(self, name: str) -> None:
-        """Raise `ModelError` where constraints tie the variations of a state to each other."""
-        if self._model.constraints:
-            raise ModelError(
-                f"{name} is not available for system '{self._model.name}': with constraints, a state cannot be varied"
-                " freely",
-                fix="system.linearize() returns A and B of the motions that the constraints allow",
-                code="E201",
-            )
 
     def _rates(self, given: tuple[Any, ...], *, derivatives: bool) -> Rates:
         """q̇ and v̇ at a state, which is given as for `forward`."""

@@ -155,10 +155,43 @@ def test_what_does_not_fit_is_said(cart: lg.Compiled) -> None:
         cart.step(q, v, u, float("nan"))
     with pytest.raises(lg.ModelError, match="mass"):
         cart.derivatives(q, v, p={"m": -1.0})
-    loop = built_in.system("four-bar").compile()
-    for call in (lambda: loop.linearized([0, 0, 0], [0, 0, 0]), lambda: loop.step([0, 0, 0], [0, 0, 0], None, 0.1)):
-        with pytest.raises(lg.ModelError, match="linearize"):
-            call()
+
+
+@pytest.mark.slow
+def test_allowed_changes_of_a_linkage_at_rest_have_the_poles_of_its_linear_model() -> None:
+    """Tᵀ A T about a rest has the eigenvalues of `System.linearize`, which finds its states by another route."""
+    system = built_in.system("four-bar")
+    dyn, rest = system.compile(), system.equilibria()[0]
+    at = [rest.at[name] for name in dyn.coordinates]
+    still = np.zeros(len(at))
+    T = dyn.allowed_changes(at, still)
+    A, _ = dyn.linearized(at, still)
+    assert T.shape == (6, 2) and np.allclose(T.T @ T, np.eye(2), atol=1e-12)
+    assert np.allclose(A @ T, T @ (T.T @ A @ T), atol=1e-8 * np.abs(A).max())  # changes stay allowed
+    wanted = np.sort_complex(system.linearize(rest).poles)
+    assert np.allclose(np.sort_complex(np.linalg.eigvals(T.T @ A @ T)), wanted, rtol=1e-8, atol=1e-8)
+
+
+def test_a_step_of_a_linkage_has_the_derivatives_of_the_discrete_map() -> None:
+    dyn = built_in.system("four-bar").compile()
+    n = len(dyn.coordinates)
+    at, w = dyn.assemble(None, {dyn.velocities[0]: 2.0}, fixed=dyn.coordinates[0])
+    x0, h = np.concatenate([at, w]), 1e-3
+    x1, A, _ = dyn.step(at, w, None, h, derivatives=True)
+    eps = 1e-6
+    for k, e in enumerate(np.eye(2 * n)):
+        ends = [dyn.step((x0 + s * eps * e)[:n], (x0 + s * eps * e)[n:], None, h) for s in (1, -1)]
+        assert np.allclose(A[:, k], (ends[0] - ends[1]) / (2 * eps), rtol=1e-6, atol=1e-6)
+    T0, T1 = dyn.allowed_changes(at, w), dyn.allowed_changes(x1[:n], x1[n:])
+    assert np.allclose(T1 @ (T1.T @ A @ T0), A @ T0, atol=1e-9)  # a step keeps allowed changes allowed
+    both = dyn.allowed_changes(np.stack([at, x1[:n]]), np.stack([w, x1[n:]]))
+    assert both.shape == (2, 2 * n, 2) and np.allclose(both[1] @ both[1].T, T1 @ T1.T, atol=1e-10)
+
+
+def test_without_constraints_every_change_is_allowed(cart: lg.Compiled) -> None:
+    assert np.array_equal(cart.allowed_changes(np.zeros((3, 2)), v), np.broadcast_to(np.eye(4), (3, 4, 4)))
+    with pytest.raises(lg.RunError, match="3"):
+        built_in.system("four-bar").compile().allowed_changes([0, 0], [0, 0, 0])
 
 
 def test_under_constraints_forces_along_the_rows_change_nothing() -> None:

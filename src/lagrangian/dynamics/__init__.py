@@ -7,6 +7,7 @@ from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
 from lagrangian.dynamics.constraint_programs import (
+    changes,
     constraint_matrix,
     correction,
     divisors,
@@ -82,6 +83,7 @@ __all__ = [
     "body_numbers",
     "canonical",
     "canonical_impacts",
+    "changes",
     "check_joint",
     "closed",
     "columns_key",

@@ -30,7 +30,7 @@ from lagrangian.dynamics.programs import _program, _start, _vector
 from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
-from lagrangian.graph import Output, Program, vjp
+from lagrangian.graph import Output, Program, Tangents, jvp, vjp
 from lagrangian.model import Model
 
 
@@ -113,6 +113,20 @@ def residual(model: Model) -> Program:
     graph, _, m = _start(model)
     f = [row.residual for row in m.rows if row.residual is not None]
     return _program(model, "residual", graph, {"f": _vector(f), "Av": _vector([row.rate for row in m.rows])})
+
+
+def changes(model: Model) -> Program:
+    """q, v, u, p, t → "rows" (k, 2n): the changes (δq along the velocities, δv) that satisfy the constraints are 0 in
+    every row, ∂f δq for the rows on positions, then A δv + ∂(A v)/∂q δq for all."""
+    graph, _, m = _start(model)
+    along = [jvp(graph, m.motion.rates, {v: graph.one}) for v in m.v]
+    directions = [{q: x for q, x in zip(m.q, row, strict=True) if x != graph.zero} for row in along]
+    directions += [{v: graph.one} for v in m.v]
+    f = [row.residual for row in m.rows if row.residual is not None]
+    kept = [*f, *(row.rate for row in m.rows)]
+    columns = [Tangents(graph, direction)(kept) for direction in directions]
+    ids = tuple(column[i] for i in range(len(kept)) for column in columns)
+    return _program(model, "changes", graph, {"rows": Output(ids, (len(kept), len(directions)))})
 
 
 def constraint_matrix(model: Model) -> Program:
