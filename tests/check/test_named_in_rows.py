@@ -95,3 +95,33 @@ def test_a_length_that_is_wrong_in_both_components_is_one_mistake() -> None:
 def test_a_sine_in_the_mass_matrix_is_no_matter_of_potential_energy() -> None:
     verdict = derivation("cart-pole").check(f"{CART.replace('cos', 'sin')} = F\n{POLE.replace('cos', 'sin')} = 0")
     assert verdict.mistakes and all(m.step != 3 for m in verdict.mistakes)
+
+
+def test_a_wrong_denominator_of_one_row() -> None:
+    wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
+    kind, _, words = told("cart-pole", wrong)
+    assert kind == "denominator" and "numerator of x''" in words
+
+
+def test_terms_of_a_solved_row_that_nothing_explains_are_those_of_its_numerator() -> None:
+    wrong = (
+        SOLVED[0]
+        .replace("(F - b*x'", "(F + 3*b*x' - theta'")
+        .replace("l*sin(theta)*theta'^2)", "l*cos(theta)*theta'^2)")
+    )
+    verdict = derivation("cart-pole").check(f"{wrong}\n{SOLVED[1]}")
+    assert not verdict.mistakes
+    differing = {str(d.term) for d in verdict.findings[0].differences}
+    assert len(differing) == 4 and not any("(t, 2)" in term or "/" in term for term in differing), differing
+
+
+def test_a_part_of_an_equation_beside_it_is_no_mistake_of_its_own() -> None:
+    rows = "m*L^2*theta'' = 0\nm*L^2*theta'' + b*theta' - m*g*L*sin(theta) = 0"
+    kind, element, _ = told("pendulum", rows)
+    assert element == "gravity 'g'" and "sign" in kind
+
+
+def test_a_wrong_solved_row_beside_right_equations() -> None:
+    wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
+    kind, _, _ = told("cart-pole", f"{CART} = F\n{POLE} = 0\n{wrong}\n{POLE} = 0")
+    assert kind == "denominator"

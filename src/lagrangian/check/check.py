@@ -13,11 +13,12 @@ from lagrangian.check.candidates import too_long
 from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
-from lagrangian.check.difference import differences, likeness, paired
+from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers
+from lagrangian.check.numerators import multiplied
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
@@ -231,6 +232,7 @@ def _equations(
     """The findings for every equation; a wrong one is compared with the right equation that it resembles most."""
     taken = [r.index for r in comparison.rows if r.true and r.index is not None]
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
+    solved = {j: pair for j in wrong if (pair := multiplied(truth, lines[j].expr)) is not None}
     forms = {j: truth.form(lines[j].expr) for j in wrong}
     pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
     follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
@@ -241,6 +243,10 @@ def _equations(
             continue
         like, form = pairs[j], forms[j]
         right = truth.forms[like.index] if like is not None else None
+        if j in solved and like is not None:
+            accelerations = [c.acceleration for c in truth.model.coordinates]
+            like = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
+            form, right = (truth.form(x) for x in solved[j])
         if like is None or form is None or right is None:
             found.append(Finding(line, Status.WRONG, follows=follow[j]))
             continue

@@ -35,7 +35,7 @@ def likeness(form: Form | None, rights: Sequence[Form | None]) -> list[Likeness]
     found: list[Likeness] = []
     for i, right in enumerate(rights):
         voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
-        if voted is None or form is None or right is None:
+        if voted is None or form is None or right is None or voted[0].has(sp.Derivative):
             found.append(Likeness(i, sp.S.One, 0.0))
         else:
             factor, count = voted

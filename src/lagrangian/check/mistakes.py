@@ -78,10 +78,12 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     if any(w.kind == "equation" for w in wrong):
         against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
     left: list[AnsweredLine] = []
+    of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
     for sheet in sheets(truth, of_equation):
-        for found, more in _of_sheet(pool, sheet, wrong, combined, against, left):
-            groups.append(found)
-            own += more
+        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, left)
+    for found, more in _without_partial(of_sheets):
+        groups.append(found)
+        own += more
     quotable = letters_of([f.line for f in findings])
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
@@ -92,6 +94,18 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
     return all(is_quotable(_mistake(truth, t, explanation.under), written) for t in explanation.told)
+
+
+def _without_partial(
+    told: Sequence[tuple[list[Explanation], list[Mistake]]],
+) -> Sequence[tuple[list[Explanation], list[Mistake]]]:
+    """The explanations of several sets of equations, without those that need more mistakes than another.
+
+    What lacks several things beside an equation that has one mistake is a part of it, such as d/dt ∂T*/∂ξ̇ alone.
+    """
+    counts = [len(found[0].told) if found else len(more) for found, more in told]
+    fewest = min(counts, default=0)
+    return [t for t, count in zip(told, counts, strict=True) if count == fewest or fewest > 1]
 
 
 def _of_sheet(
@@ -114,13 +128,13 @@ def _of_sheet(
     if found or more:
         yield found, more
         return
-    for line in own if len(own) > 1 else ():
+    for line in own if len(sheet) > 1 else ():
         found, more = _of_equations(pool, [line], [line], against)
         if found or more:
             yield found, more
         else:
             left.append(line)
-    left += own if len(own) == 1 else []
+    left += own if len(sheet) == 1 else []
 
 
 def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:

@@ -16,7 +16,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.align import CONSTANT, LARGEST
 from lagrangian.check.changes.pool import Pool
-from lagrangian.check.own_terms import OwnTerm, in_place
+from lagrangian.check.own_terms import OwnTerm, foreign_names, in_place
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.search import EXOTIC, SMALL, Explanation, Vectors, simple_number, singles
@@ -48,7 +48,7 @@ class SolvedRow:
 def solved_row(truth: Reference, expr: sp.Expr) -> SolvedRow | None:
     """A row that holds one acceleration, alone and linear, while the right one holds several; None for any other."""
     held = [i for i, c in enumerate(truth.model.coordinates) if expr.has(c.acceleration)]
-    if len(held) != 1 or truth.n > MOST_COORDINATES or terms(expr) > LONGEST:
+    if len(held) != 1 or truth.n > MOST_COORDINATES or terms(expr) > LONGEST or foreign_names(truth, expr):
         return None
     i = held[0]
     acceleration = cast("sp.Expr", truth.model.coordinates[i].acceleration)
@@ -91,6 +91,34 @@ def in_numerator(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], list[Own
     return sorted([*explained, *pairs], key=lambda e: e.cost), []
 
 
+def multiplied(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """A solved row times its denominator, D ξ̈_i − N, and the right one in the same scale, to be compared by terms.
+
+    None if it is no solved row, or if D is not det M times a number or a product of letters.
+    """
+    row = solved_row(truth, expr)
+    if row is None:
+        return None
+    M, det, ratio = _determinant(truth, row)
+    scale = _scale(truth, row, M, ratio)
+    if scale is None:
+        return None
+    still = {c.acceleration: sp.S.Zero for c in truth.model.coordinates}
+    minors: Any = M.adjugate()
+    h = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
+    right = det * row.acceleration + sp.Add(*[minors[row.i, k] * h[k] for k in range(truth.n)])
+    return row.below * row.acceleration - row.expr, cast("sp.Expr", scale * right)
+
+
+def _determinant(truth: Reference, row: SolvedRow) -> tuple[sp.Matrix, sp.Expr, Array]:
+    """M, det M, and the denominator of a row divided by it at every state."""
+    M = sp.Matrix(truth.n, truth.n, lambda a, b: truth.rows[a].diff(truth.model.coordinates[b].acceleration))
+    det = bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))
+    values = CompiledExpressions([row.below, det]).at(truth.states)
+    with np.errstate(all="ignore"):
+        return M, det, values[0] / values[1]
+
+
 def said_of(truth: Reference, mistake: Mistake, expr: sp.Expr) -> Mistake:
     """A mistake of a solved row, with the row named in its words."""
     row = solved_row(truth, expr)
@@ -114,12 +142,8 @@ def _inverse(truth: Reference) -> Array:
 def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
     """A term of the numerator that is wrong, if the denominator is right."""
     truth = pool.truth
-    M = sp.Matrix(truth.n, truth.n, lambda a, b: truth.rows[a].diff(truth.model.coordinates[b].acceleration))
-    det = CompiledExpressions([bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))]).at(truth.states)[0]
+    M, _, ratio = _determinant(truth, row)
     below = CompiledExpressions([row.below]).at(truth.states)[0]
-    ratio = below / det
-    if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(-1, truth.states.motions), axis=1).max() > 1e-6:
-        return None
     scale = _scale(truth, row, M, ratio)
     if scale is None:
         return None
@@ -142,6 +166,8 @@ def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
 
 def _scale(truth: Reference, row: SolvedRow, M: sp.Matrix, ratio: Array) -> sp.Expr | None:
     """D / det M, a number or a product of powers of letters."""
+    if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(-1, truth.states.motions), axis=1).max() > 1e-6:
+        return None
     if np.ptp(ratio) <= CONSTANT * np.abs(ratio).max():
         number = sp.nsimplify(float(np.round(ratio[0], 9)), rational=True)
         return number if isinstance(number, sp.Rational) and number.q <= 144 else None

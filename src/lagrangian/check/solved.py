@@ -65,12 +65,12 @@ def _solvable(pool: Pool, explanation: Explanation) -> bool:
 
 def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake | None:
     """The mistake if the accelerations are the true ones, times a factor that depends on the place alone."""
-    if not solved(truth, exprs):
-        return None
     accelerations = [c.acceleration for c in truth.model.coordinates]
+    if truth.n < 2 or not exprs or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+        return None
     own = [next(i for i, a in enumerate(accelerations) if e.has(a)) for e in exprs]
     slopes = CompiledExpressions(exprs).slopes(accelerations).at(truth.states)
-    slopes = slopes.reshape(truth.n, truth.n, -1)
+    slopes = slopes.reshape(len(exprs), truth.n, -1)
     ratios: dict[int, Array] = {}
     for j, i in enumerate(own):
         with np.errstate(all="ignore"):
@@ -83,7 +83,7 @@ def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake
             return None
         ratios[i] = ratio
     wrong = [i for i, r in ratios.items() if np.abs(r - 1).max() > CONSTANT]
-    if len(set(own)) < truth.n or not wrong:
+    if len(set(own)) < len(exprs) or not wrong:
         return None
     common = len(wrong) == truth.n and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
     name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None

@@ -1,0 +1,102 @@
+"""Evaluates the equations of an answer at states that satisfy a system's constraints, with the true accelerations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive import Derived
+from lagrangian.derive.sample import Sampler
+from lagrangian.graph import Program
+from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.states import evaluated, state_groups
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class AnswerAt:
+    """An answer at one state: P and its slopes by accelerations and by its own multipliers, beside the right ones."""
+
+    value: Array
+    by_acceleration: Array
+    by_multiplier: Array
+    size: Array
+    rows: Array
+    mass: Array
+    reduced: Array
+    along: Array
+    multipliers: Array
+
+
+@lru_cache(maxsize=32)
+def _programs(derivation: Derived) -> tuple[OnRows, tuple[Program, ...]]:
+    model = derivation.model
+    made = (
+        dynamics.forward(model),
+        dynamics.constraint_matrix(model),
+        dynamics.mass_matrix(model),
+        dynamics.multipliers(model),
+    )
+    return OnRows(model), made
+
+
+class AnswerOnRows:
+    """The equations of an answer, ready to be evaluated at states that satisfy the constraints."""
+
+    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic]) -> None:
+        d = truth.derivation
+        self.truth, self.unknown, self.count = truth, list(unknown), len(lines)
+        self.on_rows, self.programs = _programs(d)
+        wanted: list[sp.Expr] = [line.expr for line in lines]
+        self.along: list[sp.Expr] = list(d.minimal.S.flat()) if d.minimal is not None else []
+        self.coordinates = truth.model.coordinates
+        atoms = [x for c in self.coordinates for x in (c.symbol, c.rate, c.acceleration)]
+        atoms += [x.symbol for x in (*truth.model.parameters, *truth.model.inputs)]
+        self.skipped = len(atoms)
+        self.sampler = Sampler(truth.model, [*atoms, *wanted, *self.along])
+
+    def _values(self, here: dict[sp.Basic, float]) -> Array:
+        return np.array(self.sampler.at(here)[self.skipped : self.skipped + self.count])
+
+    def at(self, state: dict[sp.Basic, float], groups: dict[str, list[float]]) -> AnswerAt:
+        """The answer at one state with the true accelerations, which are put into ``state``."""
+        n, coordinates = self.truth.n, self.coordinates
+        a, rows, mass, lam = (evaluated(program, groups) for program in self.programs)
+        state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
+        changes = [*(c.acceleration for c in coordinates), *self.unknown]
+        still = {**state, **dict.fromkeys(self.unknown, 0.0)}
+        value = self._values(still)
+        slopes = np.array([self._values({**still, x: still[x] + 1.0}) - value for x in changes]).T
+        size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(self._values(state))
+        off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
+        size = np.maximum(size, np.abs(self._values({**still, **off})))
+        A, M = np.array(rows["A"], float).reshape(-1, n), np.array(mass["M"], float).reshape(n, n)
+        S = self.sampler.at(state)[self.skipped + self.count :]
+        along = np.array(S).reshape(n, -1) if self.along else np.zeros((n, 0))
+        return AnswerAt(
+            value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)
+        )
+
+    def motions(self, state: dict[sp.Basic, float], count: int) -> Iterator[AnswerAt]:
+        """The answer at other rates and inputs in the same position."""
+        source = np.random.default_rng(7)
+        model = self.truth.model
+        for _ in range(count):
+            other = dict(state)
+            other.update({c.rate: float(source.uniform(-1.5, 1.5)) for c in self.coordinates})
+            other.update({u.symbol: float(source.uniform(-1.5, 1.5)) for u in model.inputs})
+            groups = self.on_rows.of(state_groups(model, other))
+            if groups is not None:
+                other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
+                other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
+                yield self.at(other, groups)
