@@ -188,3 +188,16 @@ def test_vectors_across_an_axis_are_right_handed() -> None:
 def test_lines_that_meet_a_box_are_known() -> None:
     assert crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 1.0), (3.0, 1.0))
     assert not crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 3.0), (3.0, 3.0))
+
+
+def test_a_floating_body_has_arrows_to_its_place() -> None:
+    """Three arrows, one after another from the origin of the fixed axes: x, y and z of the body's origin."""
+    s = lg.System("satellite")
+    base = s.floating_frame("base")
+    m, J = s.parameters("m J", m="10 kg", J="2 kg*m^2")
+    s.rigid_body(m, (J, J, 2 * J), at=base.origin, frame=base, name="hull")
+    picture = s.look()
+    assert picture.missing == ()
+    labels = {x for label in picture.scene.labels if label.role == "coordinate" for x in label.names}
+    assert labels == {"base_x", "base_y", "base_z"}
+    assert all(picture.pose[name] * picture.scene.scale > 50 for name in labels)

@@ -64,7 +64,12 @@ class SpaceMeasures:
         chains: dict[int, list[tuple[int, Array]]] = {}
         for i, coordinate in enumerate(board.stage.model.coordinates):
             name = coordinate.name
-            if name in board.hidden or i in self.floating or i in legs or board.lacks_circuit(coordinate):
+            if (
+                name in board.hidden
+                or (i in self.floating and i not in shifts)
+                or i in legs
+                or board.lacks_circuit(coordinate)
+            ):
                 continue
             if i in spins:
                 self.arcs.arc(spins[i], name)

@@ -170,11 +170,11 @@ def _norm(x: Array) -> float:
 
 def _slid(board: Board, pose: Pose, floating: frozenset[int]) -> Array:
     """Lengths along fixed axes, long enough to be seen."""
-    q = board.q.copy()
+    q, closed = board.q.copy(), bool(board.stage.model.constraints)
     for ways in shifts_of(board.motions).values():
         for n, (i, _) in enumerate(ways):
             name = pose.names[i]
-            if i not in floating and name not in pose.asked and not pose.start.get(name):
+            if not (i in floating and closed) and name not in pose.asked and not pose.start.get(name):
                 q[i] = SLIDES[n % 3] / board.scale
     return q
 
