@@ -72,8 +72,11 @@ Draws = Annotated[
 ]
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the random draws.")]
 Results = Annotated[
-    Path | None,
-    output_option("Write results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output."),
+    str | None,
+    output_option(
+        "Write results to this file (.nc, .csv, .parquet) or .zarr store, which may be in object storage "
+        "(s3://bucket/a.zarr); - writes CSV to standard output."
+    ),
 ]
 Resume = Annotated[
     bool,
@@ -176,11 +179,11 @@ def _file_and_grid(given: list[str], example: str | None) -> tuple[str | None, l
     return given[0], given[1:]
 
 
-def _is_store(output: Path | None) -> bool:
-    return output is not None and output.suffix == STORE
+def _is_store(output: str | None) -> bool:
+    return output is not None and Path(output).suffix == STORE
 
 
-def _store_options(output: Path | None, resume: bool, force: bool) -> dict[str, Any]:
+def _store_options(output: str | None, resume: bool, force: bool) -> dict[str, Any]:
     """Return the options of a sweep that is stored as it is computed, and say how one that is interrupted goes on."""
     if not _is_store(output):
         return {}
@@ -188,12 +191,12 @@ def _store_options(output: Path | None, resume: bool, force: bool) -> dict[str, 
     return {"store": output, "resume": resume, "overwrite": force}
 
 
-def _check_targets(output: Path | None, plot: Path | None, resume: bool, force: bool) -> None:
+def _check_targets(output: str | None, plot: Path | None, resume: bool, force: bool) -> None:
     """Raise `Error`, before anything is computed, if a file cannot be written, or cannot be resumed."""
-    if output is not None and not _is_store(output) and str(output) != "-":
+    if output is not None and not _is_store(output) and output != "-":
         if resume:
             raise Error("only a .zarr store can be resumed", fix="-o sweep.zarr --resume", code="E802")
-        check_target(output, [STORE, *ENDINGS], overwrite=force)
+        check_target(Path(output), [STORE, *ENDINGS], overwrite=force)
     if plot is not None:
         check_target(plot, PICTURES, overwrite=force)
     if output is None and resume:
@@ -214,8 +217,8 @@ def _outputs(given: list[str] | None) -> dict[str, str] | None:
     return found
 
 
-def _put(runs: Ensemble, output: Path | None, force: bool, json: bool) -> None:
-    piped = output is not None and str(output) == "-"
+def _put(runs: Ensemble, output: str | None, force: bool, json: bool) -> None:
+    piped = output is not None and output == "-"
     if output is not None and not piped and not _is_store(output):
         runs.save(output, overwrite=force)
     if piped:
@@ -232,5 +235,5 @@ def _put(runs: Ensemble, output: Path | None, force: bool, json: bool) -> None:
         say(f"{count} of {runs.count} runs failed" + (f"; the first {LISTED}:" if count > LISTED else ":"))
         for failure in failures:
             say(f"  {failure}")
-    if output is not None and str(output) != "-":
+    if output is not None and output != "-":
         say(f"wrote {output}: {runs.count} runs")

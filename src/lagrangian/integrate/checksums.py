@@ -14,7 +14,6 @@ import json
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.places import Place, each, tail
 
 FORMAT = 2
 KEY = "lagrangian"
@@ -43,7 +43,7 @@ class StoreDocument:
     """The root document of a store after checks: ``kept`` is what its creator wrote, ``arrays`` the metadata of its
     arrays."""
 
-    path: Path
+    path: Place
     kept: Mapping[str, Any]
     arrays: Mapping[str, Mapping[str, Any]]
 
@@ -59,7 +59,7 @@ class StoreDocument:
         return Portions(tuple(self.arrays["status"]["shape"][: len(block)]), block)
 
     @property
-    def marks_file(self) -> Path:
+    def marks_file(self) -> Place:
         """The file of the marks, with 8 bytes for every result of every chunk, which are 0 if it is not done."""
         return self.path / DONE / "c" / "0"
 
@@ -69,12 +69,15 @@ class StoreDocument:
         whole = data[: 8 * shape[0] * shape[1]]
         return np.frombuffer(whole.ljust(8 * shape[0] * shape[1], b"\0"), "<u8").astype(np.uint64).reshape(shape)
 
-    def chunk(self, name: str, index: int) -> Path:
+    def chunk(self, name: str, index: int) -> Place:
         """The file of a chunk of a result."""
+        return self.path.joinpath(name, "c", *self._number(name, index))
+
+    def _number(self, name: str, index: int) -> list[str]:
         grid = self.portions.grid
-        place = [int(k) for k in np.unravel_index(index, grid)] if grid else []
-        place += [0] * (len(self.arrays[name]["shape"]) - len(place))
-        return self.path.joinpath(name, "c", *map(str, place))
+        number = [int(k) for k in np.unravel_index(index, grid)] if grid else []
+        number += [0] * (len(self.arrays[name]["shape"]) - len(number))
+        return list(map(str, number))
 
     def mark(self, name: str, index: int) -> int:
         """The mark of a chunk on disk: from its place and its stored checksum, then from the checksum of its bytes."""
@@ -89,10 +92,7 @@ class StoreDocument:
         try:
             if every_byte:
                 return self.mark(name, index) == mark
-            with self.chunk(name, index).open("rb") as file:
-                size = file.seek(0, 2)
-                file.seek(max(0, size - CHECKSUM))
-                return self._place(name, index, size, file.read()) == mark >> 32
+            return self._place(name, index, *tail(self.chunk(name, index), CHECKSUM)) == mark >> 32
         except FileNotFoundError:
             return False
 
@@ -102,16 +102,18 @@ class StoreDocument:
 
         Existence, length and stored checksum of the files are checked, or, with ``every_byte``, the whole content.
         """
-        lost: dict[int, str] = {}
         columns = [(self.results.index(name), name) for name in names or self.results]
-        for index in np.flatnonzero(finished(marks)).tolist():
+
+        def wrong(index: int) -> str | None:
             for column, name in columns:
                 if not self._fits(name, index, int(marks[index, column]), every_byte):
-                    file = self.chunk(name, index)
-                    there = "is not what was written" if file.exists() else "is missing"
-                    lost[index] = f"'{file.relative_to(self.path).as_posix()}' {there}"
-                    break
-        return lost
+                    there = "is not what was written" if self.chunk(name, index).exists() else "is missing"
+                    return f"'{'/'.join([name, 'c', *self._number(name, index)])}' {there}"
+            return None
+
+        indices = np.flatnonzero(finished(marks)).tolist()
+        found = zip(indices, each(self.path, wrong, indices), strict=True)
+        return {index: words for index, words in found if words is not None}
 
 
 def finished(marks: Marks) -> NDArray[np.bool_]:
@@ -119,7 +121,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
     return np.asarray(marks.all(axis=1))
 
 
-def open_document(path: Path) -> StoreDocument:
+def open_document(path: Place) -> StoreDocument:
     """Read and check the root document of a store; raise `Error` if there is none, and `RunError` if it is damaged."""
     if not path.exists():
         raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
@@ -197,7 +199,7 @@ def checksum(data: bytes) -> str:
     return hashlib.blake2b(data, digest_size=8).hexdigest()
 
 
-def parsed(path: Path) -> dict[str, Any] | None:
+def parsed(path: Place) -> dict[str, Any] | None:
     """The root document of a Zarr group as plain data, or None if it is missing or cannot be read."""
     try:
         root = json.loads((path / ROOT).read_bytes())
@@ -206,7 +208,7 @@ def parsed(path: Path) -> dict[str, Any] | None:
     return root if isinstance(root, dict) else None
 
 
-def found(path: Path) -> str:
+def found(path: Place) -> str:
     """A description of what is at a path that is not one of our stores."""
     if path.is_file():
         return "it is a file"

@@ -9,7 +9,6 @@ all of it is checked, and damaged parts are computed again.
 
 from __future__ import annotations
 
-import errno
 import hashlib
 import json
 import os
@@ -42,7 +41,9 @@ from lagrangian.integrate.checksums import (
     seal,
 )
 from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.marks import alone, marks_file
 from lagrangian.integrate.observe import Values
+from lagrangian.integrate.places import ObjectPath, Place, put, remove_tree
 from lagrangian.integrate.stored import explained, fill, library, lost_chunks, opened, whole
 
 
@@ -81,13 +82,12 @@ class Store:
     def __init__(self, document: StoreDocument) -> None:
         self.path, self.document, self.portions = document.path, document, document.portions
         self.notices: list[str] = []
-        self._file = _alone(document.marks_file)
-        os.lseek(self._file, 0, os.SEEK_SET)
-        data = os.read(self._file, os.fstat(self._file).st_size)
-        self.marks = document.marks(data)
-        if len(data) != self.marks.nbytes:
-            self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
-            os.ftruncate(self._file, self.marks.nbytes)  # truncated parts are filled with zeros, which means "not done"
+        with explained(self.path, "open"):
+            self._file = marks_file(document)
+            self.marks = document.marks(self._file.data)
+            if len(self._file.data) != self.marks.nbytes:
+                self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
+                self._file.whole(self.marks)
         self.done = finished(self.marks)
         self._arrays = opened(document, "r+")
 
@@ -99,9 +99,7 @@ class Store:
 
     def close(self) -> None:
         """Release the store, so that another process may write to it."""
-        if self._file >= 0:
-            os.close(self._file)
-            self._file = -1
+        self._file.close()
 
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
         """Write the results of a chunk, then its marks."""
@@ -116,8 +114,7 @@ class Store:
 
     def _mark(self, index: int, marks: Sequence[int]) -> None:
         self.marks[index] = marks
-        os.lseek(self._file, index * self.marks[index].nbytes, os.SEEK_SET)
-        os.write(self._file, self.marks[index].astype("<u8").tobytes())
+        self._file.write(self.marks, index)
 
     def mend(self, plan: ChunkPlan) -> None:
         """Find all damage: damaged chunks are marked as not done, coordinates and metadata are written again."""
@@ -135,9 +132,9 @@ class Store:
 
     def _mend_metadata(self) -> None:
         for name, metadata in self.document.arrays.items():
-            file = self.path / name / ROOT
-            if not _holds(parsed(file.parent), metadata):
-                _put(file, json.dumps(metadata, indent=2).encode())
+            folder = self.path / name
+            if not _holds(parsed(folder), metadata):
+                put(folder / ROOT, json.dumps(metadata, indent=2).encode())
                 self.notices.append(f"'{name}/{ROOT}' in '{self.path}' was damaged: written again")
 
     def _mend_coordinate(self, name: str, values: Iterable[Any]) -> None:
@@ -145,7 +142,7 @@ class Store:
         array, right = self._arrays[name], self.document.kept["coordinates"][name]
         if whole(array, right) is not None:
             return
-        shutil.rmtree(self.path / name / "c", ignore_errors=True)
+        remove_tree(self.path / name / "c")
         _fill_array(array, values)
         if whole(array, right) is None:
             raise RunError(
@@ -161,18 +158,20 @@ class Store:
         return Advice(f"{safe} runs are safely there: make room, then go on with ", RESUME)
 
 
-def create(path: Path, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
+def create(path: Place, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
     """Make a store at ``path``, completely or not at all; an existing store is replaced only with ``overwrite``.
 
     Raises `Error` if something other than a store exists there: it is never removed.
     """
     library()
-    if os.path.lexists(path) and not overwrite:
+    if _there(path) and not overwrite:
         raise Error(
             f"'{path}' exists",
             fix=Advice("continue it with ", RESUME, ", replace it with ", OVERWRITE, ", or use another name"),
             code="E802",
         )
+    if isinstance(path, ObjectPath):
+        return _create_objects(path, plan)
     with explained(path, "make"):
         folder = path.resolve().parent
         if not folder.is_dir():
@@ -191,6 +190,28 @@ def create(path: Path, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
         finally:
             shutil.rmtree(beside, ignore_errors=True)
     return Store(open_document(path))
+
+
+def _there(path: Place) -> bool:
+    """Whether something is at a place, a link to nothing included."""
+    with explained(path, "open"):
+        return os.path.lexists(path) if isinstance(path, Path) else path.exists()
+
+
+def _create_objects(path: ObjectPath, plan: ChunkPlan) -> Store:
+    """Make a store in object storage: it is written here and sent there, the root document last, so that a store is
+    complete or not there. One that is replaced is removed before, because objects cannot be renamed."""
+    with explained(path, "make"), tempfile.TemporaryDirectory(prefix="lagrangian.") as folder:
+        here = Path(folder) / "new"
+        _fill(here, plan)
+        if path.exists():
+            _check_ours(path)
+            (path / ROOT).unlink(missing_ok=True)
+            path.remove_tree()
+        files = sorted((f for f in here.rglob("*") if f.is_file()), key=lambda f: f == here / ROOT)
+        for file in files:
+            path.joinpath(*file.relative_to(here).parts).write_bytes(file.read_bytes())
+        return Store(open_document(path))
 
 
 def _fill(path: Path, plan: ChunkPlan) -> None:
@@ -218,8 +239,8 @@ def _fill(path: Path, plan: ChunkPlan) -> None:
     root = json.loads((path / ROOT).read_bytes())
     root["attributes"][KEY]["coordinates"] = sums
     root["attributes"][KEY]["seal"] = seal(root)
-    _put(path / ROOT, json.dumps(root, indent=2).encode())
-    _put(open_document(path).marks_file, bytes(8 * count))
+    put(path / ROOT, json.dumps(root, indent=2).encode())
+    put(open_document(path).marks_file, bytes(8 * count))
 
 
 def _fill_array(array: Any, values: Iterable[Any]) -> str:
@@ -252,7 +273,7 @@ def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
     return (max(1, min(shape[0], 1 << 20)), *shape[1:]) if shape else ()
 
 
-def resume(path: Path, plan: ChunkPlan) -> Store:
+def resume(path: Place, plan: ChunkPlan) -> Store:
     """Open the store at ``path`` to continue with the same task.
 
     All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError` if
@@ -301,37 +322,16 @@ def _short(value: Any) -> str:
     return text if len(text) <= 60 else text[:59] + "…"
 
 
-def _alone(marks: Path) -> int:
-    """Lock the list of finished chunks for this process; the operating system releases it when the process ends."""
-    path = marks.parents[2]
-    with explained(path, "open"):
-        marks.parent.mkdir(parents=True, exist_ok=True)
-        file = os.open(marks, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666)
-    try:
-        if os.name == "posix":
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        else:
-            import msvcrt
-
-            os.lseek(
-                file, 1 << 30, os.SEEK_SET
-            )  # far beyond the end of the file, because others cannot read what is locked
-            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-    except OSError as trouble:
-        os.close(file)
-        if trouble.errno not in (errno.EWOULDBLOCK, errno.EACCES, errno.EAGAIN, errno.EDEADLK):
-            reason = (trouble.strerror or str(trouble)).lower()
-            raise Error(f"'{path}' cannot be locked: {reason}", fix="use a local disk", code="E801") from trouble
-        raise Error(
-            f"another process is writing to '{path}'", fix="wait for it, or use another name", code="E801"
-        ) from None
-    return file
-
-
 def _move_away(path: Path, where: Path) -> None:
     """Move a store that nobody writes to; anything else at its place, or inside it, is left alone."""
+    _check_ours(path)
+    if (path / DONE / "c" / "0").is_file():
+        os.close(alone(path / DONE / "c" / "0"))
+    path.rename(where)
+
+
+def _check_ours(path: Place) -> None:
+    """Raise `Error` if something other than a store is at a place, or in the store."""
     root = None if path.is_symlink() else parsed(path)
     attributes = root.get("attributes") if root is not None else None
     kept = attributes.get(KEY) if isinstance(attributes, dict) else None
@@ -349,14 +349,3 @@ def _move_away(path: Path, where: Path) -> None:
             fix="move that to another place, or use another name",
             code="E801",
         )
-    if (path / DONE / "c" / "0").is_file():
-        os.close(_alone(path / DONE / "c" / "0"))
-    path.rename(where)
-
-
-def _put(file: Path, data: bytes) -> None:
-    """Write a file completely or not at all."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    beside = file.with_name(f".{file.name}.part")
-    beside.write_bytes(data)
-    beside.replace(file)

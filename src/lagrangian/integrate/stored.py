@@ -10,7 +10,6 @@ import errno
 import hashlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from types import EllipsisType
 from typing import Any
 
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate.checksums import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
+from lagrangian.integrate.places import ObjectPath, Place, for_zarr
 from lagrangian.integrate.status import RunStatus
 
 LISTED = 3
@@ -39,7 +39,7 @@ def library() -> Any:
 
 
 @contextlib.contextmanager
-def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
+def explained(path: Place, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
     """Convert errors of the operating system to an `Error` that says which results are safe."""
     try:
         yield
@@ -48,6 +48,13 @@ def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> I
         full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
         fix = kept() if kept is not None else "make room" if full else "check the place and its permissions"
         raise Error(f"cannot {verb} '{path}': {reason}", fix=fix, code="E801") from trouble
+    except Error:
+        raise
+    except Exception as trouble:  # a service of object storage has its own classes of errors
+        if not isinstance(path, ObjectPath) or type(trouble).__module__.split(".")[0] in ("builtins", "zarr"):
+            raise
+        fix = kept() if kept is not None else "check the address and the permissions"
+        raise Error(f"cannot {verb} '{path}': {trouble}", fix=fix, code="E801") from trouble
 
 
 def fill(dtype: str, name: str) -> float | int:
@@ -60,7 +67,7 @@ def opened(document: StoreDocument, mode: str) -> dict[str, Any]:
     lost."""
     zarr = library()
     with explained(document.path, "open"), zarr.config.set({"array.write_empty_chunks": True}):
-        group = zarr.open_group(document.path, mode=mode, use_consolidated=True)
+        group = zarr.open_group(for_zarr(document.path), mode=mode, use_consolidated=True)
         return {name: group[name] for name in document.arrays if name != DONE}
 
 
@@ -130,7 +137,7 @@ class Stored:
     chunks are omitted. Raises `Error` if there is no store, and `RunError` (E804) if it is damaged.
     """
 
-    def __init__(self, path: Path, *, lost: bool = False) -> None:
+    def __init__(self, path: Place, *, lost: bool = False) -> None:
         library()
         with explained(path, "read"):
             self.document = open_document(path)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from lagrangian.calls import ENSEMBLE, Guided
 from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
 from lagrangian.integrate.observe import DRIFTED
+from lagrangian.integrate.places import place
 from lagrangian.integrate.status import RunStatus
 from lagrangian.integrate.stored import Stored
 from lagrangian.simulate.plot import check_no_file
@@ -85,7 +86,7 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
         Raises `Error` if there is no store, and `RunError` (code E804) if it is damaged. With ``lost``, damaged runs
         are NaN with status −127, and the others can be read.
         """
-        stored = Stored(Path(path), lost=lost)
+        stored = Stored(place(path), lost=lost)
         task = stored.document.kept["task"]
         members = stored.arrays
         dims = {name: tuple(array.metadata.dimension_names or ()) for name, array in members.items()}
@@ -171,11 +172,11 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
     def failures(self, most: int = SHOWN) -> list[Failure]:
         """The first runs that failed, with the varied values and the reason for each."""
         status = self.status
-        places = np.flatnonzero((status < 0) & ~np.isin(status, UNDONE))[:most]
+        numbers = np.flatnonzero((status < 0) & ~np.isin(status, UNDONE))[:most]
         reached = self["reached"]
         found = []
-        for place in places:
-            index = tuple(int(k) for k in np.unravel_index(place, self.shape)) if self.shape else ()
+        for number in numbers:
+            index = tuple(int(k) for k in np.unravel_index(number, self.shape)) if self.shape else ()
             found.append(Failure(index, self.at(index), float(reached[index]), _reason(int(status[index]))))
         return found
 

@@ -9,7 +9,6 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -23,7 +22,9 @@ from lagrangian.integrate.chunks import FEW, Portions, cut
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.integrate.observe import Kept, Study
+from lagrangian.integrate.places import place
 from lagrangian.integrate.store import ChunkPlan, Variable, create, resume
+from lagrangian.integrate.stored import explained
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate import spared
@@ -172,11 +173,12 @@ def _done(
         made = _in_memory(study, design, plan, executor, execution.progress)
         made.notices = (*said, *_drifted(made, study))
         return made
-    path = Path(execution.store)
-    again = execution.resume and path.exists()
+    path = place(execution.store)
+    with explained(path, "open"):
+        again = execution.resume and path.exists()
     with resume(path, plan) if again else create(path, plan, overwrite=execution.overwrite) as sink:
         carry_out(study, design, sink.portions, sink, executor=executor, progress=execution.progress)
-    made = Ensemble.of_store(path)
+    made = Ensemble.of_store(execution.store)
     made.notices = (*said, *sink.notices, *_drifted(made, study))
     return made
 
