@@ -112,10 +112,8 @@ def test_laws_and_co_energies_say_the_same() -> None:
     assert not root.has(sp.Piecewise)
 
 
-def test_what_circuits_have_no_page_for_says_why(found: tuple[lg.System, lg.Derivation]) -> None:
-    s, d = found
-    with pytest.raises(lg.Error, match="Kirchhoff's voltage law for the circuit, not F = ma"):
-        str(d.why)
+def test_what_circuits_have_no_form_for_says_why(found: tuple[lg.System, lg.Derivation]) -> None:
+    s, _ = found
     with pytest.raises(lg.Error, match="inductor 'coil' stores energy by its current") as refused:
         s.derive(form="structured")
     assert refused.value.code == "E601"

@@ -14,6 +14,7 @@ import sympy as sp
 from lagrangian.derive.derived import Derived
 from lagrangian.derive.energies import indices
 from lagrangian.derive.reasons.at_a_state import NumbersAt, numbers
+from lagrangian.derive.reasons.circuits_page import circuit_parts
 from lagrangian.derive.reasons.constraint_page import constraint_work
 from lagrangian.derive.reasons.energy_page import forces, in_numbers, kinetic, spared_part
 from lagrangian.derive.reasons.forces_page import newton, wiggle
@@ -23,7 +24,7 @@ from lagrangian.derive.reasons.loads import applied_loads
 from lagrangian.derive.reasons.motion import moving
 from lagrangian.derive.reasons.result import EquationCount, Reasoning, spared
 from lagrangian.errors import ModelError
-from lagrangian.model import Inductor, Model, MutualInductance
+from lagrangian.model import Model
 from lagrangian.page.formula import Check
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
@@ -38,6 +39,9 @@ class Why(Written):
     ``constraint_moments`` the same for the moments [N m] about centres of mass, of bodies that turn. ``checks`` are the
     equalities of the page, each decided exactly or with 50 digits; ``numbers`` are those of the page, None if there is
     no state at which everything has a value. ``spared`` counts equations and unknowns.
+
+    Of a system with coils the page has Kirchhoff's voltage law of every loop, and the forces of coils and capacitors by
+    an energy balance; constraint forces and numbers are not on it then.
     """
 
     model: Model
@@ -58,12 +62,15 @@ class Why(Written):
 
 
 def why(d: Derived) -> Why:
-    """Carry out the lecture's equations (1) to (12) on a derived system.
+    """Carry out the lecture's equations (1) to (12) on a derived system; of one with coils, Kirchhoff's laws instead.
 
     Raises `ModelError` for a system whose masses are not described: one that is given by its energies. Source: lecture
     9, "Lagrangian mechanics: brief overview".
     """
     context = d.shares.context
+    if any(e.ledger == "T*" for e in d.model.branches):
+        context.algebra.renew()
+        return Why(d.model, circuit_parts(d), {}, {}, None, spared(d))
     _check_masses(d.model)
     context.algebra.renew()
     parts = moving(context)
@@ -97,14 +104,6 @@ def _check_masses(model: Model) -> None:
     given = next((e for e in model.elements if e.ledger == "T*" and e not in model.bodies), None)
     if given is None:
         return
-    if isinstance(given, Inductor | MutualInductance):
-        raise ModelError(
-            "its equation is Kirchhoff's voltage law for the circuit, not F = ma of a mass",
-            element=given.title,
-            place=given.place,
-            fix="derive() without why derives circuits too; the page is about systems of particles and rigid bodies",
-            code="E412",
-        )
     raise ModelError(
         "it is given as an energy, which does not say which masses move and where: there is no F = ma to begin with",
         element=given.title,

@@ -70,4 +70,5 @@ def spared(d: Derived) -> EquationCount:
     particles = len(model.bodies) - rigid
     equations = particles * model.dimension + rigid * (3 if model.dimension == 2 else 6)
     n, m = len(model.coordinates), len(d.shares.rows)
-    return EquationCount(particles, rigid, equations, n - m, equations - (n - m), n, m)
+    moving = n - m - len(model.charges)  # a charge moves no mass
+    return EquationCount(particles, rigid, equations, n - m, equations - moving, n, m)
