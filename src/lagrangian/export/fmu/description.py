@@ -16,7 +16,7 @@ TOOL = "lagrangian"
 def description2(model: Model, variables: Sequence[FmuVariable], stem: str, token: str, duration: float) -> str:
     """modelDescription.xml of FMI 2.0."""
     can = 'canGetAndSetFMUstate="true" canSerializeFMUstate="true"'
-    name, shown = quoteattr(stem), quoteattr(model.name)
+    name, shown = _attribute(stem), _attribute(model.name)
     sources = [f'    <SourceFiles><File name="{stem}.c"/></SourceFiles>']
     lines = [
         HEAD,
@@ -34,9 +34,9 @@ def description2(model: Model, variables: Sequence[FmuVariable], stem: str, toke
     ]
     for reference, v in enumerate(variables):
         kind, inner = _attributes2(v)
-        about = f" description={quoteattr(v.description)}" if v.description else ""
+        about = f" description={_attribute(v.description)}" if v.description else ""
         lines += [
-            f'    <ScalarVariable name={quoteattr(v.name)} valueReference="{reference}" {kind}{about}>',
+            f'    <ScalarVariable name={_attribute(v.name)} valueReference="{reference}" {kind}{about}>',
             f"      <Real{inner}/>",
             "    </ScalarVariable>",
         ]
@@ -61,7 +61,7 @@ def _attributes2(v: FmuVariable) -> tuple[str, str]:
         "parameter": 'causality="parameter" variability="tunable" initial="exact"',
         "output": 'causality="output" variability="continuous" initial="calculated"',
     }[v.role]
-    inner = f" unit={quoteattr(v.unit)}" if v.unit else ""
+    inner = f" unit={_attribute(v.unit)}" if v.unit else ""
     if v.start is not None:
         inner += f' start="{v.start!r}"'
     if v.derivative is not None:
@@ -72,7 +72,7 @@ def _attributes2(v: FmuVariable) -> tuple[str, str]:
 def description3(model: Model, variables: Sequence[FmuVariable], stem: str, token: str, duration: float) -> str:
     """modelDescription.xml of FMI 3.0."""
     can = 'canGetAndSetFMUState="true" canSerializeFMUState="true"'
-    name, shown = quoteattr(stem), quoteattr(model.name)
+    name, shown = _attribute(stem), _attribute(model.name)
     lines = [
         HEAD,
         f'<fmiModelDescription fmiVersion="3.0" modelName={name} instantiationToken="{token}" description={shown}',
@@ -85,11 +85,11 @@ def description3(model: Model, variables: Sequence[FmuVariable], stem: str, toke
     ]
     for reference, v in enumerate(variables):
         kind, _ = _attributes2(v)
-        about = f" description={quoteattr(v.description)}" if v.description else ""
-        unit = f" unit={quoteattr(v.unit)}" if v.unit else ""
+        about = f" description={_attribute(v.description)}" if v.description else ""
+        unit = f" unit={_attribute(v.unit)}" if v.unit else ""
         start = f' start="{v.start!r}"' if v.start is not None else ""
         rate = f' derivative="{v.derivative}"' if v.derivative is not None else ""
-        first = f'    <Float64 name={quoteattr(v.name)} valueReference="{reference}" '
+        first = f'    <Float64 name={_attribute(v.name)} valueReference="{reference}" '
         lines.append(f"{first}{kind}{about}{unit}{start}{rate}/>")
     lines += ["  </ModelVariables>", "  <ModelStructure>"]
     for tag, roles in (
@@ -121,5 +121,10 @@ def _units(variables: Sequence[FmuVariable]) -> Iterator[str]:
     found = sorted({v.unit for v in variables if v.unit})
     if found:
         yield "  <UnitDefinitions>"
-        yield from (f"    <Unit name={quoteattr(unit)}/>" for unit in found)
+        yield from (f"    <Unit name={_attribute(unit)}/>" for unit in found)
         yield "  </UnitDefinitions>"
+
+
+def _attribute(text: str) -> str:
+    """A text as the value of an attribute, in characters that XML takes and that do not turn what follows them."""
+    return quoteattr("".join(c if c.isprintable() else f"U+{ord(c):04X}" for c in text))
