@@ -90,6 +90,8 @@ def test_machines_are_verified_compiled_saved_and_read_again(name: str, tmp_path
     n = len(s.model.coordinates)
     q, v, u = np.full(n, 1e-7), np.full(n, 0.1), np.ones(1)
     assert np.allclose(compiled.inverse(q, v, compiled.forward(q, v, u), u), 0, atol=1e-8)
+    run = s.simulate(samples=51)
+    assert run.success and np.abs(run.imbalance).max() < 1e-7 * np.abs(run.energy).max()
     s.save(tmp_path / "again.toml")
     assert lg.load(tmp_path / "again.toml").to_toml() == s.to_toml()
 

@@ -107,6 +107,71 @@ def test_a_wrong_file_is_refused_with_its_line(change: tuple[str, str], message:
     lg.loads(FILE).derive()
 
 
+MOTOR = """
+name = "motor"
+[coordinates]
+q = { description = "charge", unit = "C" }
+theta = "rotor"
+[parameters]
+L = "1 mH"
+R = "2 ohm"
+K = "0.1 V*s/rad"
+J = "1 g*m^2"
+[inputs]
+u = "V, voltage"
+[energies]
+T = "J*theta'^2/2"
+[[inductor]]
+charge = "q"
+L = "L"
+[[resistor]]
+charge = "q"
+R = "R"
+[[voltage_source]]
+charge = "q"
+value = "u"
+[[transducer]]
+charge = "q"
+k = "K"
+on = "theta"
+"""
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (('"0.1 V*s/rad"', '"0.1 N/A"'), "its constant K has the unit N/A, but Wb is needed"),
+        (('"2 ohm"', '"2 S"'), "its resistance R has the unit S, but Ω is needed"),
+        (('"V, voltage"', '"A, voltage"'), "its voltage u has the unit A, but V is needed"),
+        (('unit = "C"', 'unit = "m"'), "its charge q has the unit m, but C is needed"),
+        (('"1 g*m^2"', '"1 K"'), "K"),
+    ],
+)
+def test_units_of_a_motor_fit_together(change: tuple[str, str], message: str) -> None:
+    lg.loads(MOTOR).compile()
+    with pytest.raises(lg.Error) as found:
+        lg.loads(MOTOR.replace(*change)).compile()
+    assert message in str(found.value) and found.value.code == "E408"
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"params": {"R": "3 V"}}, "parameter 'R' = '3 V' has the unit V, but Ω is needed"),
+        ({"inputs": {"u": "5 A"}}, "input 'u' = '5 A' has the unit A, but V is needed"),
+        ({"initial": {"q'": "2 V"}}, "state 'q'' = '2 V' has the unit V, but A is needed"),
+        ({"initial": {"q": "2 A"}}, "state 'q' = '2 A' has the unit A, but C is needed"),
+    ],
+)
+def test_values_of_a_run_have_the_units_of_circuits(given: dict[str, Any], message: str) -> None:
+    s = lg.loads(MOTOR)
+    with pytest.raises(lg.Error) as found:
+        s.simulate(0.01, **given)
+    assert message in str(found.value) and found.value.code == "E408"
+    run = s.simulate(0.01, params={"R": "2000 mohm"}, initial={"q'": "1 mA"}, inputs={"u": "0.1 kV"}, samples=3)
+    assert run.success and run["q'"][0] == pytest.approx(1e-3)
+
+
 def test_law_symbols_have_no_meaning_elsewhere() -> None:
     with pytest.raises(lg.Error, match="current"):
         lg.loads(FILE.replace('L = "L"', 'L = "L*current"'))

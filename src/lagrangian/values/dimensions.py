@@ -76,6 +76,9 @@ ELECTRIC: dict[Exponents, str] = {
         (answers.INDUCTANCE, "H"),
         (answers.CAPACITANCE, "F"),
         (answers.RESISTANCE, "Ω"),
+        ((-1, -2, 3, 2), "S"),
+        ((1, 0, -2, -1), "T"),
+        ((1, 1, -2, -1), "N/A"),
     )
 }
 """The units of electricity that have a name of their own."""
