@@ -106,6 +106,7 @@ PENDULUM = "m L^2 theta'' + b theta' + m g L sin(theta)"
         "r = (L sin θ, -L cos θ)\nr' = (L θ' cos θ, L θ' sin θ)\nT = 1/2 m |r'|²\nV = -m g L cos θ",
         "v = (L θ' cos θ, L θ' sin θ)\nT = 1/2 m v²",
         "m L 2[L/2] theta'' + b [theta'] + m g L sin(theta) = 0",
+        "ode1 := m*L^2*diff(theta(t),`$`(t,2)) + b*diff(theta(t),t) + m*g*L*sin(theta(t)) = 0:",
         "D = m L^2\ntheta'' = -(b theta' + m g L sin(theta))/D",
         "P = m g L\nm L^2 theta'' + b theta' + P sin(theta) = 0",
     ],
@@ -267,3 +268,32 @@ def test_letters_with_marks_and_words_around_the_pendulum_are_kept_apart(written
 def test_a_factor_with_a_raised_digit_in_front_is_no_word() -> None:
     assert not derivation("pendulum").check("mL² mL² θ̈ + b θ̇ + mgL sin θ = 0").right
     assert not derivation("pendulum").check("mg² m L² θ̈ + b θ̇ + mgL sin θ = 0").right
+
+
+RATE = "-g/L*sin(theta) - b/(m*L**2)*omega"
+
+
+@pytest.mark.parametrize(
+    ("written", "right"),
+    [
+        (f"def f(t, y):\n    theta, omega = y\n    return [omega, {RATE}]", True),
+        (f"def f(t, y, p):\n    theta, omega = y\n    a = {RATE}\n    return np.array([omega,\n        a])", True),
+        ("def f(t, y):\n    th, dth = y\n    ddth = -g/L*np.sin(th) - b/(m*L**2)*dth\n    return [dth, ddth]", True),
+        (f"function dz = f(t, z)\n theta = z(1); \n omega = z(2);\n dz = [omega; {RATE}];\nend", True),
+        ("function dz = f(t, z)\ndz = zeros(2,1);\ndz(1) = z(2);\ndz(2) = -g/L*sin(z(1)) - b/(m*L^2)*z(2);\nend", True),
+        (f"def f(t, y):\n    theta, omega = y\n    return [omega, {RATE.replace('- b', '+ b')}]", False),
+        (f"def f(t, y):\n    theta, omega = y\n    return [2*omega, {RATE}]", False),
+        (f"def f(t, y):\n    omega, theta = y\n    return [omega, {RATE}]", False),
+        ("def f(t, y):\n    th, dth = y\n    return [dth, th]", False),
+    ],
+)
+def test_functions_that_return_the_rates_of_a_state_are_read(written: str, right: bool) -> None:
+    assert judged_right(written) == right
+
+
+def judged_right(written: str) -> bool:
+    """Whether an answer is judged right; one that is refused is not."""
+    try:
+        return derivation("pendulum").check(written).right
+    except ParseError:
+        return False

@@ -272,7 +272,7 @@ class LetterChanges:
         for site in places:
             for p in (*self.lengths, *self.ratios):
                 a = self.ring.atom(p)
-                held = min(dict(m).get(a, 0) for s in site.sums() for m in s)
+                held = min((dict(m).get(a, 0) for s in site.sums() for m in s), default=0)
                 for e in (1, -1, 2, -2):
                     extra: Sum = {((a, e),): Fraction(1)}
                     effect = site.changed(lambda s, by=extra: times(s, by))

@@ -52,7 +52,7 @@ _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _DONE = re.compile(r"(?<=[\w)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z")
 _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|←)\s[^=]*\Z")
 """What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
-_DOTS = re.compile(r"(?<=[\w)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]*\Z")
+_DOTS = re.compile(r"(?<=[\w)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]{0,80}\Z")
 """Words behind dots: J_A = J + m*l^2 ... used below."""
 _UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")

@@ -2,7 +2,7 @@
 
 np.sin(x)  sp.Rational(1, 2)  Math.pow(x, 2)        sin(x)  ((1)/(2))  ((x)^(2))         NumPy, SymPy, JavaScript
 x.diff(t, 2)  x(t).diff(t).diff(t)  L.diff(x')      x''  x''  diff(L, x')                SymPy
-diff(x(t), t$2)  D(x)(t)  (D@@2)(x)(t)              diff(x(t), t, 2)  x'  x''            Maple
+diff(x(t), t$2)  diff(x(t), `$`(t, 2))  D(x)(t)  (D@@2)(x)(t)              diff(x(t), t, 2)  x'  x''            Maple
 Derivative[2][x][t]  \\[Theta]  Subscript[m, 1]     x''  θ  m_1                          Mathematica
 D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
@@ -34,6 +34,7 @@ _SECOND = re.compile(rf"\.\s*diff\((?:{_T},(?:\s*2\s*|{_T})|\s*\({_T},\s*2\s*\)\
 _FIRST = re.compile(rf"(?<=[\w)'′])\.\s*diff\((?:{_T}(?:,\s*1\s*)?|\s*)\)")
 _ENERGY = re.compile(rf"(?<![\w.])(?P<of>T|V|L|D|ℒ)\.diff\(\s*(?P<by>{_NAME}(?:\(t\))?['’′]*)\s*\)")
 _TIMES = re.compile(r"(?<=[,(\s])t\s*\$\s*(?P<order>[12])(?=\s*[,)])")
+_SEQUENCE = re.compile(r"`\$`\(\s*t\s*,\s*(?P<order>[12])\s*\)")
 _OPERATOR = re.compile(rf"(?<!\w)(?:\(\s*D\s*@@\s*2\s*\)|(?P<once>D))\(\s*(?P<of>{_NAME})\s*\)\(\s*t\s*\)")
 _FULL_FORM = re.compile(rf"\bDerivative\[(?P<order>[12])\]\[(?P<of>{_NAME})\](?:\[t\])?")
 _LONG_NAME = re.compile(r"\\\[(?P<capital>Capital)?(?P<letter>Curly(?:Theta|Phi|Epsilon)|[A-Z][a-z]{1,6})\]")
@@ -76,6 +77,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     """
     if "\\[" in written.text:
         written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
+    written = written.sub(_SEQUENCE, lambda m: f"t, {m['order']}")
     written = written.sub(_LINE_OF_CODE, lambda m: "").sub(_TIMES, lambda m: f"t, {m['order']}")
     if _is_mixed(written.text):
         written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])

@@ -21,6 +21,7 @@ from lagrangian.check.reading.markup import all_bullets, bullets, without_bullet
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
+from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
@@ -47,10 +48,9 @@ _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*
 _BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|[,;:]|\bwhere|\bwith|\band"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+((?>{_NAME}))[ \t]*+(?:(?:\^|\*\*)\s*2|²)?\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
-_VECTOR = re.compile(
-    r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s*=[^=]*?(?<!\w)"
-    r"(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
-    r"(?=[^=]*\Z)"
+_VECTOR = re.compile(r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s{0,9}=(?P<value>[^=]*+)\Z")
+_UNIT_VECTOR = re.compile(
+    r"(?<!\w)(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
 )
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
@@ -132,7 +132,8 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
 def _without_notations(text: str, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names = lines.names
-    plain = without_programs(without_tags(TracedText(text)), names.changes, lambda x: bool(names.scope.meanings(x)[0]))
+    bare = without_functions(without_tags(TracedText(text)), [c.name for c in lines.model.coordinates])
+    plain = without_programs(bare, names.changes, lambda x: bool(names.scope.meanings(x)[0]))
     return on_one_line(plain)
 
 
@@ -200,7 +201,10 @@ def _parsed(
 def _is_vector(row: str, lines: Lines) -> bool:
     """Whether a row says with unit vectors what a position, velocity or acceleration is: a = x'' e_x + y'' e_y."""
     match = _VECTOR.match(row)
-    return match is not None and not lines.names.known(match["name"]) and not lines.names.known(match["unit"])
+    if match is None or lines.names.known(match["name"]):
+        return False
+    units = _UNIT_VECTOR.finditer(match["value"])
+    return any(not lines.names.known(unit["unit"]) for unit in units)
 
 
 def _is_stated(row: str, whole: str, words: Words) -> bool:

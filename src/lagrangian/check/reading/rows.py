@@ -127,7 +127,7 @@ def _separated(text: str) -> str:
             if _states(text, match.start()):
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
-            if "=" in text[text.rfind("\n", 0, match.start()) + 1 : match.start()]:
+            if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
                 letters[match.start()] = ";"
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
             at = match.start()
@@ -138,8 +138,8 @@ def _separated(text: str) -> str:
 def _states(text: str, at: int) -> bool:
     """Whether a colon stands between two statements, ∑F = m x'': F - k x = m x'', or behind more than a label."""
     first, last = text.rfind("\n", 0, at) + 1, text.find("\n", at)
-    before = re.split("[,;]", text[first:at])[-1]
-    return "=" in text[at : last if last >= 0 else len(text)] and bool(re.search(r"[=\[\]*^/'′]", before))
+    before = re.split("[,;]", text[max(first, at - 400) : at])[-1]
+    return text.find("=", at, last if last >= 0 else len(text)) >= 0 and bool(re.search(r"[=\[\]*^/'′]", before))
 
 
 def _both(text: str, start: int, end: int) -> bool:
