@@ -124,7 +124,18 @@ def hoist() -> lg.System:
     return s
 
 
+def geared_arm() -> lg.System:
+    """An arm that a motor drives through a pair of gears (Spong, Hutchinson, Vidyasagar, Robot Modeling, 7.1)."""
+    s, p, (a,) = start("geared arm", "a")
+    n = s.parameter("n", 4)
+    s.rigid_body(p["M"], p["J"], at=s.point("O", (-p["d"], 0)), frame=s.frame(-n * a), name="motor")
+    s.particle(p["m"], at=s.point("P", (p["l"] * sin(a), -p["l"] * cos(a))), name="load")
+    s.gravity(direction=(0, -1), g=9.81)
+    return s
+
+
 SYSTEMS = {
+    "geared arm": (geared_arm, {"gear": 1, "rod": 1, "wheel": 2}),
     "hoist": (hoist, {"rope": 2, "spring": 1, "damper": 1, "wheel": 2}),
     "coupled pendulums": (coupled_pendulums, {"rod": 2, "spring": 1}),
     "half car": (half_car, {"spring": 4, "link": 2}),
@@ -200,6 +211,20 @@ def test_both_ends_of_a_hoist_move_alike_and_its_string_touches_the_rim() -> Non
     left, right = (ends[0.3][i] - ends[0.0][i] for i in (0, 1))
     assert right == pytest.approx(0.3 * radius) and left == pytest.approx(-0.3 * radius)
     assert "a string from the load to the rim of the pulley" in picture.description.lower()
+
+
+def test_the_pitch_circles_of_a_geared_arm_meet_in_the_ratio_of_the_turns() -> None:
+    picture = geared_arm().look()
+    (wheel,) = [n[0] for part, n in moved(picture) if part.kind == "wheel" and len(n) == 1]
+    (circle,) = [
+        np.concatenate([x.reshape(-1, 2)[-1:] for x in n]) for part, n in moved(picture) if part.kind == "gear"
+    ]
+    spots = np.unique(circle.round(6), axis=0)  # evenly spaced on the circle
+    centre = spots.mean(axis=0)
+    radius = np.hypot(*(spots[0] - centre))
+    assert radius == pytest.approx(4 * wheel[2], rel=0.02)
+    assert np.hypot(*(centre - wheel[:2])) == pytest.approx(radius + wheel[2], rel=0.02)
+    assert "a gear between the motor and the rod of the load" in picture.description.lower()
 
 
 @pytest.mark.parametrize("name", SYSTEMS)

@@ -10,7 +10,6 @@ A v = 0 are the connections that are not drawn.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from dataclasses import dataclass, field
 from itertools import permutations
 
 import numpy as np
@@ -19,11 +18,13 @@ from numpy.typing import NDArray
 from lagrangian.look.board import Board
 from lagrangian.look.cast import BodyGlyph, Player, geared
 from lagrangian.look.couplers import couplers
+from lagrangian.look.gears import ArmGear
 from lagrangian.look.hints import LookLine
 from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.pose import up_axis
 from lagrangian.look.strings import PulleyString
+from lagrangian.look.velocities import NONE, Drawn, complement, cross_of, turning
 from lagrangian.model import Rolling
 
 Array = NDArray[np.float64]
@@ -31,78 +32,12 @@ Array = NDArray[np.float64]
 MOST = 4
 """How many bodies a message names."""
 
-NONE = 1e-7
-"""A number is zero below this share of the largest one beside it."""
-
-
-@dataclass
-class Drawn:
-    """What is drawn, as rows A of A v = 0: ``rows`` are lists of (slice, block), blocks of shape (rows, columns).
-
-    ``points`` and ``frames`` are the places of their velocities in v, ``ground`` those that do not move.
-    """
-
-    motions: Motions
-    points: dict[int, slice] = field(default_factory=dict[int, slice])
-    frames: dict[int, slice] = field(default_factory=dict[int, slice])
-    rows: list[list[tuple[slice, Array]]] = field(default_factory=list[list[tuple[slice, Array]]])
-    size: int = 0
-
-    def point(self, k: int) -> slice:
-        """The place of a point's velocity."""
-        return self._place(self.points, k, self.motions.stage.dimension)
-
-    def frame(self, f: int) -> slice:
-        """The place of a frame's angular velocity."""
-        return self._place(self.frames, f, 1 if self.motions.stage.dimension == 2 else 3)
-
-    def _place(self, known: dict[int, slice], key: int, width: int) -> slice:
-        if key not in known:
-            known[key] = slice(self.size, self.size + width)
-            self.size += width
-        return known[key]
-
-    def say(self, *blocks: tuple[slice, Array]) -> None:
-        """Rows Σ block · v[slice] = 0."""
-        if blocks and blocks[0][1].size:
-            self.rows.append(list(blocks))
-
-    # -- numbers --------------------------------------------------------------------------------------------------
-
-    def matrix(self) -> Array:
-        """A (rows, size)."""
-        stacked: list[Array] = []
-        for blocks in self.rows:
-            row = np.zeros((len(blocks[0][1]), self.size))
-            for place, block in blocks:
-                row[:, place] += block
-            stacked.append(row)
-        return np.vstack(stacked) if stacked else np.zeros((0, self.size))
-
-    def model(self) -> Array:
-        """M (size, n): the velocities for a unit rate of each coordinate."""
-        views = self.motions.views
-        M = np.zeros((self.size, views.J.shape[-1]))
-        for k, place in self.points.items():
-            M[place] = views.J[0, k]
-        for f, place in self.frames.items():
-            M[place] = turning(self.motions, f)
-        return M
-
-
-def turning(motions: Motions, frame: int) -> Array:
-    """The angular velocity of a frame for a unit rate of each coordinate: (1, n) in the plane, (3, n) in space."""
-    R, RJ = motions.views.R[0, frame], motions.views.RJ[0, frame]
-    W = np.einsum("ijn,kj->ikn", RJ, R)
-    W = (W - W.swapaxes(0, 1)) / 2  # a quaternion also changes its length
-    return W[1:2, 0] if len(R) == 2 else np.array([W[2, 1], W[0, 2], W[1, 0]])
-
 
 def say_unjoined(
     board: Board,
     parts: Sequence[Player],
     lines: Iterable[LookLine],
-    strings: Iterable[PulleyString | Hoist] = (),
+    strings: Iterable[PulleyString | Hoist | ArmGear] = (),
     told: Collection[str] = (),
 ) -> None:
     """Say which bodies move together without a part of the picture that shows why; of ``told`` it is said already."""
@@ -124,7 +59,7 @@ def say_unjoined(
 def unjoined(
     motions: Motions,
     parts: Sequence[Player],
-    strings: Iterable[PulleyString | Hoist] = (),
+    strings: Iterable[PulleyString | Hoist | ArmGear] = (),
     lines: Iterable[set[int]] = (),
 ) -> list[list[str]]:
     """Names of bodies that move together in the model and not in the picture, one list for each connection.
@@ -147,6 +82,8 @@ def unjoined(
     for string in strings:
         if isinstance(string, Hoist):
             _hoisted(drawn, string)
+        elif isinstance(string, ArmGear):
+            _geared(drawn, string)
         else:
             _strung(drawn, string)
     for one, two in geared(motions, parts):
@@ -166,11 +103,11 @@ def _framed(drawn: Drawn, f: int) -> None:
     parent = frames[f].parent
     own = turning(drawn.motions, f)
     if parent is None:
-        drawn.say((place, _complement(own)))
+        drawn.say((place, complement(own)))
         return
     home = frames.index(parent)
     _framed(drawn, home)
-    rows = _complement(own - turning(drawn.motions, home))
+    rows = complement(own - turning(drawn.motions, home))
     drawn.say((place, rows), (drawn.frames[home], -rows))
 
 
@@ -197,14 +134,14 @@ def _held(drawn: Drawn, k: int) -> None:
     f = None if own is None else motions.stage.frames.index(own)
     if f is None or hold.how in (HoldKind.FREE, HoldKind.SLIDE):
         _, D = motions.local(k, h, None)
-        rows = _complement(D[0], motions.size)
+        rows = complement(D[0], motions.size)
         drawn.say((place, rows), (other, -rows))
         return
     _framed(drawn, f)
     _, X = motions.local(k, h, f)
-    rows = _complement(motions.views.R[0, f] @ X[0], motions.size)
+    rows = complement(motions.views.R[0, f] @ X[0], motions.size)
     lever = motions.views.r[0, k] - motions.views.r[0, h]
-    drawn.say((place, rows), (other, -rows), (drawn.frames[f], -rows @ _cross(lever)))
+    drawn.say((place, rows), (other, -rows), (drawn.frames[f], -rows @ cross_of(lever)))
 
 
 def _owned(drawn: Drawn, part: Player) -> None:
@@ -217,7 +154,7 @@ def _owned(drawn: Drawn, part: Player) -> None:
         if k in drawn.points and k != part.point:
             lever = motions.views.r[0, k] - motions.views.r[0, part.point]
             I = np.eye(motions.stage.dimension)
-            drawn.say((drawn.points[k], I), (drawn.points[part.point], -I), (turn, -_cross(lever)))
+            drawn.say((drawn.points[k], I), (drawn.points[part.point], -I), (turn, -cross_of(lever)))
     if part.glyph is BodyGlyph.WHEEL and motions.stage.dimension == 2:
         h = motions.holds[part.point].holder
         moved = motions.views.J[0, part.point] - motions.views.J[0, h]
@@ -271,6 +208,14 @@ def _hoisted(drawn: Drawn, hoist: Hoist) -> None:
     )
 
 
+def _geared(drawn: Drawn, gear: ArmGear) -> None:
+    """A wheel turns −n times as far as the arm that it is geared to."""
+    d = drawn.motions.views.r[0, gear.tip] - drawn.motions.views.r[0, gear.joint]
+    turn = gear.ratio / float(d @ d) * np.array([[-d[1], d[0]]])
+    tip, joint = _known(drawn, gear.tip), _known(drawn, gear.joint)
+    drawn.say((drawn.frames[gear.wheel.frame or 0], np.eye(1)), (tip, -turn), (joint, turn))
+
+
 def _meshing(drawn: Drawn, one: Player, two: Player) -> None:
     a, b = drawn.frames[one.frame or 0], drawn.frames[two.frame or 0]
     first, second = turning(drawn.motions, one.frame or 0)[0], turning(drawn.motions, two.frame or 0)[0]
@@ -291,21 +236,6 @@ def _on_floor(drawn: Drawn) -> None:
                 drawn.say((_known(drawn, k), up))
 
 
-def _cross(lever: Array) -> Array:
-    """The matrix of ω × d as a map of ω: (2, 1) in the plane, (3, 3) in space."""
-    if len(lever) == 2:
-        return np.array([[-lever[1]], [lever[0]]])
-    x, y, z = lever
-    return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
-
-
-def _complement(columns: Array, least: float = 1e-3) -> Array:
-    """Orthonormal rows (d − rank, d) at right angles to all columns; those far below ``least`` are zero."""
-    left, sizes, _ = np.linalg.svd(columns)
-    rank = int((sizes > NONE * max(float(sizes.max(initial=0.0)), least)).sum())
-    return left[:, rank:].T
-
-
 # -- what is not ------------------------------------------------------------------------------------------------------
 
 
@@ -320,13 +250,13 @@ def _told(drawn: Drawn, parts: Sequence[Player], lines: list[set[int]]) -> list[
         columns = np.concatenate([np.arange(drawn.size)[place] for place in group])
         local = A[:, columns]
         local = local[np.abs(local).max(axis=1) > NONE] if len(local) else local
-        free = _complement(local.T) if len(local) else np.eye(len(columns))
+        free = complement(local.T) if len(local) else np.eye(len(columns))
         basis = np.zeros((drawn.size, len(free)))
         basis[columns] = free.T
         bases.append(basis)
         owners += [number] * len(free)
     N = np.hstack(bases)
-    rows = _reduced(_complement(N.T @ M))
+    rows = _reduced(complement(N.T @ M))
     found: list[list[str]] = []
     for row in rows:
         touched = {owners[j] for j in np.flatnonzero(np.abs(row) > NONE)}

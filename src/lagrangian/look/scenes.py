@@ -16,6 +16,7 @@ from lagrangian.look.constraint_glyphs import draw_constraints
 from lagrangian.look.couplers import couplers
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
 from lagrangian.look.freedoms import say_unjoined
+from lagrangian.look.gears import arm_gears, draw_arm_gears
 from lagrangian.look.hints import Hints
 from lagrangian.look.hoists import draw_hoists, hoists_of, lay_hoists
 from lagrangian.look.holds import HoldKind, Motions
@@ -86,7 +87,7 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
         parts = cast(motions, hints.kinds)
         strings = strings_of(motions, parts)
     cast_strings(motions, parts, strings, set(hints.kinds))
-    hoists = hoists_of(motions, parts, strings)
+    hoists, gears = hoists_of(motions, parts, strings), arm_gears(motions, parts)
     pose = Pose(motions, p, hints.pose)
     to_scale = show_strings(pose, strings)
     board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))
@@ -111,13 +112,14 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     TieArtist(board, parts, draw_hoists(board, hoists, ties)).draw()
     draw_supports(board, parts, ties, floor_ends(board, parts, laid))
     draw_strings(board, parts, laid)
+    draw_arm_gears(board, gears)
     draw_unwinding(board, parts)
-    say_unjoined(board, parts, hints.lines, [*strings, *hoists], _say_carried(board, parts, strings, hints))
+    say_unjoined(board, parts, hints.lines, [*strings, *hoists, *gears], _say_carried(board, parts, strings, hints))
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns, [x.holder for x in strings if x.holder]).draw()
-    return _framed(board, model, hints, description(board, parts, ties, turns, [*strings, *hoists]), room)
+    return _framed(board, model, hints, description(board, parts, ties, turns, [*strings, *hoists, *gears]), room)
 
 
 def _say_carried(board: Board, parts: list[Player], strings: list[PulleyString], hints: Hints) -> tuple[str, ...]:

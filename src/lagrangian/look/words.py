@@ -14,6 +14,7 @@ import numpy as np
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.couplers import couplers
+from lagrangian.look.gears import ArmGear
 from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import Hold, HoldKind
 from lagrangian.look.round_bodies import unwinds
@@ -43,7 +44,7 @@ def description(
     parts: list[Player],
     ties: Sequence[Tie],
     turns: Sequence[Turn],
-    strings: Sequence[PulleyString | Hoist] = (),
+    strings: Sequence[PulleyString | Hoist | ArmGear] = (),
 ) -> str:
     """The bodies and what holds them; what ties them together; what acts on them; the coordinates."""
     words = _Sentences(board, parts, list(ties), list(turns))
@@ -276,8 +277,10 @@ class _Sentences:
         pairs = couplers(self.motions, self.parts)
         return [f"a rod between {self.owner(a)} and {self.owner(b)}" for a, b in pairs]
 
-    def string(self, string: PulleyString | Hoist) -> str:
-        """What a string joins, and over what."""
+    def string(self, string: PulleyString | Hoist | ArmGear) -> str:
+        """What a string or a gear joins, and over what."""
+        if isinstance(string, ArmGear):
+            return f"a gear between {self.body(string.wheel)} and the rod of {self.owner(string.tip)}"
         if isinstance(string, Hoist):
             return f"a string from {self.body(string.load)} to the rim of {self.body(string.wheel)}"
         moving = self.owner(string.holder)
