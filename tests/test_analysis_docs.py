@@ -18,3 +18,4 @@ def test_the_manuals_python_runs() -> None:
     assert names["regulator"].K.shape == (1, 4)  # type: ignore[attr-defined]
     assert names["hover"].A.shape == (12, 12)  # type: ignore[attr-defined]
     assert abs(names["run"]["hull_x"][-1]) < 0.01  # type: ignore[index]
+    assert names["anywhere"][0].moves == ("hull_qz", "hull_qw")  # type: ignore[index]

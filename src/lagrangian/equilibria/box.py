@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.equilibria.orientations import SIDE as ORIENTED
 from lagrangian.errors import RunError
 from lagrangian.model.elements import answers
 from lagrangian.values.dimensions import LENGTH, NONE, Dim
@@ -64,9 +65,11 @@ def make_box(
     asked: Mapping[Any, Any] | None,
     turns: NDArray[np.bool_],
     charge: float | None = None,
+    quaternions: Sequence[int] = (),
 ) -> Box:
     """The box that the user gave; by default (−π, π] for angles, and a multiple of the lengths of the parameters for
-    the rest; ``charge`` is the largest charge of a capacitor, if that is known. A name with a prime is a current."""
+    the rest; ``charge`` is the largest charge of a capacitor, if that is known. A name with a prime is a current;
+    ``quaternions`` are the places of their entries."""
     low, high, told = np.empty(len(names)), np.empty(len(names)), np.zeros(len(names), bool)
     dims = tuple(given.states.dims[given.states.names.index(name)] for name in names)
     sides = _sides(names, dims, asked)
@@ -81,6 +84,7 @@ def make_box(
             told[k] = True
             continue
         half = np.pi if turns[k] or dims[k] == NONE else reach.get(dims[k] or LENGTH, reach[LENGTH])
+        half = ORIENTED if k in quaternions else half
         low[k], high[k] = 0.0 if distances[k] else -half, half
     return Box(names, low, high, turns, told, distances)
 

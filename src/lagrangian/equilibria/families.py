@@ -128,13 +128,14 @@ def _size(q: Array) -> Array:
 
 def _simplest(search: Search, path: Array) -> Array:
     """The root of a curve nearest to 0, wherever the roots of ``path`` lie on it; of several, that of the greatest
-    first coordinate."""
+    first coordinate (``search.last``: last)."""
     sizes = _size(path)
     near = sizes <= sizes.min() + STRIDE * search.width.sum()
     before, after = np.append(np.inf, sizes[:-1]), np.append(sizes[1:], np.inf)
     lowest = np.flatnonzero(near & (sizes <= before) & (sizes <= after))
     refined = [_refined(search, path, int(k)) for k in lowest]
-    return min(refined, key=lambda q: (round(float(_size(q)), 9), (-q.round(9)).tolist()))
+    order = -1 if search.last else 1
+    return min(refined, key=lambda q: (round(float(_size(q)), 9), (-q.round(9))[::order].tolist()))
 
 
 def _refined(search: Search, path: Array, k: int) -> Array:

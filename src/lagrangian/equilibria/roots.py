@@ -47,7 +47,8 @@ class Search:
     """The search in the coordinates ``seek`` of q; the others keep the values of ``base``.
 
     ``scale`` (m,) is the size of each entry of h, ``width`` (n,) that of the box, and ``turns`` marks the coordinates
-    that are periodic with a whole turn.
+    that are periodic with a whole turn. ``last``: of equally simple roots of a family that of the greatest last
+    coordinate is taken, which for a quaternion is the one that is not turned; otherwise that of the greatest first.
     """
 
     forces: Forces
@@ -56,6 +57,7 @@ class Search:
     scale: Array
     width: Array
     turns: NDArray[np.bool_]
+    last: bool = False
 
     def residual(self, q: Array) -> Array:
         """The largest entry of h relative to its size, for every q (N, n)."""

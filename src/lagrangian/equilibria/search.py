@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
@@ -20,6 +20,7 @@ from lagrangian import dynamics
 from lagrangian.equilibria.box import Box, make_box
 from lagrangian.equilibria.currents import largest_charge, slopes, split_state, steady_currents, without_charges
 from lagrangian.equilibria.families import Family, split
+from lagrangian.equilibria.orientations import SoughtOrientations
 from lagrangian.equilibria.points import Equilibria, Equilibrium
 from lagrangian.equilibria.roots import ENOUGH, EXACT, Forces, Search, distinct, starting_points
 from lagrangian.equilibria.rows import LARGE, HeldForces
@@ -110,14 +111,17 @@ class _Task:
     steady: tuple[int, ...] = ()
     """The charges whose currents are sought."""
 
+    orientations: SoughtOrientations = field(default_factory=SoughtOrientations)
+    """The quaternions of floating frames."""
+
     def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
         """An equilibrium with its verdict; None if it is outside the box, or is not an equilibrium at other times."""
         count = hits.get(q.tobytes(), 0)
-        q, inside = self.box.placed(q)
+        q, inside = self.box.placed(self.orientations.signed(q[None])[0])
         if not inside or not self._rests_always(q):
             return None
         q = self.without_rounding(q)
-        x = np.concatenate(split_state(q, self.steady))
+        x = np.concatenate(self.state(q))
         names = self.box.names
         return Equilibrium(
             at=dict(zip(self.linearizer.rates.inputs["x"], x.tolist(), strict=True)),
@@ -130,6 +134,10 @@ class _Task:
             dimension=0 if family is None else family.dimension,
             multipliers={} if self.held_forces is None else self.held_forces.multipliers(q),
         )
+
+    def state(self, q: Array) -> tuple[Array, Array]:
+        """q and v of what is sought."""
+        return (q, self.orientations.resting(q)) if self.orientations else split_state(q, self.steady)
 
     def without_rounding(self, q: Array) -> Array:
         """A root with 0 where only rounding is left."""
@@ -144,11 +152,11 @@ class _Task:
     def is_singular(self, q: Array) -> bool:
         """Whether M is singular at q: then h = 0 says nothing, because these coordinates do not describe the
         neighbourhood."""
-        at, v = split_state(q, self.steady)
+        at, v = self.state(q)
         M = self.linearizer.values(self.linearizer.mass, q=at, v=v, u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
-        width = self.search.width
+        width = self.orientations.widths(self.search.width)
         if self.linearizer.manifold is not None:
             try:
                 tangent = self.linearizer.manifold.tangent(np.concatenate([q, 0 * q]), self.p, 0.0)
@@ -175,9 +183,9 @@ class _Task:
                 if np.abs(self.held_forces(q[None], t)[0]).max(initial=0.0) > 1e3 * EXACT:
                     return False
                 continue
-            at, v = split_state(q, self.steady)
+            at, v = self.state(q)
             h = self.linearizer.values(program, q=at, v=v, u=self.u, p=self.p, t=t)["h"]
-            if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
+            if np.abs(h / self.search.scale[: len(h)]).max(initial=0.0) > 1e3 * EXACT:
                 return False
         return True
 
@@ -187,19 +195,15 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     given = Given.of(model, linearizer.rates)
     u, p = given.input_values(inputs), given.parameter_values(params)
     program = linearizer.forces
-    if len(program.inputs["q"]) != len(program.inputs["v"]):
-        raise RunError(
-            f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
-            fix="describe its orientation by three angles instead (frames about axes)",
-            code="E202",
-        )
+    orientations = SoughtOrientations.of(model)
     steady = steady_currents(linearizer)
     names = tuple(f"{name}'" if k in steady else name for k, name in enumerate(program.inputs["q"]))
     charge = largest_charge(model, dict(zip(model.parameters, p.tolist(), strict=True)), u) if model.charges else None
-    box = make_box(given, names, asked, _turning(linearizer, u, p), charge)
+    turning = _turning(linearizer, u, p, orientations)
+    box = make_box(given, names, asked, turning, charge, orientations.entries)
     starts, held_forces = starting_points(64, box.low, box.high), None
     if linearizer.manifold is None:
-        forces = _forces(program, u, p, steady)
+        forces = _forces(program, u, p, steady, orientations)
     else:
         forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale)
     h, K = forces(starts)
@@ -208,29 +212,29 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)
     seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
     free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
-    search = Search(forces, box.centre(), seek, scale, width, box.turns)
-    return _Task(model, box, search, free, held, linearizer, u, p, held_forces, steady)
+    search = Search(forces, box.centre(), seek, scale, width, box.turns, last=bool(orientations))
+    return _Task(model, box, search, free, held, linearizer, u, p, held_forces, steady, orientations)
 
 
-def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
+def _turning(linearizer: Linearizer, u: Array, p: Array, orientations: SoughtOrientations) -> NDArray[np.bool_]:
     """The coordinates in which h, ∂h/∂q and M are periodic with a whole turn."""
     n = len(linearizer.forces.inputs["q"])
     source = np.random.default_rng(4)
     same, fixed = np.ones(n, bool), np.ones(n, bool)
     for _ in range(3):
         q = source.uniform(-1, 1, n)
-        here = _all_forces(linearizer, q, u, p)
+        here = _all_forces(linearizer, q, u, p, orientations)
         if not np.isfinite(here).all():
             return np.zeros(n, bool)
         for k in range(n):
             for shift, found in ((2 * np.pi, same), (1.0, fixed)):
-                there = _all_forces(linearizer, q + shift * (np.arange(n) == k), u, p)
+                there = _all_forces(linearizer, q + shift * (np.arange(n) == k), u, p, orientations)
                 found[k] &= np.allclose(here, there, rtol=1e-9, atol=1e-9 * float(np.abs(here).max(initial=0.0)))
     return same & ~fixed
 
 
-def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
-    groups = {"q": q, "v": np.zeros_like(q), "u": u, "p": p, "t": 0.0}
+def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array, orientations: SoughtOrientations) -> Array:
+    groups = {"q": q, "v": orientations.resting(q), "u": u, "p": p, "t": 0.0}
     got = values(linearizer.forces, **groups)
     found = [got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()]
     if linearizer.manifold is not None:
@@ -251,7 +255,7 @@ def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], in
         if count == 0:
             q = np.concatenate([q, _corners(task)])
         q[:, task.held] = search.base[task.held]
-        found = np.concatenate([found, search.roots(q)])
+        found = np.concatenate([found, task.orientations.signed(search.roots(q))])
         count += len(q)
         roots, hits = distinct(search, found)
         settled = asked is not None or len(roots) == before
@@ -311,7 +315,8 @@ def _notes(
         listed.append(f"there is no {'other ' if left_out else ''}rest in the box that satisfies the constraints")
     elif not found:
         h, _ = task.search.forces(starting_points(256, task.box.low, task.box.high))
-        one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
+        rows = zip(task.box.names, h.T, strict=True) if not task.orientations else ()  # whose h is along velocities
+        one_sided = [n for n, row in rows if (row > 0).all() or (row < 0).all()]
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
         listed.append(f"there is no {'other ' if left_out else ''}rest in the box{why}")
     elif not sure and not any(e.dimension for e in found):
@@ -337,16 +342,18 @@ def _kernel(program: Program, *names: str) -> machine.Kernel:
     return machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
 
 
-def _forces(program: Program, u: Array, p: Array, steady: tuple[int, ...]) -> Forces:
+def _forces(program: Program, u: Array, p: Array, steady: tuple[int, ...], orientations: SoughtOrientations) -> Forces:
     """h and K at rest, or with steady currents, in machine code; where they are not finite, h is `LARGE` and K is 0."""
     kernel = _kernel(program, "h", "K", *(["D"] if steady else []))
 
     def forces(z: Array) -> tuple[Array, Array]:
-        q, v = split_state(z, steady)
+        q, v = (z, orientations.resting(z)) if orientations else split_state(z, steady)
         got = kernel(q, v, u, p, 0.0)
         h, K = np.array(got["h"]), np.array(got["K"])
         if steady:
             K = slopes(K, np.array(got["D"]), steady)
+        if orientations:
+            h, K = orientations.with_lengths(z, h, K)
         bad = (np.abs(h) >= LARGE).any(axis=1) | (np.abs(K) >= LARGE).any(axis=(1, 2))
         h[bad], K[bad] = LARGE, 0.0
         return h, K
