@@ -83,7 +83,8 @@ def _corrections(mutator: Mutator, parts: list[Any]) -> Iterator[sp.Expr]:
     """What must be added to a wrong line, as the words say; several if the words leave open what is meant."""
     t, rest = parts[1], parts[2:]
     words = "".join(x if isinstance(x, str) else "§" for x in rest)
-    others = [x for x in rest if not isinstance(x, str) and x not in mutator.q]
+    named = [x for x in rest if not isinstance(x, str)]
+    others = [x for x in named if x not in mutator.q] or named  # a factor may be a coordinate
     words = re.sub(r"^ of (the equation of §|[^.,]*?)(?= (is|are|has|have|counts?|stands?|should|there) )", "", words)
     for pattern, number in UNDONE.items():
         if re.search(pattern, words):

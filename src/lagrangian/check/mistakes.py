@@ -205,9 +205,7 @@ def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm)
     """A slip in what a row was solved for, in words."""
     if isinstance(found, OwnTerm):
         return said_of(truth, found.mistake(truth), expr)
-    first, *more = [_mistake(truth, t, None) for t in found.told]
-    what = text(*first.what.parts, *(x for m in more for x in (" And: ", *m.what.parts)))
-    return said_of(truth, replace(first, what=what), expr)
+    return said_of(truth, _mistake(truth, found.told[0], None), expr)
 
 
 def _contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:

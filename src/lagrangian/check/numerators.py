@@ -19,7 +19,7 @@ from lagrangian.check.changes.pool import Pool
 from lagrangian.check.own_terms import OwnTerm, foreign_names, in_place
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
-from lagrangian.check.search import EXOTIC, SMALL, Explanation, Vectors, simple_number, singles
+from lagrangian.check.search import EXOTIC, SMALL, Explanation, simple_number, singles
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
@@ -85,10 +85,7 @@ def in_numerator(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], list[Own
     own = _own(pool, row)
     if own is not None and (own.cost <= SURE or not explained or own.cost < explained[0].cost):
         return [], [own]
-    if explained and explained[0].cost <= EXOTIC:
-        return explained, []
-    pairs = Vectors(pool, effects).pairs(-row.rest)
-    return sorted([*explained, *pairs], key=lambda e: e.cost), []
+    return [e for e in explained if e.cost <= EXOTIC], []  # a pair that fits one row alone may be an accident
 
 
 def multiplied(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
