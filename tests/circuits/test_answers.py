@@ -6,6 +6,8 @@ import pytest
 
 import built_in
 
+pytestmark = pytest.mark.slow
+
 CIRCUIT = "(L_1 + L_0*(1 - tanh(q'/i_0)^2)/(1 + y/a))*q''{} + R*q' = u"
 BY_POSITION = " - L_0*i_0*tanh(q'/i_0)*y'/(a*(1 + y/a)^2)"
 BALL = "m*y'' + b*y' - m*g{} = 0"

@@ -12,6 +12,8 @@ import sympy as sp
 import built_in
 import lagrangian as lg
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_capacitive_actuator_snaps_at_a_third_of_its_gap() -> None:
     """Senturia, Microsystem Design (2001), section 6.4: V² = 8 k d³/(27 ε A), x = d/3."""
@@ -80,7 +82,6 @@ def test_a_motor_holds_its_arm_at_the_angle_at_which_its_torque_is_the_weights()
     assert np.abs(run.imbalance).max() < 1e-9 * run.supplied.max()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", built_in.CIRCUITS)
 def test_machines_are_verified_compiled_saved_and_read_again(name: str, tmp_path: Any) -> None:
     s = built_in.system(name)
@@ -137,7 +138,6 @@ def test_coils_that_share_more_flux_than_they_have_are_told() -> None:
         free.linearize(params={"L": 1, "M": 2})
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", built_in.CIRCUITS)
 def test_exercises_about_machines_have_variants(name: str) -> None:
     for seed in range(3):

@@ -77,6 +77,7 @@ def test_entries_of_m_that_depend_on_rates_have_no_part_in_c(found: tuple[lg.Sys
     assert all(check.holds for check in d.verified), [c for c in d.verified if not c.holds]
 
 
+@pytest.mark.slow
 def test_the_energy_of_a_run_is_t_and_v_not_the_co_energy(found: tuple[lg.System, lg.Derivation]) -> None:
     s, _ = found
     run = s.simulate(0.03, initial={"x": 0.01}, inputs={"u": 15}, samples=61)
@@ -90,6 +91,7 @@ def test_the_energy_of_a_run_is_t_and_v_not_the_co_energy(found: tuple[lg.System
     assert np.allclose(run[s.energy], stored + run["0.05*x'^2"] - 0.1 * 9.81 * x, rtol=1e-10, atol=1e-12)
 
 
+@pytest.mark.slow
 def test_laws_and_co_energies_say_the_same() -> None:
     """ψ by its law, by its co-energy and, where it is linear, by L; a law with a closed integral is integrated."""
 
