@@ -118,3 +118,12 @@ def test_the_target_is_said_where_an_ending_has_several(tmp_path: pathlib.Path) 
         s.export(tmp_path / "p.m", to="jax")
     with pytest.raises(lg.ModelError, match="no export to 'rust'"):
         s.export(tmp_path / "p.rs", to="rust")
+
+
+@pytest.mark.parametrize(
+    ("target", "file"), [("jax", "jax.py"), ("casadi", "numpy.py"), ("modelica", "model.mo"), ("simulink", "int.c")]
+)
+def test_names_with_another_meaning_are_refused(target: str, file: str, tmp_path: pathlib.Path) -> None:
+    with pytest.raises(lg.ModelError, match="it has a meaning there"):
+        built_in.system("pendulum").export(tmp_path / file, to=target)
+    assert not list(tmp_path.iterdir())

@@ -9,21 +9,14 @@ from dataclasses import dataclass
 from lagrangian.codegen.labels import WORD, comment
 from lagrangian.codegen.modelica import needed_functions, to_modelica
 from lagrangian.errors import Error
+from lagrangian.export.names import WORDS_OF_MODELICA
 from lagrangian.export.programs import coordinates_listed, program_of, unit_table
 from lagrangian.export.start import Start, start_of
 from lagrangian.model import Model
 
-RESERVED = frozenset(
-    """
-    algorithm and annotation assert block break class connect connector constant constrainedby der discrete each else
-    elseif elsewhen encapsulated end enumeration equation expandable extends external false final flow for function if
-    import impure in initial inner input loop model not operator or outer output package parameter partial protected
-    public pure record redeclare replaceable return stream then true type when while within
-    Boolean Integer Real String abs acos asin atan atan2 ceil cos cosh delay div edge exp floor homotopy integer log
-    log10 max min mod noEvent pre reinit rem sample semiLinear sign sin sinh smooth sqrt tan tanh terminal terminate
-    time inverse_sinh inverse_cosh inverse_tanh energy_kinetic energy_potential
-    """.split()  # noqa: SIM905
-)
+RESERVED = WORDS_OF_MODELICA | {
+    *("inverse_sinh", "inverse_cosh", "inverse_tanh", "energy_kinetic", "energy_potential"),
+}
 """Words that cannot name a variable, and those of this file."""
 
 UNIT = re.compile(r"[A-Za-z]+(\^[0-9])?( [A-Za-z]+(\^[0-9])?)*(/[A-Za-z]+(\^[0-9])?)?", re.ASCII)

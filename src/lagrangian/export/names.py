@@ -7,6 +7,30 @@ from lagrangian.errors import ModelError
 LONGEST_STEM = 200
 """The largest number of characters before the ending of a source file, so that file systems accept the name."""
 
+MODULES = frozenset(("jax", "jaxlib", "casadi", "numpy", "scipy", "json", "math", "typing"))
+"""Modules that exported ones import, or these again: a file of that name would be found in their place."""
+
+WORDS_OF_C = frozenset(
+    """
+    auto break case char const continue default do double else enum extern float for goto if inline int long register
+    restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    """.split()  # noqa: SIM905
+)
+"""Words of C, which cannot name an S-function."""
+
+WORDS_OF_MODELICA = frozenset(
+    """
+    algorithm and annotation assert block break class connect connector constant constrainedby der discrete each else
+    elseif elsewhen encapsulated end enumeration equation expandable extends external false final flow for function if
+    import impure in initial inner input loop model not operator or outer output package parameter partial protected
+    public pure record redeclare replaceable return stream then true type when while within
+    Boolean Integer Real String abs acos asin atan atan2 ceil cos cosh delay div edge exp floor homotopy integer log
+    log10 max min mod noEvent pre reinit rem sample semiLinear sign sin sinh smooth sqrt tan tanh terminal terminate
+    time
+    """.split()  # noqa: SIM905
+)
+"""Words and functions of Modelica, which cannot name a model or a variable."""
+
 
 def check_stem(stem: str, longest: int = LONGEST_STEM, why: str = "") -> None:
     """Raise `ModelError` for a name after which functions cannot be called, or that is longer than ``longest``."""

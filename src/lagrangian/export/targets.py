@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TypeAlias
 
 from lagrangian.errors import ModelError
-from lagrangian.export.names import LONGEST_STEM, check_stem
+from lagrangian.export.names import LONGEST_STEM, MODULES, WORDS_OF_C, WORDS_OF_MODELICA, check_stem
 from lagrangian.model import Model
 
 _log = logging.getLogger(__name__)
@@ -23,6 +23,7 @@ class ExportTarget:
     """A language or a program: the ending of its main file, and the longest name that it takes.
 
     ``module`` is the file of this room that writes it, by its function ``files``; it is imported when it is needed.
+    ``reserved`` are names that the target has another use for.
     ``whole``: the files contain the right-hand side, multipliers and residuals as well (`programs.exported`).
     """
 
@@ -30,6 +31,7 @@ class ExportTarget:
     module: str
     longest: int = LONGEST_STEM
     whole: bool = True
+    reserved: frozenset[str] = frozenset()
 
     def write(self, model: Model, stem: str) -> Files:
         """Everything that is written, as file name → text or bytes."""
@@ -43,11 +45,11 @@ TARGETS: dict[str, ExportTarget] = {
     "javascript": ExportTarget(".js", "javascript", whole=False),
     "wasm": ExportTarget(".wasm", "wasm"),
     "matlab": ExportTarget(".m", "matlab", longest=50),  # MATLAB reads 63 characters of stem_mass_matrix
-    "jax": ExportTarget(".py", "jax_module"),
-    "casadi": ExportTarget(".py", "casadi_module"),
+    "jax": ExportTarget(".py", "jax_module", reserved=MODULES),
+    "casadi": ExportTarget(".py", "casadi_module", reserved=MODULES),
     "julia": ExportTarget(".jl", "julia_module"),
-    "simulink": ExportTarget(".c", "simulink.sfunction", longest=50),
-    "modelica": ExportTarget(".mo", "modelica"),
+    "simulink": ExportTarget(".c", "simulink.sfunction", longest=50, reserved=WORDS_OF_C),
+    "modelica": ExportTarget(".mo", "modelica", reserved=WORDS_OF_MODELICA),
     "fmu2": ExportTarget(".fmu", "fmu.fmu2"),
     "fmu3": ExportTarget(".fmu", "fmu.fmu3"),
 }
@@ -86,6 +88,12 @@ def exported_files(model: Model, language: str, stem: str) -> Files:
     """
     _known(language)
     check_stem(stem, TARGETS[language].longest, f" in {language}" if TARGETS[language].longest < LONGEST_STEM else "")
+    if stem in TARGETS[language].reserved:
+        raise ModelError(
+            f"'{stem}' cannot name files for {language}: it has a meaning there",
+            fix=f"use another name, such as {stem}_system",
+            code="E702",
+        )
     _log.info("writing %s", language)
     return TARGETS[language].write(model, stem)
 
