@@ -16,6 +16,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
+    from lagrangian.fit.base_parameters import BaseParameters
     from lagrangian.fit.result import Fit
     from lagrangian.fit.uncertainty import Undetermined
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
@@ -54,6 +55,7 @@ else:
             "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
+            "fit.base_parameters": "BaseParameters",
             "fit.result": "Fit",
             "fit.uncertainty": "Undetermined",
             "invariants.canonical_forms": "Hamiltonian Routhian",
@@ -84,6 +86,7 @@ else:
 __all__ = [
     "Animation",
     "Audit",
+    "BaseParameters",
     "Check",
     "CheckedAnswer",
     "CheckedClass",

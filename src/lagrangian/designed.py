@@ -12,6 +12,7 @@ from lagrangian.simulated import Simulated
 if TYPE_CHECKING:  # imported here only for types: describing a system does not have to wait for SciPy
     from numpy.typing import ArrayLike
 
+    from lagrangian.fit.base_parameters import BaseParameters
     from lagrangian.fit.result import Fit
     from lagrangian.optimize.result import Optimum
     from lagrangian.simulate.events import Event
@@ -136,3 +137,20 @@ class Designed(Simulated):
         }  # fmt: skip
         options = OptimizeOptions(final, integral, reach, bounds, initial, params, inputs, max_evaluations, tolerance)
         return optimize(self.model, unknowns, options, initial_by_name, run_options)
+
+    def base_parameters(self, params: Mapping[Any, Any] | None = None) -> BaseParameters:
+        """Return the combinations of masses, first moments and inertias on which the motion depends.
+
+        >>> from lagrangian import example
+        >>> arm = example("robot-arm").base_parameters()
+        >>> len(arm), len(arm.names)
+        (15, 30)
+
+        Nothing else of them can be found from any motion. `BaseParameters.regressor` is the matrix Y_b of
+        Y_b(q, v, v̇) π_b = generalized forces, with which they are found by linear least squares. Lengths and g need
+        values, in ``params`` or declared; masses and inertias do not. Raises `ModelError` for a system without bodies,
+        and `RunError` for lengths without values.
+        """
+        from lagrangian.fit.base_parameters import base_parameters
+
+        return base_parameters(self.model, params)
