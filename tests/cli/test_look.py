@@ -9,6 +9,8 @@ import sys
 
 import pytest
 
+import lagrangian as lg
+from lagrangian import examples
 from lagrangian.cli import main
 
 
@@ -84,3 +86,15 @@ def test_a_name_that_does_not_exist_is_an_error(
     code, _, err = call(capsys, "look", "-e", "pendulum", "-o", str(tmp_path / "a.svg"), option, name)
     assert code == 2
     assert err.startswith("error:") and name.partition("=")[0] in err
+
+
+def test_hints_of_the_file_hold_unless_an_option_replaces_them(tmp_path: pathlib.Path) -> None:
+    """The weight is hidden by the file; an option that hides the coordinate instead shows it again."""
+    file, out = tmp_path / "pendulum.toml", tmp_path / "a.svg"
+    gravity = next(e.name for e in lg.example("pendulum").model.elements if e.kind == "gravity")
+    file.write_text(f'{examples.text("pendulum")}\n[look]\nhide = ["{gravity}"]\n', encoding="utf-8")
+    shown: list[bool] = []
+    for options in ([], ["--hide", "theta"]):
+        assert main(["look", str(file), "-o", str(out), "--force", *options]) == 0
+        shown.append("kind-gravity" in out.read_text(encoding="utf-8"))
+    assert shown == [False, True]
