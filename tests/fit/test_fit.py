@@ -185,6 +185,8 @@ GOOD = {"t": T, "x": 0.8 * T}
         (GOOD, ["m"], {"bounds": {"m": (2, 1)}}, "E501", "are empty"),
         (GOOD, ["m"], {"bounds": {"m": (3, 4)}}, "E501", "not between its bounds"),
         (GOOD, ["m"], {"bounds": 3}, "E501", "a mapping"),
+        (GOOD, ["m"], {"inputs": 3}, "E501", "inputs must be a mapping"),
+        (GOOD, ["m"], {"params": [1.0, 2.0]}, "E501", "params must be a mapping"),
         (GOOD, ["m"], {"start": 1.0}, "E501", "after the first sample"),
         (GOOD, ["m"], {"max_evaluations": 0}, "E501", "whole number"),
         (GOOD, ["m"], {"y": 1.0}, "E402", "no option or state 'y'"),

@@ -95,6 +95,8 @@ def test_what_cannot_be_reached_is_no_success() -> None:
         ({"x": np.inf}, {"final": "x"}, "E502", "first guess of 'x'"),
         ("F", {"final": "x", "tolerance": 2}, "E501", "between 0 and 1"),
         ("F", {"final": "x", "max_evaluations": 1.5}, "E501", "whole number"),
+        ("F", {"final": "x", "params": 3}, "E501", "params must be a mapping"),
+        ("F", {"final": "x", "inputs": [1]}, "E501", "inputs must be a mapping"),
         ("F", {"final": "x", "y": 2}, "E402", "no option or state 'y'"),
         ("F", {"final": "x", "inputs": {"F": lambda t, x: 0.0}}, "E501", "Python function"),
         ("F", {"final": "x", "inputs": {"F": "-x"}}, "E501", "an expression of time and state"),

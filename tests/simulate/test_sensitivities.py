@@ -179,6 +179,9 @@ def test_what_has_no_derivative_is_refused() -> None:
         found["x", "b"]
     with pytest.raises(lg.Error, match="a name or an expression"):
         found[3]
+    with pytest.raises(lg.RunError, match="outputs must be a mapping"):
+        found.observe(3)  # type: ignore[arg-type]
+    assert found.observe({"square": "x^2"})["square"].shape == (1001, 1)
 
 
 def test_constraints_and_dry_friction_are_refused() -> None:

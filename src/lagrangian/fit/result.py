@@ -16,8 +16,9 @@ from lagrangian.model import Model
 from lagrangian.page.figures import figure, or_none
 from lagrangian.page.formula import Item, Table, text
 from lagrangian.page.report import Part, Report
+from lagrangian.simulate.guesses import by_key
 from lagrangian.simulate.trajectory import Trajectory
-from lagrangian.values.values import key_name
+from lagrangian.values.values import key_name, number
 from lagrangian.viewed import Entries
 from lagrangian.write.written import Written
 
@@ -92,7 +93,7 @@ class Fit(Written):
         The quantile is n F(n, dof), or χ²(n) if ``sigma`` was given. Raises `RunError` if a name is missing, or if an
         unknown is not determined.
         """
-        given = {key_name(key): float(value) for key, value in values.items()}
+        given = {name: number(value, f"the value of '{name}'") for name, value in by_key(values, "values").items()}
         if missing := [name for name in self.names if name not in given]:
             raise RunError(f"there is no value of '{missing[0]}'", fix="give one for every unknown", code="E401")
         if not np.isfinite(self.covariance).all() or self.at_bound:

@@ -17,7 +17,7 @@ from lagrangian.fit.problem import FitProblem, FittedRun
 from lagrangian.fit.result import Fit, residuals_of
 from lagrangian.fit.uncertainty import Uncertainty, uncertainty
 from lagrangian.model import Model
-from lagrangian.simulate.guesses import Bounds, check_inside, guessed, limits, quantity_value
+from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.settings import RunSettings, check_names, whole
 from lagrangian.simulate.simulation import OPTIONS, named, run_of, simulate
@@ -183,8 +183,8 @@ def _first_run(
     params = {name: x for name, x in guess.items() if name in given.parameters.names}
     driven = {name: x for name, x in guess.items() if name in given.inputs.names}
     initial = given.states.values(_of_run(options.initial, k, count, "initial")) | given.states.values(by_name)
-    fixed = given.parameters.values(_of_run(options.params, k, count, "params"))
-    inputs = dict(_of_run(options.inputs, k, count, "inputs") or {}) | driven
+    fixed = given.parameters.values(by_key(_of_run(options.params, k, count, "params"), "params"))
+    inputs = by_key(_of_run(options.inputs, k, count, "inputs"), "inputs") | driven
     settings = RunSettings(times=run.t, start=begin, **run_options)
     made = simulate(model, settings, initial=initial | states, params=fixed | params, inputs=inputs or None, by_name={})
     if not made.success:

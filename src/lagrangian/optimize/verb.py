@@ -16,7 +16,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model, as_expr
 from lagrangian.optimize.objective import FAR, Goal, Objective
 from lagrangian.optimize.result import Optimum
-from lagrangian.simulate.guesses import Bounds, check_inside, guessed, limits, quantity_value
+from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.inputs import SampledInput
 from lagrangian.simulate.integrating import Task
 from lagrangian.simulate.quantities import quantity
@@ -136,8 +136,8 @@ def _first_run(
 ) -> tuple[Task, Mapping[str, Any]]:
     """What is integrated with the first guesses. Raises what `System.simulate` raises."""
     known = (*given.parameters.names, *given.states.names, *given.inputs.names)
-    initial, params = given.states.values(options.initial) | given.states.values(by_name), dict(options.params or {})
-    inputs = {key_name(key): value for key, value in dict(options.inputs or {}).items()}
+    initial = given.states.values(options.initial) | given.states.values(by_name)
+    params, inputs = by_key(options.params, "params"), by_key(options.inputs, "inputs")
     for name, guess in guesses.items():
         if name not in known:
             fix = did_you_mean(name, known) or f"parameters, states, inputs: {', '.join(known[:16])}"

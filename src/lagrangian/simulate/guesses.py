@@ -39,6 +39,19 @@ def guessed(given: Any, what: str = "parameters") -> dict[str, Any]:
     return found
 
 
+def by_key(given: Any, what: str) -> dict[str, Any]:
+    """A mapping with names as keys, empty for None; raises `RunError` for anything else."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise RunError(
+            f"{what} must be a mapping from names to values (got {type(given).__name__})",
+            fix="such as {'m1': 0.8}",
+            code="E501",
+        )
+    return {key_name(key): value for key, value in given.items()}
+
+
 def limits(bounds: Any, names: Sequence[str], owners: Sequence[str], given: Given) -> Bounds:
     """Lower and upper bounds of unknowns from a mapping name → (low, high), in which None is no bound.
 

@@ -15,6 +15,7 @@ from lagrangian import dynamics
 from lagrangian.calls import Guided
 from lagrangian.errors import ModelError, NoSuchEntry, RunError
 from lagrangian.model import Point, as_expr
+from lagrangian.simulate.guesses import by_key
 from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.varied import Columns, VariedRun, columns_of, varied_run, with_signals
 from lagrangian.values.values import key_name
@@ -90,8 +91,10 @@ class Sensitivities(Guided):
         return self.observe({"asked": asked})["asked"]
 
     def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
-        """Return the derivatives of several expressions or points at once, by name, each (S, …, k)."""
-        asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in outputs.items()}
+        """Return the derivatives of several expressions (SymPy or text) or points at once, by name, each (S, …, k)."""
+        given = by_key(outputs, "outputs")
+        read = {k: quantity(self._task.model, x, f"'{k}'") if isinstance(x, str) else x for k, x in given.items()}
+        asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in read.items()}
         found = observed(self._task, self._columns, self._run, asked)
         return {name: found[f"change of {name}"] for name in asked}
 
