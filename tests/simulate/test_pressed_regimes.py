@@ -44,6 +44,7 @@ def test_what_needs_a_smooth_system_says_which_regimes_are_smooth(question: str)
     assert caught.value.code == "E311" and "regime({'rough': 0})" in str(caught.value)
 
 
+@pytest.mark.slow
 def test_in_a_regime_answers_are_checked_with_the_multiplier_in_the_friction() -> None:
     """Down the rod: λ < 0 and δ̇ < 0, so the friction along (cos α, sin α) is −μ λ."""
     slipping = bead().regime(rough=-1, rod=-1)
@@ -52,6 +53,9 @@ def test_in_a_regime_answers_are_checked_with_the_multiplier_in_the_friction() -
     assert slipping.check("x''*cos(alpha) + y''*sin(alpha) = g*(mu*cos(alpha) - sin(alpha)); "
                           "x''*sin(alpha) = y''*cos(alpha)").right  # fmt: skip
     assert not slipping.check(right.replace("- mu*lam*cos", "+ mu*lam*cos")).right
+    size = "m*x'' = N*sin(alpha) + mu*abs(N)*cos(alpha); m*y'' = -m*g - N*cos(alpha) + mu*abs(N)*sin(alpha)"
+    assert slipping.check(size).right
+    assert not slipping.check(size.replace("+ mu*abs", "- mu*abs")).right
 
 
 def test_in_a_regime_the_acceleration_is_the_drift_of_a_linearization_and_no_energy_is_conserved() -> None:

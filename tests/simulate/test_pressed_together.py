@@ -211,3 +211,15 @@ def test_the_reaction_of_a_joint_without_rows_holds_the_friction_that_rows_press
     rail = run.reaction("cart").force
     assert rail[:, 1] == pytest.approx(3 * G + 2 * (run["y''"] + G), abs=1e-9)
     assert 3 * run["w''"] == pytest.approx(-run["pin.x"], abs=1e-9)
+
+
+@pytest.mark.slow
+def test_answers_may_hold_the_size_of_their_multipliers() -> None:
+    """X and Y of any common scale, and any sign each; the friction must oppose the slip, and its size must be right."""
+    slipping = journal(0.15).regime(dry=1)
+    moving = "m*x'' = X; m*y'' = Y - 9.81*m; J*theta'' = -a*cos(theta)*X - a*sin(theta)*Y"
+    right = moving + " - mu*r*sqrt(X^2 + Y^2)"
+    assert slipping.check(right).right
+    assert slipping.check(moving.replace("X", "-2*X").replace("Y", "2*Y") + " - 2*mu*r*sqrt(X^2 + Y^2)").right
+    assert not slipping.check(moving + " + mu*r*sqrt(X^2 + Y^2)").right
+    assert not slipping.check(moving + " - 2*mu*r*sqrt(X^2 + Y^2)").right

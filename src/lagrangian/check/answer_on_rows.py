@@ -12,6 +12,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
+from lagrangian.check.pressed import directions
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive import Derived
@@ -73,6 +74,7 @@ class AnswerOnRows:
         n, coordinates = self.truth.n, self.coordinates
         a, rows, mass, lam = (evaluated(program, groups) for program in self.programs)
         state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
+        state.update(directions(self.truth.model, lam["lam"]))
         changes = [*(c.acceleration for c in coordinates), *self.unknown]
         still = {**state, **dict.fromkeys(self.unknown, 0.0)}
         value = self._values(still)

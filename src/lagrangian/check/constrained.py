@@ -9,6 +9,7 @@ Both are decided by numbers, at random states.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import TypeAlias, cast
 
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.answer_on_rows import AnswerAt, AnswerOnRows
+from lagrangian.check.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.reference import Reference
 from lagrangian.check.spelling import not_there
 from lagrangian.check.stated import judge
@@ -47,12 +49,39 @@ MOST = 10
 
 def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
     """Return the verdict on an answer for a system with constraints."""
+    tried: list[Verdict] = []
+    for read in readings(truth.model, lines):
+        tried.append(_checked(truth, read.lines, hint))
+        if tried[-1].right and _as_read(truth, read):
+            return tried[-1]
+    if not tried:
+        return _checked(truth, lines, hint)
+    if opposite := next((found for found in tried if found.right), None):
+        said = text("The motion would be right if the friction had the opposite sign.")
+        return replace(opposite, status=Status.WRONG, notes=(said,))
+    return max(tried, key=lambda found: sum(finding.status.right for finding in found.findings))
+
+
+def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
     lines = [_in_rates(truth, _of_motion(truth, line)) for line in lines]
     first = _verdict(truth, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
     second = _verdict(truth, lines, hint, given=True)  # the numbers of an answer may be values of parameters
     return second if second.right else first
+
+
+def _as_read(truth: Reference, read: SizeReading) -> bool:
+    """Whether the multipliers of a right answer have the sizes that they were given."""
+    equations = [line for line in read.lines if line.kind == "equation"]
+    unknown = _unknown(truth, equations)
+    for given in (False, True):
+        places = _places(truth, equations, unknown, given=given)
+        if all(
+            read.fits(dict(zip(unknown, map(float, _solved(p)), strict=True)), p.multipliers.tolist()) for p in places
+        ):
+            return True
+    return False
 
 
 def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
@@ -141,7 +170,7 @@ def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
     model = truth.model
     known: set[sp.Basic] = {time}
     known |= {x.symbol for x in model.parameters}
-    known |= {x.symbol for x in (*model.coordinates, *model.inputs)}
+    known |= {x.symbol for x in (*model.coordinates, *model.inputs)} | direction_symbols(model)
     used: set[sp.Basic] = set()
     for line in lines:
         used |= {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
