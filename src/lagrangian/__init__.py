@@ -19,6 +19,8 @@ if _typing.TYPE_CHECKING:
     from lagrangian.fit.base_parameters import BaseParameters
     from lagrangian.fit.result import Fit
     from lagrangian.fit.uncertainty import Undetermined
+    from lagrangian.integrate.estimate import NotStarted as NotStarted
+    from lagrangian.integrate.estimate import SweepEstimate as SweepEstimate
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
     from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities
     from lagrangian.linear.along import MotionLinearization
@@ -59,6 +61,7 @@ else:
             "fit.result": "Fit",
             "fit.uncertainty": "Undetermined",
             "invariants.canonical_forms": "Hamiltonian Routhian",
+            "integrate.estimate": "NotStarted SweepEstimate",
             "invariants.conserved_quantities": "Conserved ConservedQuantities",
             "linear.along": "MotionLinearization",
             "linear.linearization": "Linearization",
@@ -116,6 +119,7 @@ __all__ = [
     "Mode",
     "ModelError",
     "MotionLinearization",
+    "NotStarted",
     "Notice",
     "Optimum",
     "Origin",
@@ -133,6 +137,7 @@ __all__ = [
     "Sensitivities",
     "Stability",
     "Step",
+    "SweepEstimate",
     "SymbolicLinearization",
     "System",
     "Trajectory",

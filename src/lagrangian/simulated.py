@@ -15,6 +15,7 @@ from lagrangian.describing import Described
 if TYPE_CHECKING:  # imported here only for types: describing a system does not have to wait for the integrators
     from numpy.typing import ArrayLike
 
+    from lagrangian.integrate.estimate import SweepEstimate
     from lagrangian.simulate.ensemble import Ensemble
     from lagrangian.simulate.events import Event
     from lagrangian.simulate.per_run import Outputs
@@ -129,6 +130,7 @@ class Simulated(Described):
         memory: int = 256 * 2**20,
         threads: int | None = None,
         progress: Callable[[int, int], None] | None = None,
+        confirm: Callable[[SweepEstimate], Any] | None = None,
         store: str | Path | None = None,
         resume: bool = False,
         overwrite: bool = False,
@@ -149,14 +151,13 @@ class Simulated(Described):
         reduced over time (`lagrangian.integrate.observe.REDUCTIONS`); None returns samples at ``times``, a number of
         times or an array. ``method``, ``rtol``, ``atol``, ``step`` and ``events`` are those of `simulate`.
 
-        ``memory`` [bytes] limits the memory in use at a time, ``threads`` the number of cores; ``progress(done, all)``
-        is called now and then. ``store="name.zarr"`` writes results to disk as they are computed, and ``resume=True``
-        continues an interrupted ensemble. ``scheduler`` is the address of a Dask scheduler. A run that fails has NaN
-        results and a negative status.
+        ``memory`` [bytes] limits the memory in use, ``threads`` the number of cores; ``progress(done, all)`` is called
+        now and then. ``confirm(estimate)`` is called first with a `lagrangian.SweepEstimate`; if it returns False,
+        `lagrangian.NotStarted` is raised. ``store="name.zarr"`` writes results as they are computed, ``resume=True``
+        continues. ``scheduler`` is the address of a Dask scheduler. A run that fails has NaN results.
 
-        ``settings`` is a `lagrangian.RunSettings` without a ``timeout``, with its own ``samples`` and ``max_events``
-        (100 000 by default, more than here); ``execution`` a `lagrangian.Execution`. No option of either can be given
-        beside it. Raises `RunError` for arguments that do not fit.
+        ``settings``: a `lagrangian.RunSettings` without ``timeout``, whose ``max_events`` is 100 000 by default;
+        ``execution``: a `lagrangian.Execution`; then without their options. Raises `RunError` for wrong arguments.
         """
         given = locals()
         from lagrangian.simulate.sweeping import ensemble, options
@@ -193,6 +194,7 @@ class Simulated(Described):
         memory: int = 256 * 2**20,
         threads: int | None = None,
         progress: Callable[[int, int], None] | None = None,
+        confirm: Callable[[SweepEstimate], Any] | None = None,
         store: str | Path | None = None,
         resume: bool = False,
         overwrite: bool = False,

@@ -16,13 +16,16 @@ def blocks(language: str) -> list[str]:
     return [body.lstrip("\n") for opened, body in zip(parts[1::4], parts[2::4], strict=True) if opened == language]
 
 
-def test_the_python_runs_and_says_what_stands_there(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_python_runs_and_says_what_stands_there(
+    capsys: pytest.CaptureFixture[str], tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
     shown = []
     for block in blocks("python"):
         exec(compile(block, str(PAGE), "exec"), names)
         shown += re.findall(r"^\s*(print\(failure\))\s+# (.*)$", block, flags=re.M)
-        for expression, said in re.findall(r"^(runs[.\[].*?)\s{2,}# ([({'].*)$", block, flags=re.M):
+        for expression, said in re.findall(r"^((?:runs|largest)[.\[].*?)\s{2,}# ([({'].*)$", block, flags=re.M):
             assert repr(eval(expression, names)).strip("()") == said.strip("()"), expression
     printed = capsys.readouterr().out
     assert shown

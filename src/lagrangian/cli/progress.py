@@ -77,6 +77,15 @@ class StatusLine(logging.Handler):
 
         return listen
 
+    @contextlib.contextmanager
+    def aside(self) -> Iterator[None]:
+        """Keep the line away within a ``with`` block, for a question to the user."""
+        with self._screen:
+            if self._shown:
+                self._shown = False
+                sys.stderr.write(_EMPTY)
+            yield
+
     def hide(self) -> None:
         """Remove the line for good, because the result is about to be written."""
         with self._screen:

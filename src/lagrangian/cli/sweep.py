@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from lagrangian.cli.assignments import assignments
-from lagrangian.cli.door import StandardOutput, put, say
+from lagrangian.cli.door import StandardOutput, put, say, visible
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
 from lagrangian.cli.simulate import PICTURES, integration_options, save_plot
@@ -36,6 +39,7 @@ from lagrangian.cli.terminal import (
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error
 from lagrangian.integrate import METHODS
+from lagrangian.integrate.estimate import NotStarted, SweepEstimate
 from lagrangian.interrupts import interrupts
 from lagrangian.simulate.ensemble import ENDINGS, Ensemble, write_csv
 from lagrangian.write.tables import check_target
@@ -96,6 +100,15 @@ Threads = Annotated[
     int | None, typer.Option(metavar="N", help="Cores to use; all by default.", min=1, rich_help_panel=COMPUTING)
 ]
 Memory = Annotated[int, typer.Option(metavar="MIB", help="Memory for trajectories.", min=1, rich_help_panel=COMPUTING)]
+Estimated = Annotated[
+    bool,
+    typer.Option(
+        "--estimate",
+        help="Simulate a few runs and say how long all will take and how large the results will be; on a terminal, "
+        "then ask whether to go on, elsewhere do no more.",
+        rich_help_panel=COMPUTING,
+    ),
+]
 Scheduler = Annotated[
     str | None,
     typer.Option(
@@ -133,6 +146,7 @@ def sweep(
     threads: Threads = None,
     memory: Memory = 256,
     scheduler: Scheduler = None,
+    estimate: Estimated = False,
 ) -> None:
     """Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.
 
@@ -144,29 +158,59 @@ def sweep(
     """
     file, grid = _file_and_grid(given, example)
     _check_targets(output, plot, resume, force)
-    runs = open_system(file, example).sweep(
-        duration,
-        grid,
-        initial=assignments(initial, "--init"),
-        fixed=fixed,
-        params=assignments(values, "--set"),
-        inputs=assignments(inputs, "--input"),
-        draws=draws,
-        seed=seed,
-        outputs=_outputs(outputs),
-        times=times,
-        **integration_options(method, step, rtol, atol, max_step, max_steps),
-        memory=memory * 2**20,
-        threads=threads,
-        scheduler=scheduler,
-        progress=status.counted("runs"),
-        **_store_options(output, resume, force),
-    )
+    system = open_system(file, example)
+    with _unless_declined():
+        runs = system.sweep(
+            duration,
+            grid,
+            initial=assignments(initial, "--init"),
+            fixed=fixed,
+            params=assignments(values, "--set"),
+            inputs=assignments(inputs, "--input"),
+            draws=draws,
+            seed=seed,
+            outputs=_outputs(outputs),
+            times=times,
+            **integration_options(method, step, rtol, atol, max_step, max_steps),
+            **_executing(memory, threads, scheduler, estimate),
+            **_store_options(output, resume, force),
+        )
     interrupts.advice = ""
     _put(runs, output, force, json)
     save_plot(runs, plot)
     if runs.status.size and (runs.status < 0).all():
         raise typer.Exit(1)
+
+
+def _executing(memory: int, threads: int | None, scheduler: str | None, estimate: bool) -> dict[str, Any]:
+    """Return the options that say how runs are computed."""
+    return {
+        "memory": memory * 2**20,
+        "threads": threads,
+        "scheduler": scheduler,
+        "progress": status.counted("runs"),
+        "confirm": _go_on if estimate else None,
+    }
+
+
+def _go_on(estimate: SweepEstimate) -> bool:
+    """Say what the sweep will take; on a terminal, ask whether to go on."""
+    with status.aside():
+        if not (sys.stdin is not None and sys.stdin.isatty() and sys.stderr is not None and sys.stderr.isatty()):
+            put(str(estimate))
+            return False
+        sys.stderr.write(f"{visible(str(estimate))}: go on? [y/N] ")
+        sys.stderr.flush()
+        return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+@contextlib.contextmanager
+def _unless_declined() -> Iterator[None]:
+    """End the command with status 0 if the user does not want the sweep."""
+    try:
+        yield
+    except NotStarted:
+        raise typer.Exit(0) from None
 
 
 def _file_and_grid(given: list[str], example: str | None) -> tuple[str | None, list[str]]:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate.chunks import Portions
-from lagrangian.integrate.places import Place, each, tail
+from lagrangian.integrate.places import StorePlace, each, tail
 
 FORMAT = 2
 KEY = "lagrangian"
@@ -43,7 +43,7 @@ class StoreDocument:
     """The root document of a store after checks: ``kept`` is what its creator wrote, ``arrays`` the metadata of its
     arrays."""
 
-    path: Place
+    path: StorePlace
     kept: Mapping[str, Any]
     arrays: Mapping[str, Mapping[str, Any]]
 
@@ -59,7 +59,7 @@ class StoreDocument:
         return Portions(tuple(self.arrays["status"]["shape"][: len(block)]), block)
 
     @property
-    def marks_file(self) -> Place:
+    def marks_file(self) -> StorePlace:
         """The file of the marks, with 8 bytes for every result of every chunk, which are 0 if it is not done."""
         return self.path / DONE / "c" / "0"
 
@@ -69,7 +69,7 @@ class StoreDocument:
         whole = data[: 8 * shape[0] * shape[1]]
         return np.frombuffer(whole.ljust(8 * shape[0] * shape[1], b"\0"), "<u8").astype(np.uint64).reshape(shape)
 
-    def chunk(self, name: str, index: int) -> Place:
+    def chunk(self, name: str, index: int) -> StorePlace:
         """The file of a chunk of a result."""
         return self.path.joinpath(name, "c", *self._number(name, index))
 
@@ -121,7 +121,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
     return np.asarray(marks.all(axis=1))
 
 
-def open_document(path: Place) -> StoreDocument:
+def open_document(path: StorePlace) -> StoreDocument:
     """Read and check the root document of a store; raise `Error` if there is none, and `RunError` if it is damaged."""
     if not path.exists():
         raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
@@ -199,7 +199,7 @@ def checksum(data: bytes) -> str:
     return hashlib.blake2b(data, digest_size=8).hexdigest()
 
 
-def parsed(path: Place) -> dict[str, Any] | None:
+def parsed(path: StorePlace) -> dict[str, Any] | None:
     """The root document of a Zarr group as plain data, or None if it is missing or cannot be read."""
     try:
         root = json.loads((path / ROOT).read_bytes())
@@ -208,7 +208,7 @@ def parsed(path: Place) -> dict[str, Any] | None:
     return root if isinstance(root, dict) else None
 
 
-def found(path: Place) -> str:
+def found(path: StorePlace) -> str:
     """A description of what is at a path that is not one of our stores."""
     if path.is_file():
         return "it is a file"

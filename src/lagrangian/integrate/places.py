@@ -110,10 +110,10 @@ class ObjectPath:
             raise OSError(f"{type(trouble).__name__}: {trouble}") from trouble
 
 
-Place: TypeAlias = Path | ObjectPath
+StorePlace: TypeAlias = Path | ObjectPath
 
 
-def place(store: str | Path) -> Place:
+def place(store: str | Path) -> StorePlace:
     """Return the place of a store: text with ``://`` is in object storage, except for ``file://``.
 
     Raises `MissingExtra` if the package for its service is not installed, and `Error` if there is no such service.
@@ -149,12 +149,12 @@ def _files(url: str) -> tuple[Any, str]:
         ) from None
 
 
-def for_zarr(where: Place) -> Path | str:
+def for_zarr(where: StorePlace) -> Path | str:
     """The place as zarr wants it."""
     return where if isinstance(where, Path) else str(where)
 
 
-def tail(file: Place, count: int) -> tuple[int, bytes]:
+def tail(file: StorePlace, count: int) -> tuple[int, bytes]:
     """The size of a file in bytes, and its last bytes."""
     if isinstance(file, ObjectPath):
         size = file.size()
@@ -165,7 +165,7 @@ def tail(file: Place, count: int) -> tuple[int, bytes]:
         return size, opened.read()
 
 
-def put(file: Place, data: bytes) -> None:
+def put(file: StorePlace, data: bytes) -> None:
     """Write a file completely or not at all."""
     if isinstance(file, ObjectPath):
         file.write_bytes(data)
@@ -176,7 +176,7 @@ def put(file: Place, data: bytes) -> None:
     beside.replace(file)
 
 
-def remove_tree(folder: Place) -> None:
+def remove_tree(folder: StorePlace) -> None:
     """Remove everything in a folder, if it is there."""
     if isinstance(folder, ObjectPath):
         folder.remove_tree()
@@ -184,7 +184,7 @@ def remove_tree(folder: Place) -> None:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def each(where: Place, function: Callable[[T], R], items: Iterable[T]) -> list[R]:
+def each(where: StorePlace, function: Callable[[T], R], items: Iterable[T]) -> list[R]:
     """Apply a function that reads files to all items; in object storage, many requests run at a time."""
     if isinstance(where, Path):
         return [function(item) for item in items]

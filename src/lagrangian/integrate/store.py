@@ -43,7 +43,7 @@ from lagrangian.integrate.checksums import (
 from lagrangian.integrate.chunks import Portions
 from lagrangian.integrate.marks import alone, marks_file
 from lagrangian.integrate.observe import Values
-from lagrangian.integrate.places import ObjectPath, Place, put, remove_tree
+from lagrangian.integrate.places import ObjectPath, StorePlace, put, remove_tree
 from lagrangian.integrate.stored import explained, fill, library, lost_chunks, opened, whole
 
 
@@ -158,7 +158,7 @@ class Store:
         return Advice(f"{safe} runs are safely there: make room, then go on with ", RESUME)
 
 
-def create(path: Place, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
+def create(path: StorePlace, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
     """Make a store at ``path``, completely or not at all; an existing store is replaced only with ``overwrite``.
 
     Raises `Error` if something other than a store exists there: it is never removed.
@@ -192,7 +192,7 @@ def create(path: Place, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
     return Store(open_document(path))
 
 
-def _there(path: Place) -> bool:
+def _there(path: StorePlace) -> bool:
     """Whether something is at a place, a link to nothing included."""
     with explained(path, "open"):
         return os.path.lexists(path) if isinstance(path, Path) else path.exists()
@@ -273,7 +273,7 @@ def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
     return (max(1, min(shape[0], 1 << 20)), *shape[1:]) if shape else ()
 
 
-def resume(path: Place, plan: ChunkPlan) -> Store:
+def resume(path: StorePlace, plan: ChunkPlan) -> Store:
     """Open the store at ``path`` to continue with the same task.
 
     All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError` if
@@ -330,7 +330,7 @@ def _move_away(path: Path, where: Path) -> None:
     path.rename(where)
 
 
-def _check_ours(path: Place) -> None:
+def _check_ours(path: StorePlace) -> None:
     """Raise `Error` if something other than a store is at a place, or in the store."""
     root = None if path.is_symlink() else parsed(path)
     attributes = root.get("attributes") if root is not None else None

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate.checksums import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
-from lagrangian.integrate.places import ObjectPath, Place, for_zarr
+from lagrangian.integrate.places import ObjectPath, StorePlace, for_zarr
 from lagrangian.integrate.status import RunStatus
 
 LISTED = 3
@@ -39,7 +39,7 @@ def library() -> Any:
 
 
 @contextlib.contextmanager
-def explained(path: Place, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
+def explained(path: StorePlace, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
     """Convert errors of the operating system to an `Error` that says which results are safe."""
     try:
         yield
@@ -107,6 +107,43 @@ class StoredResult:
         with explained(self.stored.document.path, "read"):
             return self._values()
 
+    @property
+    def blocks(self) -> tuple[tuple[int, ...], ...]:
+        """The sizes of the chunks along each axis."""
+        shape, chunks = self.shape, self.array.chunks
+        return tuple(tuple(min(c, n - k) for k in range(0, n, c)) for n, c in zip(shape, chunks, strict=True))
+
+    def block(self, place: tuple[int, ...]) -> NDArray[Any]:
+        """Read one chunk, all bytes checked; ``place`` is its number along each axis."""
+        document = self.stored.document
+        grid = document.portions.grid
+        index = int(np.ravel_multi_index(place[: len(grid)], grid)) if grid else 0
+        box = (*document.portions.box(index), ...)
+        with explained(document.path, "read"):
+            if self.stored.done[index]:
+                marks = np.where(np.arange(len(self.stored.marks))[:, None] == index, self.stored.marks, 0)
+                if lost := document.unfit(marks, [self.name], every_byte=True):
+                    raise self.stored.error(lost)
+                return np.asarray(self.array[box])
+            lost_here = self.name == "status" and index in self.stored.lost
+            value = RunStatus.LOST if lost_here else fill(str(self.array.dtype), self.name)
+            return np.full([sizes[k] for sizes, k in zip(self.blocks, place, strict=True)], value, self.array.dtype)
+
+    def lazily(self) -> Any:
+        """A Dask array of the chunks."""
+        try:
+            import dask.array
+        except ImportError:
+            raise MissingExtra("reading lazily needs the package dask", fix="pip install 'lagrangian[sweep]'") from None
+        dtype = self.array.dtype
+
+        def read(block_id: tuple[int, ...]) -> NDArray[Any]:
+            return self.block(block_id)
+
+        if not self.shape:
+            return dask.array.from_array(self[...])
+        return dask.array.map_blocks(read, chunks=self.blocks, dtype=dtype, meta=np.empty([0] * len(self.shape), dtype))
+
     def _values(self) -> NDArray[Any]:
         document, done = self.stored.document, self.stored.done
         marks = self.stored.marks * done[:, None]
@@ -137,7 +174,7 @@ class Stored:
     chunks are omitted. Raises `Error` if there is no store, and `RunError` (E804) if it is damaged.
     """
 
-    def __init__(self, path: Place, *, lost: bool = False) -> None:
+    def __init__(self, path: StorePlace, *, lost: bool = False) -> None:
         library()
         with explained(path, "read"):
             self.document = open_document(path)

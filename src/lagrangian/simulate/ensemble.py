@@ -17,7 +17,7 @@ from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
 from lagrangian.integrate.observe import DRIFTED
 from lagrangian.integrate.places import place
 from lagrangian.integrate.status import RunStatus
-from lagrangian.integrate.stored import Stored
+from lagrangian.integrate.stored import Stored, StoredResult
 from lagrangian.simulate.plot import check_no_file
 from lagrangian.simulate.variation import SAMPLE, TIME
 from lagrangian.view.many import SweptAxis, SweptResult, draw_many
@@ -211,17 +211,29 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
 
     # -- taking it elsewhere ------------------------------------------------------------------------------------
 
-    def to_xarray(self) -> Any:
-        """Return an ``xarray.Dataset`` with units and long names."""
+    def to_xarray(self, *, lazy: bool = False) -> Any:
+        """Return an ``xarray.Dataset`` with units and long names.
+
+        With ``lazy``, the results are Dask arrays of the chunks of the store, each read and checked when it is needed.
+        Raises `RunError` if the results are not in a store.
+        """
         xarray = needed("xarray")
         made = xarray.Dataset(
-            {n: (self._dims[n], self[n], dict(self._words.get(n, {}))) for n in self},
+            {n: (self._dims[n], self._lazy(n) if lazy else self[n], dict(self._words.get(n, {}))) for n in self},
             {n: (dims, values, dict(self._words.get(n, {}))) for n, (dims, values) in self.coordinates.items()},
             {"title": f"{self.name}: {self.count} runs", "method": self.settings["method"]},
         )
         for name, array in made.variables.items():
             array.attrs.setdefault("long_name", str(name))
         return made
+
+    def _lazy(self, name: str) -> Any:
+        """A result as a Dask array."""
+        stored = self._arrays[name]
+        if isinstance(stored, StoredResult):
+            return stored.lazily()
+        fix = 'store="sweep.zarr", or leave out lazy'
+        raise RunError("only results in a store are read lazily", fix=fix, code="E501")
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Everything as columns of equal length, varied values and results; a row per run (with samples, per run and

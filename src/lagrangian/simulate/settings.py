@@ -17,6 +17,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.integrate import METHODS
 from lagrangian.integrate.chunks import MEMORY
 from lagrangian.integrate.ensemble import Progress
+from lagrangian.integrate.estimate import Confirm
 from lagrangian.integrate.scipy_methods import SCIPY
 from lagrangian.model import Model
 from lagrangian.simulate.events import Event, listed_events
@@ -134,6 +135,7 @@ class Execution:
     memory: int = MEMORY
     threads: int | None = None
     progress: Progress | None = None
+    confirm: Confirm | None = None
     store: str | Path | None = None
     resume: bool = False
     overwrite: bool = False
@@ -145,6 +147,12 @@ class Execution:
             raise RunError(
                 f"progress must be a function (got {self.progress!r:.30})",
                 fix="progress=lambda done, all: print(done, all)",
+                code="E501",
+            )
+        if self.confirm is not None and not callable(self.confirm):
+            raise RunError(
+                f"confirm must be a function (got {self.confirm!r:.30})",
+                fix="confirm=lambda estimate: estimate.seconds < 3600",
                 code="E501",
             )
         if self.store is None and (self.resume or self.overwrite):

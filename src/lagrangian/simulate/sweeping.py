@@ -21,6 +21,7 @@ from lagrangian.integrate import Projection
 from lagrangian.integrate.chunks import FEW, Portions, cut
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
+from lagrangian.integrate.estimate import ask
 from lagrangian.integrate.observe import Kept, Study
 from lagrangian.integrate.places import place
 from lagrangian.integrate.store import ChunkPlan, Variable, create, resume
@@ -169,14 +170,24 @@ def _done(
     memory = execution.memory if execution.store is None else min(execution.memory, MAX_CHUNK_BYTES)
     portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)
     plan = _plan(model, varying, study, expressions, portions, task)
+
+    def confirm(runs: int) -> None:
+        if execution.confirm is not None:
+            ask(execution.confirm, study, design, runs, _size(plan), executor)
+
     if execution.store is None:
+        confirm(design.count)
         made = _in_memory(study, design, plan, executor, execution.progress)
         made.notices = (*said, *_drifted(made, study))
         return made
     path = place(execution.store)
     with explained(path, "open"):
         again = execution.resume and path.exists()
+    if not again:
+        confirm(design.count)
     with resume(path, plan) if again else create(path, plan, overwrite=execution.overwrite) as sink:
+        if again:
+            confirm(sum(stop - start for start, stop in map(sink.portions.range, np.flatnonzero(~sink.done).tolist())))
         carry_out(study, design, sink.portions, sink, executor=executor, progress=execution.progress)
     made = Ensemble.of_store(execution.store)
     made.notices = (*said, *sink.notices, *_drifted(made, study))
@@ -191,10 +202,15 @@ def _drifted(made: Ensemble, study: Study) -> tuple[str, ...]:
     return of_runs(study.method, study.projection.corrects, *found)
 
 
+def _size(plan: ChunkPlan) -> int:
+    """The size of the results in bytes."""
+    return sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
+
+
 def _in_memory(
     study: Study, design: Design, plan: ChunkPlan, executor: Executor, progress: Progress | None
 ) -> Ensemble:
-    size = sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
+    size = _size(plan)
     if size > MOST_MEMORY * _machine_memory():
         raise RunError(
             f"the results of {design.count} runs take {size / 2**30:.3g} GiB",
