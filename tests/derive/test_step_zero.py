@@ -62,7 +62,13 @@ def test_a_rolling_disc_is_nonholonomic_by_two() -> None:
     assert (data["holonomic"], data["GC"], data["DDOF"], data["growth"]) == (False, 4, 2, (2, 3, 4))
     page = derivation.to_text()
     assert "the system is nonholonomic by 2" in " ".join(page.split())
-    assert "1. Integrate: impossible" in page
+    words = " ".join(page.split())
+    assert "1. Integrate: impossible" in words
+    assert "2. Eliminate: the rows are linear in the 4 rates. Solved for 2 of them they leave 2 free" in words
+    assert "The rows must not be put into L before it is differentiated" in words
+    assert (
+        "3. Use the rows as they are: all 4 coordinates stay" in words and "2 unknowns more, and 2 equations" in words
+    )
     assert derivation.constraints is not None
     assert derivation.constraints.verdict == "nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)"
 
