@@ -65,7 +65,7 @@ def test_a_rolling_disc_is_nonholonomic_by_two() -> None:
     words = " ".join(page.split())
     assert "1. Integrate: impossible" in words
     assert "2. Eliminate: the rows are linear in the 4 rates. Solved for 2 of them they leave 2 free" in words
-    assert "The rows must not be put into L before it is differentiated" in words
+    assert "The rows must not be put into ℒ before it is differentiated" in words
     assert (
         "3. Use the rows as they are: all 4 coordinates stay" in words and "2 unknowns more, and 2 equations" in words
     )
