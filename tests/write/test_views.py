@@ -73,3 +73,11 @@ def test_what_a_notebook_shows_can_be_copied(results: dict[str, Any]) -> None:
     assert copy.copy(ledger) == ledger and copy.copy(ledger)._repr_html_() == ledger._repr_html_()
     modes = results["modes"]
     assert pickle.loads(pickle.dumps(tuple(modes))) == tuple(modes)
+
+
+def test_a_view_follows_the_theme_of_its_notebook() -> None:
+    html = lg.example("pendulum").linearize()._repr_html_()
+    for theme, paper in (("true", "#fdfdfb"), ("false", "#16191c")):
+        rule = html.partition(f'[data-jp-theme-light="{theme}"]')[2].partition("}")[0]
+        assert f"--paper: {paper};" in rule
+        assert ") & {" in rule

@@ -71,9 +71,22 @@ def fragment(document: Document) -> str:
     body = "\n".join(section_html(section, brief=document.brief, anchors=False) for section in document.sections)
     rules = style_sheet() + _pointing(document)
     nested = rules.replace(":root", "&").replace("body {", "& {")  # restricted to this piece
-    style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
+    style = f"<style>\n.lagrangian {{\n{nested}{_themes()}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{_picture(document)}{body}\n</div></div>"
+
+
+def _themes() -> str:
+    """Rules by which a piece follows the theme of its notebook, where that differs from the system's: those of
+    JupyterLab, VS Code, Colab and marimo."""
+    light, _, rest = style_sheet().partition(":root {")[2].partition("}")
+    dark = rest.partition(":root {")[2].partition("}")[0]
+    return (
+        f':is([data-jp-theme-light="true"], body.vscode-light, html[theme="light"], body.light) & {{{light}'
+        "color-scheme: light; }\n"
+        f':is([data-jp-theme-light="false"], body.vscode-dark, html[theme="dark"], body.dark) & {{{dark}'
+        "color-scheme: dark; }\n"
+    )
 
 
 def pieces(document: Document) -> list[dict[str, str]]:
