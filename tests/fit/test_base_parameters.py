@@ -10,6 +10,7 @@ import sympy as sp
 import lagrangian as lg
 from lagrangian.errors import ModelError, RunError
 from lagrangian.fit.regressor import rigids
+from lagrangian.model import time
 
 sys.path.append(str(Path(__file__).parents[1] / "structured"))  # where the arms are
 import robots
@@ -111,3 +112,41 @@ def test_what_does_not_fit_is_told() -> None:
     assert len(s.base_parameters({"L": 2.0})) == 1
     with pytest.raises(RunError):
         s.base_parameters({"nothing": 1.0})
+
+
+def pendulums(length: float):
+    """Two links, each with a body half of the way along it."""
+    s = lg.System("pendulums")
+    one = s.frame(s.coordinate("a"), name="one")
+    elbow = one.point(0, -length)
+    two = s.frame(s.coordinate("b"), origin=elbow, name="two")
+    s.rigid_body(1, length**2, one.point(0, -length / 2), one)
+    s.rigid_body(2, length**2, two.point(0, -length / 2, at=elbow), two)
+    s.gravity()
+    return s
+
+
+@pytest.mark.parametrize("length", [2e-5, 2e5])
+def test_small_and_large_lengths_lose_no_parameter(length: float) -> None:
+    """J₁ + m₂ l² of two pendulums: all combinations are found, and what is printed is not rounded to 0."""
+    s = pendulums(length)
+    base = s.base_parameters()
+    assert len(base) == 6 and base.exact and base.unseen == ("m_1",)
+    q, v, a = np.random.default_rng(3).uniform(-1, 1, (3, 5, 2))
+    expected = s.compile().inverse(q, v, a)
+    assert np.abs(base.regressor(q, v, a) @ base.values - expected).max() < 1e-9 * np.abs(expected).max()
+    (row,) = [line for line in str(base).splitlines() if line.startswith("3 ")]
+    assert "m₂" in row and "J₁" in row
+
+
+def test_the_regressor_of_a_prescribed_motion_is_at_a_time() -> None:
+    s = lg.System("shaken pendulum")
+    x = s.point("pivot", (0.5 * sp.sin(3 * time), 0))
+    rod = s.frame(s.coordinate("theta"), name="rod", origin=x)
+    s.rigid_body(2, 0.1, rod.point(0, -0.3, at=x), rod)
+    s.gravity()
+    base, system = s.base_parameters(), s.compile()
+    q, v, a = np.random.default_rng(3).uniform(-1, 1, (3, 4, 1))
+    times = np.array([0.1, 0.4, 0.7, 1.1])
+    assert base.regressor(q, v, a, times) @ base.values == pytest.approx(system.inverse(q, v, a, t=times))
+    assert base.regressor(q[0], v[0], a[0], 0.4) @ base.values == pytest.approx(system.inverse(q[0], v[0], a[0], t=0.4))

@@ -50,6 +50,9 @@ MOST = 1200
 ROUNDING = 1e-9
 """A coefficient below this part of the largest of its column is rounding."""
 
+NOTHING = 1e-13
+"""A column below this part of the largest is 0: columns have different units, so it is little more than rounding."""
+
 FIRST = {"J": 0, "mx": 0, "my": 0, "Jzz": 0, "Jxy": 0, "Jxz": 0, "Jyz": 0, "Jxx": 1, "mz": 2, "Jyy": 2, "m": 3}
 """Which parameters are kept first: of a joint about z the others join those of the link before."""
 
@@ -79,14 +82,17 @@ class BaseParameters(Written):
         """The number of base parameters."""
         return len(self.bases)
 
-    def regressor(self, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> Array:
+    def regressor(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, t: ArrayLike = 0.0) -> Array:
         """Return Y_b of shape ``(..., n, n_b)`` at coordinates q, velocities v and accelerations a.
 
-        Y_b π_b is what inertia and weight take of the generalized forces: Ξ of the other forces, less what springs
-        store, equals it. With measured forces it is the matrix of a linear least-squares problem for π_b.
+        ``t`` [s] is the time, one or as many as there are states; it matters only where a motion is prescribed.
+
+        Y_b π_b is what inertia and weight take of the generalized forces: Ξ of the other forces, with those of
+        constraints, less what springs store, equals it. With measured forces it is the matrix of a linear
+        least-squares problem for π_b.
         """
         p = np.array([self.parameters[x] for x in self._program.inputs["p"]])
-        found = np.asarray(self._kernel(q, v, a, p, 0.0), float)
+        found = np.asarray(self._kernel(q, v, a, p, t), float)
         n = len(self.model.velocities)
         return found.reshape(*np.shape(found)[:-1], n, len(self.bases))
 
@@ -240,7 +246,7 @@ def _by_numbers(Y: Array, order: Sequence[int]) -> tuple[list[int], list[int]]:
     for k in order:
         column = Y[:, k]
         size = float(np.linalg.norm(column))
-        if size <= ROUNDING * largest:
+        if size <= NOTHING * largest:
             unseen.append(k)
             continue
         left = column - basis @ (basis.T @ column)
@@ -292,7 +298,7 @@ def _sum(base: Mapping[str, float]) -> sp.Expr:
 def _rounded(c: float) -> sp.Expr:
     """A coefficient with as many digits as a reader wants."""
     near = Fraction(c).limit_denominator(12)
-    if abs(float(near) - c) < 1e-9 * max(1.0, abs(c)):
+    if abs(float(near) - c) <= 1e-9 * abs(c):
         return sp.Rational(near.numerator, near.denominator)
     return sp.Float(f"{c:.6g}")
 
