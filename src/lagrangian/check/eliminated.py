@@ -37,14 +37,15 @@ class Eliminated:
 def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminated | None:
     """Return the lines with every unknown name written out that a line determines, without this line.
 
-    A name is determined by a line in which it occurs linearly, and must occur in another statement. Returns None if
-    there is none, or if a name remains.
+    A name is determined by a line in which it occurs linearly, and must occur in another statement that is judged.
+    Returns None if there is none, or if a name remains.
     """
     left = _unknown(truth, lines)
     if not left or len(left) > MAX_FORCES:
         return None
     names = sorted(map(plain, left))
-    if any(len({line.text for line in lines if line.expr.has(x)}) < FEWEST_STATEMENTS for x in left):
+    told = [line for line in lines if line.kind != "definition"]  # a definition is written out where it is used
+    if any(len({line.text for line in told if line.expr.has(x)}) < FEWEST_STATEMENTS for x in left):
         return None
     out = list(lines)
     while left:

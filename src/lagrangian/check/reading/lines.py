@@ -23,6 +23,7 @@ from lagrangian.check.reading.placeholders import (
     is_slope,
     is_vector,
 )
+from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects
 from lagrangian.errors import ParseError
@@ -87,6 +88,8 @@ class Lines:
                 (aside if self._is_general(i, error) else found).append(error)
             if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
                 break
+        for i, line in contradicting(self.names, [s.source for s in statements]):
+            self._made.setdefault(i, []).append(line)
         lines = tuple(line for i in range(len(statements)) for line in self._made.get(i, ()))
         if found or (aside and not lines):
             raise together(found or aside)
@@ -156,7 +159,8 @@ class Lines:
         statement = self._statements[i]
         sides = list(statement.sides)
         subject, sides = self.subjects.turned(sides)
-        above = self.names.moving, self.names.matrices
+        above = self.names.moving, self.names.matrices, self.names.statement
+        self.names.statement = i
         self.names.moving = any(self.subjects.accelerates(x) for x in sides)
         self.names.matrices = self._has_matrices(statement.sides)
         reader = Meaning(statement.source, self.names, self.budget)
@@ -168,7 +172,7 @@ class Lines:
             for new in set(self.names.unknown) - before:
                 del self.names.unknown[new]
         self._made[i] = lines
-        self.names.moving, self.names.matrices = above
+        self.names.moving, self.names.matrices, self.names.statement = above
 
     # -- lines ---------------------------------------------------------------------------------------------------------
 
@@ -299,7 +303,7 @@ class Lines:
         component by component."""
         token, order = subject.token, subject.order
         assert token is not None
-        own = self.names.own.get(key(undotted(token)[0]))
+        own = self.names.mine(key(undotted(token)[0]))
         if own is None:
             self.names.rates[key(undotted(token)[0]), order] = value
             self._not_judged(reader, f"nothing says what {token} is")

@@ -22,6 +22,9 @@ _VALUE = re.compile(
 )
 _PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
 
+_RATE = re.compile(r"\w['’′″]++(?!s\b)|\bd\d?\w*+/d|[\u0307\u0308]|[ẋẍẏÿżṙṁ]|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
+"""A rate or an acceleration, by which a part of an equation is known from words."""
+
 FEWEST = 2
 """The fewest values in a line that make it a list of values."""
 
@@ -38,6 +41,8 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         found = list(_VALUE.finditer(line))
         if len(found) != line.count("=") or any(values(m["name"]) is None for m in found):
             continue
+        if _moves(_VALUE.sub(lambda m: f" {m['unit'] or ''}", line)):
+            continue  # an equation without "=" stands beside the values, and is not to be passed over
         kept = list(" " * len(line))
         for match in found:
             read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
@@ -48,6 +53,11 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         lines[k] = "".join(kept)
         notes.setdefault(f"Line {k + 1} was read as a list of values.")
     return "\n".join(lines)
+
+
+def _moves(words: str) -> bool:
+    """Whether a rate stands among the words between values."""
+    return _RATE.search(words) is not None
 
 
 def _same(match: re.Match[str], value: float | None) -> bool:

@@ -15,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -50,6 +51,9 @@ class Names:
         self.model = model
         self.scope = AnswerScope(Scope(model.symbols))
         self.own: dict[str, tuple[str, Value]] = {}
+        self.redefined = OwnValues()
+        self.statement = 0
+        """The number of the statement that is read."""
         self.stated: dict[str, Value] = {}
         self.unknown: dict[str, Unknown] = {}
         self.notes: dict[str, None] = {}
@@ -120,7 +124,15 @@ class Names:
 
     def define(self, written: str, value: Value) -> None:
         """Give a name of the answer its meaning."""
-        self.own[key(undotted(written)[0])] = (str(written), value)
+        base = key(undotted(written)[0])
+        self.own[base] = (str(written), value)
+        self.redefined.define(base, value, self.statement)
+
+    def mine(self, base: str) -> tuple[str, Value] | None:
+        """A name of the answer and the value that it has now, which counts as used."""
+        if base in self.own:
+            self.redefined.use(base)
+        return self.own.get(base)
 
     def meaning(self, token: Token, source: Source) -> tuple[str, Value, int]:
         """Return the name, its value and its number of dots. An unknown name is recorded; it is not an error.
@@ -141,7 +153,7 @@ class Names:
         base, dots = undotted(token)
         if key(base) not in self.own:
             self.later(key(base))
-        if (mine := self.own.get(key(base))) is not None:
+        if (mine := self.mine(key(base))) is not None:
             return *mine, dots
         if base in ("bold Xi", "bold Q"):
             column = [generalized_force(c.name) for c in self.model.coordinates]
@@ -172,7 +184,7 @@ class Names:
         """The matrix that the answer gives this name; q or x is the column of coordinates if it is nothing else."""
         if key(base) not in self.own and key(base) in self.given_matrices:
             self.later(key(base))
-        if (mine := self.own.get(key(base))) is not None:
+        if (mine := self.mine(key(base))) is not None:
             return mine[1] if isinstance(mine[1], MatrixBase) else None
         if key(base) not in COLUMNS or self.scope.meanings(base)[0] or key(base) in self.defined:
             return None
@@ -194,7 +206,7 @@ class Names:
         names, _ = self.scope.meanings(stem)
         if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
             return names[0], self.scope[names[0]]
-        if (mine := self.own.get(key(stem))) is not None:
+        if (mine := self.mine(key(stem))) is not None:
             return mine
         if not names and key(stem) in self._seen and key(stem) in self._moving:
             return self._noted(stem, token, source), self.unknown[key(stem)].symbol

@@ -1,0 +1,79 @@
+"""Finds names that an answer gives two different values of which one is used and the other is not.
+
+A name may be used again, v = x1' for one body and v = x2' for the next. But where one of two values is used nowhere,
+they contradict each other, and an answer must not be right by the one that happens to fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.check.reading.answer import AnswerLine, Kind
+from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.placeholders import is_placeholder, is_vector
+from lagrangian.quantities.source import Source
+
+DIGITS = 30
+"""The digits to which two values of a name are compared, at random places."""
+
+PLACES = 2
+"""The random places at which they are compared; what differs there is judged exactly."""
+
+
+def contradicting(names: Names, sources: Sequence[Source]) -> Iterator[tuple[int, AnswerLine]]:
+    """A line for each two values of a name of which one is used and the other is not, with the number of its statement.
+
+    Values that cannot be judged, a number beside a formula or a force beside another, are told in a note.
+    """
+    for _, i, above, value in names.redefined.unused():
+        told = " ".join(sources[i].text.split())
+        for a, b in _pairs(above, value):
+            if not _differ(a, b):
+                continue
+            if not _comparable(a, b) or any(map(names.is_unknown, _atoms(a) | _atoms(b))):
+                names.notes.setdefault(f"'{told}' was not judged: the value that is used is another one.")
+                continue
+            kind: Kind = "equation" if accelerates(a) or accelerates(b) else "identity"
+            yield i, AnswerLine(kind, a, b, None, sources[i].at(0), told)
+
+
+def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """The entries of two values beside each other."""
+    if isinstance(above, MatrixBase) and isinstance(value, MatrixBase) and above.shape == value.shape:
+        yield from zip(above.flat(), value.flat(), strict=True)
+    elif isinstance(above, sp.Expr) and isinstance(value, sp.Expr):
+        yield above, value
+
+
+def _comparable(above: sp.Expr, value: sp.Expr) -> bool:
+    """Whether two values are expressions that can be judged: not a formula beside the number that follows from it."""
+    if any(is_vector(x) or any(map(is_placeholder, _atoms(x))) for x in (above, value)):
+        return False
+    return bool(above.is_number) == bool(value.is_number) or 0 in (above, value)
+
+
+def _atoms(expr: sp.Expr) -> set[sp.Basic]:
+    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}
+
+
+def _differ(above: sp.Expr, value: sp.Expr) -> bool:
+    """Whether two expressions differ somewhere; where this cannot be computed, they may."""
+    if above == value:
+        return False
+    rest, whole = above - value, sp.Tuple(above, value)
+    rates = sorted(whole.atoms(sp.Derivative), key=lambda d: (-d.derivative_count, str(d)))
+    names = [*rates, *sorted(whole.atoms(AppliedUndef), key=str), *sorted(whole.free_symbols, key=str)]
+    for place in range(PLACES):
+        table = {x: sp.Rational(2 * k + 7 * place + 3, 2 * k + 5 + place) for k, x in enumerate(names)}
+        sizes = [sp.N(x.xreplace(table), DIGITS) for x in (rest, above)]
+        if not all(x.is_number and x.is_finite for x in sizes):
+            return True
+        if abs(sizes[0]) > sp.Float(10) ** (10 - DIGITS) * (1 + abs(sizes[1])):
+            return True
+    return False
