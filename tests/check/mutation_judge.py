@@ -66,6 +66,8 @@ def _fits(mutator: Mutator, mutation: Mutation, mistake: Mistake) -> bool:
 def _proofs(mutator: Mutator, mutation: Mutation, mistake: Mistake) -> Iterator[bool]:
     """Whether the answer is right with each claim about a term undone; nothing if the words hold no such claim."""
     if mutation.form == "solved":
+        if mistake.name == "denominator":
+            yield _is_denominator(mutator, mutation, mistake)
         return
     parts = list(mistake.what.parts)
     if len(parts) < 3 or parts[0] not in ("The term ", "In the term ", "The terms "):
@@ -77,6 +79,30 @@ def _proofs(mutator: Mutator, mutation: Mutation, mistake: Mistake) -> Iterator[
             right: Any = mutator.derivation.T if mutation.kind == "T" else mutator.derivation.V
             rest = mutator.model.expand(mutation.lines[mutation.kind] + change - right, constants=True)
             yield all(mutator.zero(rest.diff(x)) for c in mutator.model.coordinates for x in (c.symbol, c.rate))
+
+
+def _is_denominator(mutator: Mutator, mutation: Mutation, mistake: Mistake) -> bool:
+    """Whether the numerators of which it speaks are right: (their own) / (true acceleration · det M) is constant."""
+    a = [c.acceleration for c in mutator.model.coordinates]
+    M, rest = sp.linear_eq_to_matrix([lhs - rhs for lhs, rhs in mutator.sides], a)
+    true = M.LUsolve(rest)
+    for i, line in enumerate(mutation.lines):
+        if not any(part == a[i] for part in mistake.what.parts):
+            continue
+        numerator = sp.fraction(sp.together(line.rhs))[0]
+        ratio = numerator / (true[i] * M.det())
+        letters = sorted({*ratio.free_symbols, *(u.symbol for u in mutator.model.inputs)} - {mutator.t}, key=str)
+        fixed = {x: sp.Rational(k + 3, 7) for k, x in enumerate(letters)}
+        values = []
+        for k in range(3):
+            moving = {}
+            for n, c in enumerate(mutator.model.coordinates):
+                moving |= {c.rate: sp.Rational(2 * k + n + 1, 5), c.symbol: sp.Rational(3 * k - n + 1, 4)}
+            at_rates = ratio.xreplace({c.rate: moving[c.rate] for c in mutator.model.coordinates})
+            values.append(float(at_rates.xreplace(moving).xreplace(fixed).evalf(30)))
+        if max(values) - min(values) > 1e-9 * max(map(abs, values)):
+            return False
+    return True
 
 
 def _corrections(mutator: Mutator, parts: list[Any]) -> Iterator[sp.Expr]:

@@ -297,3 +297,24 @@ def judged_right(written: str) -> bool:
         return derivation("pendulum").check(written).right
     except ParseError:
         return False
+
+
+def test_spelled_greek_letters_stand_beside_names() -> None:
+    """The Python word lambda is a multiplier in an answer."""
+    sys = System("bead on a line")
+    x, y = sys.coordinates("x y")
+    m, g, a = sys.parameters("m g a")
+    sys.particle(m, sys.origin + (x, y))
+    sys.gravity(g=g)
+    sys.constraint(y - a * x, name="wire")
+    own = sys.derive()
+    assert own.check("m x'' = -lambda a\nm y'' = -m g + lambda\ny = a x").right
+    assert not own.check("m x'' = lambda a\nm y'' = -m g + lambda\ny = a x").right
+    with pytest.raises(ParseError):
+        own.check("m x'' = lambda x: x")
+
+
+def test_numbers_behind_a_letter_with_dots_are_no_factors() -> None:
+    """q̇ has a combining dot, which is no letter."""
+    plain, numbered = (parse_answer(f"m ẍ + k x = b q̇{n}", plate().model).equations for n in ("", "  (2)"))
+    assert [(x.lhs, x.rhs) for x in plain] == [(x.lhs, x.rhs) for x in numbered]

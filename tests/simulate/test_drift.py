@@ -188,16 +188,22 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
-    "options",
-    [{}, {"rtol": 1e-6}, {"rtol": 1e-12, "atol": 1e-12}, {"method": "rk4", "step": 1e-3}, {"method": "taylor"}],
+    ("options", "within"),
+    [
+        ({}, 2e-10),
+        ({"rtol": 1e-6}, 1e-8),  # a hundredth of rtol: which steps are taken depends on last digits
+        ({"rtol": 1e-12, "atol": 1e-12}, 2e-10),
+        ({"method": "rk4", "step": 1e-3}, 2e-10),
+        ({"method": "taylor"}, 2e-10),
+    ],
 )
-def test_a_plate_on_three_cranks_moves_as_with_one_coordinate(options):
+def test_a_plate_on_three_cranks_moves_as_with_one_coordinate(options, within):
     """One of the six rows is spare, each at other angles; on its way the plate passes two flat positions."""
     run = plate_on_cranks().simulate(2.0, initial=START, **options)
     assert run.success, run.message
     a, rate = crank_angle(run.t)
     for name in ("a1", "a2", "a3"):
-        assert abs(run[name] - a).max() < 2e-9 and abs(run[f"{name}'"] - rate).max() < 1e-7
+        assert abs(run[name] - a).max() < within and abs(run[f"{name}'"] - rate).max() < 1e-7
     assert max(run.drift.position_after, run.drift.velocity_after) < 1e-9 and float(run.audit) < 1e-9
     (told,) = [n.text for n in run.notices if "one follows" in n.text]
     assert "'p0.x', 'p0.y', 'p1.x', 'p1.y', 'p2.x', 'p2.y'" in told and "not determined" in told

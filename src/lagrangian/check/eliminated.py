@@ -43,6 +43,8 @@ def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminate
     left = _unknown(truth, lines)
     if not left or len(left) > MAX_FORCES:
         return None
+    if any(d.has(*left) for line in lines for d in line.expr.atoms(sp.Derivative)):
+        return None  # a name that moves is a coordinate of the answer's own, and no force
     names = sorted(map(plain, left))
     told = [line for line in lines if line.kind != "definition"]  # a definition is written out where it is used
     if any(len({line.text for line in told if line.expr.has(x)}) < FEWEST_STATEMENTS for x in left):

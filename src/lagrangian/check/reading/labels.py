@@ -38,21 +38,23 @@ _COORDINATE = re.compile(r"\s*\(\s*([^\W\d]\w{0,12})\s*\)[.:]?\s+(?=[^\s*/^=+])"
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
-_TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
+_TRAIL = re.compile(rf"(?<=[\w\u0307\u0308)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
 _LEADERS = r"\s*+(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]{0,300}+"
 _MARK = r"\d{1,3}[a-z]?['′*]{0,2}|[ivx]{1,4}|[IVX]{2,4}|[A-Z]\.?-?\d{1,2}|\*{1,3}"
 _BEHIND = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?(?:{_MARK})\s*[)\]]"
 _DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
 _END = r"\s*+[.,;]?\s*+\Z"
-_BEFORE_END = r"(?<=[\w)\]'’′″²³])(?:\s*+[.,;])?"
+_BEFORE_END = r"(?<=[\w\u0307\u0308)\]'’′″²³])(?:\s*+[.,;])?"
 _NAMED = rf"[(\[]\s*{_EQUATION}\.?\s*{_NUMBER}\s*[)\]]"
 _AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
 _AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")
 _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
-_DONE = re.compile(r"(?<=[\w)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z")
+_DONE = re.compile(
+    r"(?<=[\w\u0307\u0308)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z"
+)
 _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|←)\s[^=]*\Z")
 """What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
-_DOTS = re.compile(r"(?<=[\w)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]{0,80}\Z")
+_DOTS = re.compile(r"(?<=[\w\u0307\u0308)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]{0,80}\Z")
 """Words behind dots: J_A = J + m*l^2 ... used below."""
 _UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")

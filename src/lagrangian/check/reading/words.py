@@ -16,7 +16,7 @@ from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
 from lagrangian.read.functions import ALIASES
-from lagrangian.read.letters import key, undotted
+from lagrangian.read.letters import SPELLED, key, undotted
 
 RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
 """Functions of answers that are 1 over another."""
@@ -55,6 +55,9 @@ def function_of(word: str) -> str | None:
         if other in FUNCTIONS or other in RECIPROCALS:
             return other
     return None
+
+
+_SPELLED = frozenset(SPELLED.values())
 
 
 class Words:
@@ -96,12 +99,13 @@ class Words:
         return bool(self.names.scope.meanings(word)[0]) or key(word) in self._own
 
     def readable(self, word: str) -> bool:
-        """Whether a word may be a factor of a product without a sign: known, a function, or a single letter."""
+        """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
+        be a spelled Greek one."""
         bare = re.sub(r"[\W\d_]", "", word)
         if word in ("dot", "ddot"):
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
-        return named or len(bare) == 1 or len(key(word)) > len(word)
+        return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
 
     def alone(self, word: str) -> bool:
         """Whether a word occurs in the answer elsewhere than after a number."""
