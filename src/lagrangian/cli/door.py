@@ -49,6 +49,16 @@ def fail(words: str) -> None:
     say(f"error: {words}")
 
 
+def ask(question: str) -> str | None:
+    """Ask on the terminal and return the answer in small letters; None without a terminal to ask on."""
+    if not (sys.stdin is not None and sys.stdin.isatty() and sys.stderr is not None and sys.stderr.isatty()):
+        return None
+    status.hide()
+    sys.stderr.write(visible(question))
+    sys.stderr.flush()
+    return sys.stdin.readline().strip().lower()
+
+
 class StandardOutput:
     """Standard output as a file object for writers that write in pieces; every piece is escaped."""
 

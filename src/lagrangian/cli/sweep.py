@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Any
@@ -11,7 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from lagrangian.cli.assignments import assignments
-from lagrangian.cli.door import StandardOutput, put, say, visible
+from lagrangian.cli.door import StandardOutput, ask, put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
 from lagrangian.cli.simulate import PICTURES, integration_options, save_plot
@@ -196,12 +195,10 @@ def _executing(memory: int, threads: int | None, scheduler: str | None, estimate
 def _go_on(estimate: SweepEstimate) -> bool:
     """Say what the sweep will take; on a terminal, ask whether to go on."""
     with status.aside():
-        if not (sys.stdin is not None and sys.stdin.isatty() and sys.stderr is not None and sys.stderr.isatty()):
+        answer = ask(f"{estimate}: go on? [y/N] ")
+        if answer is None:
             put(str(estimate))
-            return False
-        sys.stderr.write(f"{visible(str(estimate))}: go on? [y/N] ")
-        sys.stderr.flush()
-        return sys.stdin.readline().strip().lower() in ("y", "yes")
+        return answer in ("y", "yes")
 
 
 @contextlib.contextmanager
