@@ -27,6 +27,12 @@ WRONG: dict[str, tuple[Callable[[lg.System, Any, Any], object], str, str]] = {
     "C and energy": (lambda s, q, x: s.capacitor(1, q, energy=lambda e: e**2), "E416", "(got C, energy)"),
     "a source without a value": (lambda s, q, x: s.voltage_source(None, q), "E416", "its voltage is missing"),
     "a motor that drives nothing": (lambda s, q, x: s.transducer(1, q), "E416", "its on is missing"),
+    "a given current through nothing that moves": (
+        lambda s, q, x: s.inductor(1, charge=2 * s.t), "E412", "no coordinate is in its charge 2*t"
+    ),
+    "a given charge that nothing changes": (
+        lambda s, q, x: s.capacitor(1, charge=2 * s.t), "E412", "no coordinate is in its charge 2*t"
+    ),
     "one coil twice": (lambda s, q, x: s.mutual_inductance(1, q, q), "E410", "both of its coils have the same charge"),
     "an inductance of a rate": (lambda s, q, x: s.inductor(x.diff(), q), "E419", "the inductance holds a rate, x'"),
     "an inductance of an input": (lambda s, q, x: s.inductor(s.input("w"), q), "E417", "holds the input"),

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, ClassVar, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -24,7 +24,7 @@ from lagrangian import bounded
 from lagrangian.model.antiderivatives import antiderivative
 from lagrangian.model.elements.answers import CHARGE, REQUIRED, ActsOn, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import Element, Level, Surroundings, Use, Words, called, error_of
-from lagrangian.model.geometry import as_expr
+from lagrangian.model.geometry import Frame, as_expr
 from lagrangian.model.names import time
 from lagrangian.page.plain import plain
 
@@ -46,13 +46,19 @@ class CircuitBranch(Element):
 
     charge: Any = None
 
+    by_charge: ClassVar[bool] = False
+    """Whether a constant charge acts, as that of a capacitor, and not only a current."""
+
     @property
     def charges(self) -> tuple[sp.Expr, ...]:
         """The charges that flow through it."""
         return (self.charge,)
 
     def _check_charge(self, key: str = "charge") -> None:
-        """Normalize the charge in a field: a sum of coordinates with constant factors (Kirchhoff's current law)."""
+        """Normalize the charge in a field: a sum of coordinates with constant factors (Kirchhoff's current law).
+
+        It may be prescribed, as by a source of current, where another field holds a coordinate.
+        """
         what = f"the {key.replace('_', ' ')} of {self.title}"
         if getattr(self, key) is None:
             raise self._error("it is in no circuit", fix=f"{key}=q, the charge that flows through it", code="E412")
@@ -64,13 +70,19 @@ class CircuitBranch(Element):
                     fix="add and subtract the charges of the loops that it is in, such as q1 - q2",
                     code="E412",
                 )
-        if not charge.has(AppliedUndef):
+        prescribed = charge.has(time) or self.by_charge
+        if not charge.has(AppliedUndef) and not (prescribed and self._moves_by_others(key)):
             raise self._error(
                 f"no coordinate is in its {key.replace('_', ' ')} {plain(charge)}",
                 fix="declare the charge as a coordinate, and write charge=q",
                 code="E412",
             )
         self._set(**{key: charge})
+
+    def _moves_by_others(self, key: str) -> bool:
+        """Whether a field other than a charge's holds a coordinate, so that a prescribed current does something."""
+        given = [getattr(self, x) for x in self.entries if x != key]
+        return any(isinstance(x, Frame) or (isinstance(x, sp.Basic) and x.has(AppliedUndef)) for x in given)
 
     def _check_one_of(self, keys: tuple[str, ...], local: sp.Symbol, fix: str) -> None:
         """Normalize the one of several fields that is given; a function is called with the local symbol."""

@@ -12,7 +12,16 @@ from typing import Any, ClassVar, Literal
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.answers import CAPACITANCE, CHARGE, ENERGY, VOLTAGE, Entry, FieldKind, Measure
+from lagrangian.model.elements.answers import (
+    CAPACITANCE,
+    CHARGE,
+    ENERGY,
+    VOLTAGE,
+    ActsOn,
+    Entry,
+    FieldKind,
+    Measure,
+)
 from lagrangian.model.elements.base import XI, Level, Surroundings, Use, V
 from lagrangian.model.elements.branch import CHARGE_ENTRY, CHARGE_SYMBOL, CircuitBranch, integral
 
@@ -49,18 +58,26 @@ class Capacitor(CircuitBranch):
     because = ("its voltage depends on its charge and on positions alone: conservative, stored in ", V, ", not in ", XI)
     stored = "stores energy by its charge"
     note = ""
+    by_charge = True
 
     def __post_init__(self) -> None:
-        self._check_charge()
         self._check_one_of(
             ("C", "law", "energy"),
             CHARGE_SYMBOL,
             "write C for a constant capacitance, law='charge/C + a*charge^3' for another capacitor",
         )
+        self._check_charge()
         if self.C == 0:
             raise self._error("its capacitance is zero", fix="leave it out: no charge flows through it", code="E103")
         if self.law is not None:
             self._set(energy=integral(self, "energy", self.law, CHARGE_SYMBOL))
+
+    def acts_on(self) -> ActsOn:
+        """Its charge, and what its capacitance depends on."""
+        law = self.C if self.C is not None else self.energy
+        return ActsOn(
+            (self.charge, law), "it does nothing: no coordinate changes its charge or its capacitance", "charge=q"
+        )
 
     def suggested_name(self) -> str:
         """The symbol of its capacitance."""

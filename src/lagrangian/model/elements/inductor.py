@@ -65,12 +65,12 @@ class Inductor(CircuitBranch):
     note = ""
 
     def __post_init__(self) -> None:
-        self._check_charge()
         self._check_one_of(
             ("L", "law", "coenergy"),
             CURRENT_SYMBOL,
             "write L for a constant inductance, law='L0*i0*tanh(current/i0)' for a coil that saturates",
         )
+        self._check_charge()
         if self.law is not None:
             self._set(coenergy=integral(self, "coenergy", self.law, CURRENT_SYMBOL))
 
@@ -160,9 +160,9 @@ class MutualInductance(CircuitBranch):
     note = "flux that both coils share"
 
     def __post_init__(self) -> None:
+        self._check_one_of(("M",), CURRENT_SYMBOL, "M='0.1 H', or a parameter")
         self._check_charge()
         self._check_charge("other_charge")
-        self._check_one_of(("M",), CURRENT_SYMBOL, "M='0.1 H', or a parameter")
         if self.charge == self.other_charge:
             raise self._error(
                 "both of its coils have the same charge",

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.answers import ENERGY, REQUIRED, Entry, FieldKind, Measure
+from lagrangian.model.elements.answers import ENERGY, REQUIRED, ActsOn, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import XI, Action, Level, Surroundings, Use
 from lagrangian.model.elements.branch import CHARGE_ENTRY, THROUGH, CircuitBranch
 from lagrangian.model.geometry import Frame, as_expr
@@ -24,8 +24,9 @@ class Transducer(CircuitBranch):
     """A winding in the field of a magnet: the effort k i on what it moves, and the voltage −k ẋ on its circuit.
 
     ``k`` is one constant for both: in N m/A for a motor that turns ``on`` an angle, equal to V s/rad of its back-emf;
-    in N/A = V s/m (B l) for a voice coil ``on`` a displacement. It may depend on positions. What one side gives the
-    other takes, k i ẋ; nothing is stored. ``on`` is an expression in the coordinates or a frame in the plane; for a
+    in N/A = V s/m (B l) for a voice coil ``on`` a displacement. It may depend on positions, and on the current that
+    makes the field, as in a motor whose field winding is in series, k = K i. What one side gives the other takes,
+    k i ẋ; nothing is stored. ``on`` is an expression in the coordinates or a frame in the plane; for a
     motor between two links it is the angle between them.
     """
 
@@ -37,7 +38,11 @@ class Transducer(CircuitBranch):
     about = "A winding in the field of a magnet: the effort k i, and the back-emf k ẋ."
     entries: ClassVar[Mapping[str, Entry]] = {
         "charge": CHARGE_ENTRY,
-        "k": Entry(FieldKind.EXPRESSION, "Its constant, N m/A or N/A; it may depend on positions.", REQUIRED),
+        "k": Entry(
+            FieldKind.EXPRESSION,
+            "Its constant, N m/A or N/A; it may depend on positions, the current of its field and inputs.",
+            REQUIRED,
+        ),
         "on": Entry(
             FieldKind.FRAME_OR_ANGLE,
             "The angle or displacement that it drives, as an expression, or a frame.",
@@ -52,7 +57,6 @@ class Transducer(CircuitBranch):
     resists = False
 
     def __post_init__(self) -> None:
-        self._check_charge()
         if self.k is None or self.on is None:
             missing = "k" if self.k is None else "on"
             raise self._error(
@@ -69,15 +73,16 @@ class Transducer(CircuitBranch):
                 fix="on=the angle of the joint that it drives",
                 code="E414",
             )
+        self._check_charge()
 
     def suggested_name(self) -> str:
         """The symbol of its constant."""
         return self.k.name if isinstance(self.k, sp.Symbol) else ""
 
     def uses(self) -> Iterator[Use]:
-        """The charge; the constant, of positions and parameters; what it drives, of coordinates and time."""
+        """The charge; the constant, of positions, a field's current and inputs; what it drives, of positions."""
         yield from self.uses_of_charge()
-        yield Use("k", "constant", self.k, Level.POSITION)
+        yield Use("k", "constant", self.k, Level.VELOCITY, inputs=True)
         if not isinstance(self.on, Frame):
             yield Use("on", "displacement", self.on, Level.POSITION)
 
@@ -92,6 +97,10 @@ class Transducer(CircuitBranch):
         """The frame that it turns, if it is given by one."""
         if isinstance(self.on, Frame):
             yield "on", self.on
+
+    def acts_on(self) -> ActsOn:
+        """The charge that flows through it, and what it drives."""
+        return ActsOn((self.charge, self.on), "it does nothing: no coordinate moves what it drives", "on=an angle")
 
     def moved(self, model: Surroundings) -> sp.Expr:
         """What it drives: an angle [rad] or a displacement [m]."""
