@@ -9,7 +9,7 @@ from sympy import cos, sin
 
 import built_in
 import lagrangian as lg
-from built_in import CIRCUITS, SOME, SPACE, picture
+from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
 from lagrangian.look.kinematics import Kinematics
 from lagrangian.page.scene import Scene
@@ -27,13 +27,7 @@ def _kinds(scene: Scene, *wanted: str) -> Counter[str]:
 @pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", IN_THE_PLANE)
 def test_nothing_of_an_example_in_the_plane_is_left_out(name: str) -> None:
-    missing = picture(name).missing
-    if name in CIRCUITS:
-        (circuit,) = missing
-        assert circuit.startswith("the circuit of charge q is not drawn: its elements have no place in space (")
-        assert all(e.title in circuit for e in built_in.system(name).model.branches)
-        return
-    assert missing == UNDRAWN.get(name, ())
+    assert picture(name).missing == UNDRAWN.get(name, ())
 
 
 @pytest.mark.sampled(SOME)
@@ -41,7 +35,7 @@ def test_nothing_of_an_example_in_the_plane_is_left_out(name: str) -> None:
 def test_every_coordinate_has_a_label(name: str) -> None:
     system = built_in.system(name)
     labels = {x for label in picture(name).scene.labels if label.role == "coordinate" for x in label.names}
-    assert labels == {c.name for c in system.model.coordinates if c not in system.model.charges}
+    assert labels == {c.name for c in system.model.coordinates}
 
 
 @pytest.mark.sampled(SOME)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.look.shapes import INK, arc, arc_end, head, line
-from lagrangian.model import Coordinate
 from lagrangian.page.scene import FIXED, Disc, Pair, Path, Placement, Role, ScenePart, Trace
 
 Array = NDArray[np.float64]
@@ -69,6 +68,8 @@ class Board:
     """In space: the solids from back to front, as `Scene.solids`."""
     pinned: frozenset[int] = frozenset()
     """The points at which joints close loops."""
+    straight: set[str] = field(default_factory=set[str])
+    """The windings that move something along a line, by name."""
     hidden: frozenset[str] = frozenset()
     """The names of elements that are not to be drawn."""
     _views: Views | None = None
@@ -279,18 +280,6 @@ class Board:
             )
         self.fence(p, q)
         self.wish((name,), (p + q) / 2, n, "thin", distance=3.0)
-
-    def lacks_circuit(self, coordinate: Coordinate) -> bool:
-        """Say so if a coordinate is a charge: circuits have no place in the picture."""
-        model = self.stage.model
-        if coordinate not in model.charges:
-            return False
-        mine = [e for e in model.branches if any(model.expand(x).has(coordinate.symbol) for x in e.charges)]
-        listed = ", ".join(e.title for e in mine)
-        self.lacks(
-            f"the circuit of charge {coordinate.name} is not drawn", f"its elements have no place in space ({listed})"
-        )
-        return True
 
     def lacks(self, what: str, help_by: str) -> None:
         """Say what is not drawn, and the line that helps."""

@@ -19,7 +19,7 @@ from lagrangian.look.spread import slide_along
 from lagrangian.look.tie_glyphs import symbol_names
 from lagrangian.look.ties import Resolver, Tie
 from lagrangian.look.turning import Turn
-from lagrangian.model import Element, Force, Frame, Torque
+from lagrangian.model import Element, Force, Frame, Torque, Transducer
 
 Array = NDArray[np.float64]
 
@@ -46,13 +46,14 @@ class EffortArtist:
                 self._force(element)
             elif isinstance(element, Torque):
                 self._torque(element)
+            elif isinstance(element, Transducer):
+                self._winding(element)
 
     # -- forces -------------------------------------------------------------------------------------------------
 
     def _force(self, element: Force) -> None:
         if element.at is None or not isinstance(element.value, tuple):
-            tie = self.resolver.resolve(element)
-            self._along(element, tie)
+            self._along(element, self.resolver.resolve(element), self._unit_value(element.value))
             return
         board, k = self.board, self.board.stage.index(element.at)
         components = element.value
@@ -129,10 +130,12 @@ class EffortArtist:
         others = [b if a == k else a for a, b in pairs if k in (a, b)]
         return any(float((board.at(x) - board.at(k)) @ side) > 0 for x in others if isinstance(x, int))
 
-    def _along(self, element: Force, tie: Tie) -> None:
-        """A force along a deflection: on one body, or a pair of forces."""
+    def _along(self, element: Force | Transducer, tie: Tie, value: float) -> None:
+        """An effort along a deflection: on one body, or a pair; the sign of its value says in which sense."""
         board = self.board
-        sense = 1.0 if self._unit_value(element.value) >= 0 else -1.0
+        sense = 1.0 if value >= 0 else -1.0
+        if isinstance(element, Transducer) and tie.way in ("slides", "points", "telescope"):
+            board.straight.add(element.name)
         if tie.way == "slides" and isinstance(tie.b, int):
             eb = self._positive(tie.b)
             if tie.a is None:
@@ -153,6 +156,17 @@ class EffortArtist:
             self._around(element, tie.b, sense * tie.sign)
             return
         board.lacks(f"{element.title} is not drawn, because its deflection belongs to no pair of points or bodies", "")
+
+    def _winding(self, element: Transducer) -> None:
+        """The effort of a winding in a magnet's field on what it moves, for a positive current."""
+        if not isinstance(element.on, Frame):
+            self._along(element, self.resolver.along(element, element.on), self._unit_value(element.k))
+            return
+        turn = self._turned(element)
+        if turn is None:
+            self.board.lacks(f"{element.title} is not drawn, because nothing was found that turns by its angle", "")
+            return
+        self._around(element, turn, 1.0 if self._unit_value(element.k) >= 0 else -1.0)
 
     def _positive(self, k: int) -> Array:
         """The direction on the screen in which the slide of a body counts positive in `Tie.sign`."""
@@ -182,7 +196,7 @@ class EffortArtist:
         value = element.value if isinstance(element.value, sp.Expr) else sum(element.value, sp.S.Zero)
         self._around(element, turn, 1.0 if self._unit_value(value) >= 0 else -1.0)
 
-    def _turned(self, element: Torque) -> Turn | None:
+    def _turned(self, element: Torque | Transducer) -> Turn | None:
         if isinstance(element.on, Frame):
             number = self.board.stage.frames.index(element.on)
             return next((t for t in self.turns if t.frame == number), None) or self._joint_of(number)

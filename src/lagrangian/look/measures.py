@@ -45,10 +45,10 @@ class MeasureArtist:
     def draw(self) -> None:
         """Draw every coordinate that the rules know; what they do not know is told."""
         floating = [f.floating for f in self.board.stage.model.floating if f.floating is not None]
-        skipped = {c.name for f in floating for c in f.coordinates}
+        skipped = {c.name for f in floating for c in f.coordinates} | {c.name for c in self.board.stage.model.charges}
         for i, coordinate in enumerate(self.board.stage.model.coordinates):
             name = coordinate.name
-            if name in self.board.hidden or name in skipped or self.board.lacks_circuit(coordinate):
+            if name in self.board.hidden or name in skipped:
                 continue
             rules = [self._slide, self._telescope, self._angle, self._position]
             if any(h.how is HoldKind.TELESCOPE and h.along == i for h in self.board.motions.holds):

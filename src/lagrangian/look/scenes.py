@@ -12,6 +12,7 @@ from lagrangian.graph import Program
 from lagrangian.look.board import Board
 from lagrangian.look.bodies import draw_bodies
 from lagrangian.look.cast import BodyGlyph, Player, cast
+from lagrangian.look.circuit_glyphs import draw_circuits
 from lagrangian.look.constraint_glyphs import draw_constraints
 from lagrangian.look.couplers import couplers
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
@@ -210,6 +211,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
     """The scene, moved so that everything lies within its frame."""
     low, high = _extent(board, 0)
     drawn = len(board.parts)
+    draw_circuits(board, np.array([low[0], (low[1] + high[1]) / 2]))
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
     if board.stage.dimension == 3:
         draw_fixed_axes(board, np.array([low[0] - 12.0, high[1] + 10.0]))

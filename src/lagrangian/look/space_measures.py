@@ -62,14 +62,10 @@ class SpaceMeasures:
         if legs:
             board.lacks("angles of the legs are not drawn", "hide=[…] leaves this line out")
         chains: dict[int, list[tuple[int, Array]]] = {}
+        circuits = {i for i, c in enumerate(board.stage.model.coordinates) if c in board.stage.model.charges}
         for i, coordinate in enumerate(board.stage.model.coordinates):
             name = coordinate.name
-            if (
-                name in board.hidden
-                or (i in self.floating and i not in shifts)
-                or i in legs
-                or board.lacks_circuit(coordinate)
-            ):
+            if name in board.hidden or i in circuits or (i in self.floating and i not in shifts) or i in legs:
                 continue
             if i in spins:
                 self.arcs.arc(spins[i], name)

@@ -269,13 +269,18 @@ class TieArtist:
         board.block(board.at(k) + foot + 4 * e, 16 + long * abs(e[1]), 16 + long * abs(e[0]))
 
     def _friction(self, tie: Tie, k: int, names: tuple[str, ...], role: Role) -> None:
-        """A thick dashed line where the body meets its floor."""
+        """A thick dashed line where the body meets its floor, or a wall on its left where it moves up and down."""
         board = self.board
         e = slide_along(board, self.by_point[k])
         n = np.array([-e[1], e[0]])
-        n = n if n[1] > 0 else -n
-        foot = (sole_of(board, self.by_point[k]) or 0.0) * n + 3.0 * n
+        upright = abs(n[0]) > 0.95
+        n = n if n[1] > 0.05 or (upright and n[0] < 0) else -n
+        beside = BLOCK[0] / 2 + 1.0 if upright else sole_of(board, self.by_point[k]) or 0.0
+        foot = (beside + 3.0) * n
         angle = heading((float(e[0]), float(e[1])))
+        if upright:
+            edge = board.placed(k, *((beside + 5.0) * n))
+            board.put(turned(floor(-38.0, 38.0), pi / 2), "ground", edge, kind="wall", layer=GROUND, moves=False)
         place = board.placed(k, float(foot[0]), float(foot[1]))
         shape = turned(line((-32.0, 0.0), (32.0, 0.0)), angle)
         board.put(shape, role, place, of=(tie.element.name,), kind="friction", width=4.0, dashed=True, layer=GROUND + 1)
@@ -359,17 +364,19 @@ class TieArtist:
         board.wish(names, spot + (38.0, 12.0 + 16 * used), (0.2, 1.0), role, of, distance=8.0)
 
 
+LOCAL = ("delta", "current", "charge", "t")
+"""What laws say with letters of their own, and time."""
+
+
 def symbol_names(element: Element) -> tuple[str, ...]:
     """The symbols by which an element is known in a picture: its stiffness, its coefficient, its value, its law."""
-    for key in ("k", "b", "mu", "limit", "value", "law", "energy"):
+    for key in ("k", "b", "mu", "limit", "value", "L", "C", "R", "M", "law", "coenergy", "energy"):
         value = getattr(element, key, None)
         values = value if isinstance(value, tuple) else (value,)
         found: list[str] = []
         for x in values:
             if isinstance(x, sp.Expr):
-                listed = _main_symbols(x) or sorted(
-                    (a for a in x.free_symbols if str(a) not in ("delta", "t")), key=str
-                )
+                listed = _main_symbols(x) or sorted((a for a in x.free_symbols if str(a) not in LOCAL), key=str)
                 found += [str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in listed]
         if found:
             return tuple(dict.fromkeys(found))[:2]

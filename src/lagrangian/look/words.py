@@ -6,27 +6,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
+from lagrangian.look.circuit_words import circuits
 from lagrangian.look.couplers import couplers
 from lagrangian.look.gears import ArmGear
 from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import Hold, HoldKind
+from lagrangian.look.phrases import capital, cut, listed, said, short
 from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
 from lagrangian.model import CircuitBranch, Element, Frame, Point, Rolling, Rope, Transducer
-
-MOST = 14
-"""At most so many bodies, ties and coordinates are named; the rest is counted."""
-
-LONGEST_NAME = 48
+from lagrangian.page.plain import plain
 
 GROUND = "the ground"
 
@@ -48,35 +46,19 @@ def description(
 ) -> str:
     """The bodies and what holds them; what ties them together; what acts on them; the coordinates."""
     words = _Sentences(board, parts, list(ties), list(turns))
-    sentences = ["; ".join(_cut(list(words.bodies()), "more bodies"))]
-    sentences.append("; ".join(_cut(list(words.ties_between()), "more")))
-    sentences.append("; ".join(_cut([words.string(x) for x in strings] + words.rods(), "more strings and rods")))
-    sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
-    sentences.append("; ".join(_cut(list(words.actions()), "more")))
-    circuit = [_said(e) for e in board.stage.model.branches if e.name not in board.hidden]
-    sentences.append(f"Circuit: {', '.join(_cut(circuit, 'more'))}" if circuit else "")
+    sentences = ["; ".join(cut(list(words.bodies()), "more bodies"))]
+    sentences.append("; ".join(cut(list(words.ties_between()), "more")))
+    sentences.append("; ".join(cut([words.string(x) for x in strings] + words.rods(), "more strings and rods")))
+    sentences.append("; ".join(cut(list(words.constraints()), "more constraints")))
+    sentences.append("; ".join(cut(list(words.actions()), "more")))
+    sentences.append("; ".join(circuits(board)))
     coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
-    text = " ".join(f"{_capital(s)}." for s in sentences if s)
-    return f"{text} Coordinates: {'; '.join(_cut(coordinates, 'more'))}."
+    text = " ".join(f"{capital(s)}." for s in sentences if s)
+    return f"{text} Coordinates: {'; '.join(cut(coordinates, 'more'))}."
 
 
 def _coordinate(name: str, words: str) -> str:
-    return f"{_short(name)}: {_short(words, 120)}" if words else _short(name)
-
-
-def _cut(listed: list[str], rest: str) -> list[str]:
-    return listed if len(listed) <= MOST else [*listed[: MOST - 1], f"and {len(listed) - MOST + 1} {rest}"]
-
-
-def _short(name: str, most: int = LONGEST_NAME) -> str:
-    text = " ".join(name.split())
-    return text if len(text) <= most else text[: most - 1] + "…"
-
-
-def _capital(text: str) -> str:
-    """A sentence with a capital letter at its start, unless it starts with a symbol such as m1."""
-    first = re.split(r"[ ,;]", text, maxsplit=1)[0]
-    return text[:1].upper() + text[1:] if first.isalpha() or "-" in first else text
+    return f"{short(name)}: {short(words, 120)}" if words else short(name)
 
 
 class _Sentences:
@@ -94,7 +76,7 @@ class _Sentences:
     def body(self, part: Player) -> str:
         """A body as it is mentioned again: ``the pole``, ``mass m1``, ``cart 1``."""
         word = WORDS.get(part.glyph, part.glyph.value)
-        name = _short(part.name)
+        name = short(part.name)
         if PLAIN.match(name):
             return f"the {name}"
         return name if any(len(w) > 2 and w.isalpha() for w in name.split()) else f"{word} {name}"
@@ -124,7 +106,7 @@ class _Sentences:
         if hold is not None and hold.holder != k and hold.how is HoldKind.FIRMLY:
             return self.owner(hold.holder, but)
         name = self.stage.points[k].name
-        return f"point {_short(name)}" if name else "a point that moves"
+        return f"point {short(name)}" if name else "a point that moves"
 
     def of_point(self, point: Point) -> str:
         return self.owner(self.stage.index(point))
@@ -142,7 +124,7 @@ class _Sentences:
         """The body that turns with a frame, or whose angle an expression is."""
         if isinstance(thing, Frame):
             part = next((p for p in self.parts if p.body.axes is thing), None)
-            return self.body(part) if part is not None else f"frame {_short(thing.name)}" if thing.name else None
+            return self.body(part) if part is not None else f"frame {short(thing.name)}" if thing.name else None
         words = self.stage.model.angle_words(thing)
         found = next((p for p in self.parts if words == (p.body.title,)), None)
         if found is not None:
@@ -249,14 +231,14 @@ class _Sentences:
         """Springs, dampers and forces along a deflection."""
         for tie in self.ties:
             a, b = self._ends(tie)
-            said = _said(tie.element)
+            what = said(tie.element)
             if a is None or b is None:
-                yield said
+                yield what
             elif a == b:
-                yield f"{said} at {a}"
+                yield f"{what} at {a}"
             else:
                 a, b = (b, a) if a == GROUND else (a, b)
-                yield f"{said} between {a} and {b}"
+                yield f"{what} between {a} and {b}"
 
     def _ends(self, tie: Tie) -> tuple[str | None, str | None]:
         match tie.way:
@@ -303,14 +285,14 @@ class _Sentences:
                 continue
             between: Any = getattr(element, "between", None)
             if isinstance(element, Rope):
-                yield f"{_said(element)} through {_listed(dict.fromkeys(self.of_point(p) for p in element.through))}"
+                yield f"{said(element)} through {listed(dict.fromkeys(self.of_point(p) for p in element.through))}"
             elif isinstance(element, Rolling):
                 continue  # said of its body
             elif between:
                 ends = [self._beside(p, i, between) for i, p in enumerate(between)]
-                yield f"{_said(element)} joins {_listed(dict.fromkeys(ends))}"
+                yield f"{said(element)} joins {listed(dict.fromkeys(ends))}"
             else:
-                yield _said(element)
+                yield said(element)
 
     def _beside(self, point: Point, i: int, between: Sequence[Point]) -> str:
         """What a point of a joint belongs to, as long as that is another body than at the joint's other end."""
@@ -325,8 +307,9 @@ class _Sentences:
             if element.name in tied | set(self.board.hidden) or element.ledger in ("T*", "λ"):
                 continue
             if isinstance(element, CircuitBranch):
-                if isinstance(element, Transducer) and isinstance(element.on, Frame):
-                    yield f"{_said(element)} {self._turned(element)}"
+                if isinstance(element, Transducer):
+                    drives = f"drives {short(plain(element.on))}"
+                    yield f"{said(element)} {self._turned(element) if isinstance(element.on, Frame) else drives}"
                 continue
             at, on = getattr(element, "at", None), getattr(element, "on", None)
             if element.kind == "gravity":
@@ -334,11 +317,11 @@ class _Sentences:
             elif isinstance(at, Point):
                 reaction = getattr(element, "reaction", None)
                 pair = f", its opposite on {self.of_point(reaction)}" if isinstance(reaction, Point) else ""
-                yield f"{_said(element)} acts on {self.of_point(at)}{pair}"
+                yield f"{said(element)} acts on {self.of_point(at)}{pair}"
             elif on is not None:
-                yield f"{_said(element)} {self._turned(element)}"
+                yield f"{said(element)} {self._turned(element)}"
             else:
-                yield f"{_said(element)} acts"
+                yield f"{said(element)} acts"
 
     def _turned(self, element: Element) -> str:
         on, reaction = getattr(element, "on"), getattr(element, "reaction", None)  # noqa: B009
@@ -346,16 +329,3 @@ class _Sentences:
         if what is None:
             return "acts"
         return f"turns {what}, its opposite {against}" if against else f"turns {what}"
-
-
-def _said(element: Element) -> str:
-    """An element by its kind and name: ``spring k``, ``the damper`` where these are the same."""
-    kind, name = element.kind.replace("_", " "), _short(element.name)
-    if name.startswith(kind):
-        return name if name != kind else f"the {kind}"
-    return f"{kind} {name}" if name else f"a {kind}"
-
-
-def _listed(words: Iterable[str]) -> str:
-    listed = list(words)
-    return listed[0] if len(listed) == 1 else f"{', '.join(listed[:-1])} and {listed[-1]}"

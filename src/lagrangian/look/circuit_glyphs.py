@@ -1,0 +1,202 @@
+"""Draws circuits beside what they move: loops of wire with sources, resistors, coils, capacitors and windings."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from math import atan2, pi
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.board import BODY, EFFORT, JOINT, TIE, Board
+from lagrangian.look.circuit_loops import CircuitLoop, PlacedBranch, moved_by, rows_of_loops
+from lagrangian.look.shapes import arc, box, head, joined, line, lines, turned
+from lagrangian.look.tie_glyphs import symbol_names
+from lagrangian.model import CircuitBranch, MutualInductance, Transducer, VoltageSource
+from lagrangian.page.scene import Disc, Pair, Path, Role
+
+Array = NDArray[np.float64]
+
+CELL, NARROW, LOW = 62.0, 104.0, 88.0
+"""The length of wire for a branch, and the least width and height of a loop [px]."""
+HALF, ROUND = 17.0, 13.0
+"""Half the length of a branch's glyph, and the radius of a round one [px]."""
+APART, BESIDE, BELOW = 40.0, 74.0, 40.0
+"""Between two coils that share flux, between a circuit and what it moves, between two circuits [px]."""
+INWARD = 30.0
+"""How much wider a loop is whose coils are labelled inside it [px]."""
+MESH = 17.0
+"""The radius of the arrow around the name of a loop's charge [px]."""
+THICK = {"resistor": 6.0, "inductor": 7.0, "transducer": 15.0}
+"""Half of how thick glyphs are, as far as not round [px]."""
+LONGEST = 12
+"""A branch whose law is more than a letter is labelled by its own name, if that is not longer."""
+
+ROLES: dict[str, Role] = {
+    "inductor": "body", "mutual_inductance": "body", "capacitor": "stiffness", "resistor": "damping",
+    "voltage_source": "input", "transducer": "input",
+}  # fmt: skip
+
+
+def draw_circuits(board: Board, beside: Array) -> None:
+    """Draw all circuits, the middle of their right side left of a place [px]."""
+    rows = rows_of_loops(board)
+    if not rows:
+        return
+    heights = [_height(row) for row in rows]
+    y = float(beside[1]) - (sum(heights) + BELOW * (len(rows) - 1)) / 2
+    for row, height in zip(rows, heights, strict=True):
+        x = float(beside[0]) - BESIDE - sum(_width(loop) + (APART if loop.coupled else 0.0) for loop in row)
+        _draw_row(board, row, x, y, height)
+        y += height + BELOW
+
+
+def _width(loop: CircuitLoop) -> float:
+    return max(NARROW + (INWARD if loop.labelled_inside else 0.0), CELL * len(loop.top), CELL * len(loop.bottom))
+
+
+def _height(row: list[CircuitLoop]) -> float:
+    return max(LOW, *(CELL * len(side) for loop in row for side in (loop.left, loop.right, loop.shared)))
+
+
+def _draw_row(board: Board, row: list[CircuitLoop], x: float, y: float, height: float) -> None:
+    """Loops from left to right; neighbours have a wire in common, or a gap between two coils."""
+    wired = False
+    for n, loop in enumerate(row):
+        a, b = x, x + _width(loop)
+        if not wired:
+            _side(board, (a, y + height), (a, y), loop.left, (1.0 if n else -1.0, 0.0))
+        _side(board, (a, y), (b, y), loop.top, (0.0, -1.0))
+        _side(board, (b, y + height), (a, y + height), loop.bottom, (0.0, 1.0))
+        wired = n + 1 < len(row) and loop.coupled is None
+        inward = (-1.0 if loop.coupled is not None else 1.0, 0.0)
+        _side(board, (b, y), (b, y + height), loop.shared if wired else loop.right, inward)
+        for corner in ((b, y), (b, y + height)) if wired else ():
+            board.put(Disc(corner, 2.6), "rod", width=0.0, solid=True, kind="node", layer=JOINT, moves=False)
+        _mesh(board, loop, ((a + b) / 2, y + height / 2))
+        x = b
+        if loop.coupled is not None:
+            _flux(board, loop.coupled, (b + APART / 2, y + height / 2))
+            x += APART
+
+
+def _mesh(board: Board, loop: CircuitLoop, centre: Pair) -> None:
+    """The charge of a loop, with an arrow in its sense."""
+    start, end = (0.85 * pi, 2.4 * pi) if loop.sense > 0 else (0.15 * pi, -1.4 * pi)
+    name = (loop.coordinate.name,)
+    board.bow(centre, MESH, start, end, "coordinate", of=name, kind="coordinate")
+    board.block(centre, 2 * MESH, 2 * MESH)
+    board.wish(name, centre, (0.0, 0.0), "coordinate", name, inside=True)
+
+
+def _side(board: Board, start: Pair, end: Pair, branches: list[PlacedBranch], out: Pair) -> None:
+    """A wire from corner to corner with the glyphs of its branches, and their labels on its outer side."""
+    a, b = np.array(start), np.array(end)
+    e = (b - a) / float(np.linalg.norm(b - a))
+    at = a
+    for n, x in enumerate(branches):
+        middle = a + (n + 0.5) / len(branches) * (b - a)
+        _wire(board, at, middle - HALF * e)
+        _branch(board, x, middle, atan2(e[1], e[0]), out)
+        at = middle + HALF * e
+    _wire(board, at, b)
+
+
+def _wire(board: Board, a: Array, b: Array) -> None:
+    board.put(line((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))), "rod", kind="wire", layer=BODY, moves=False)
+    board.fence(a, b)
+
+
+def _branch(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pair) -> None:
+    """One glyph, along a direction."""
+    element, of = x.element, (x.element.name,)
+    role = ROLES.get(element.kind, "rod")
+    moving = isinstance(element, Transducer)
+    for shape, filled, solid in _glyph(board, x):
+        board.put(
+            turned(shape, angle, float(middle[0]), float(middle[1])),
+            role, of=of, kind=element.kind, filled=filled, solid=solid, width=0.0 if solid else 1.6, layer=TIE,
+            moves=False,
+        )  # fmt: skip
+    if not moving and moved_by(board, element):
+        tip, foot = (13.0, -14.0), (-13.0, 13.0)
+        for shape, solid in ((line(foot, (10.0, -11.0)), False), (head(tip, (1.0, -1.0)), True)):
+            board.put(
+                turned(shape, 0.0, float(middle[0]), float(middle[1])),
+                role, of=of, kind=element.kind, solid=solid, width=0.0 if solid else 1.4, layer=EFFORT, moves=False,
+            )  # fmt: skip
+    thick = THICK.get(element.kind, ROUND)
+    board.block(middle, *((2 * HALF, 2 * thick) if abs(np.cos(angle)) > 0.5 else (2 * thick, 2 * HALF)))
+    board.wish(_names(element), middle, out, role, of, distance=thick + 4.0)
+
+
+def _glyph(board: Board, x: PlacedBranch) -> list[tuple[Path, bool, bool]]:
+    """The shapes of a branch along x from −17 to 17, each with whether it is filled with paper or with its colour."""
+    element = x.element
+    leads = lines(((-HALF, 0.0), (-ROUND, 0.0)), ((ROUND, 0.0), (HALF, 0.0)))
+    match element.kind:
+        case "resistor":
+            return [(box(2 * HALF, 11.0), True, False)]
+        case "inductor":
+            return [(_windings(), False, False)]
+        case "capacitor":
+            plates = ((-3.5, -12.0), (-3.5, 12.0)), ((3.5, -12.0), (3.5, 12.0))
+            return [(lines(((-HALF, 0.0), (-3.5, 0.0)), *plates, ((3.5, 0.0), (HALF, 0.0))), False, False)]
+        case "voltage_source":
+            side = x.sense * _sign(board, element)
+            plus, minus = 6.5 * side, -6.5 * side
+            signs = lines(
+                ((plus - 3.5, 0.0), (plus + 3.5, 0.0)), ((plus, -3.5), (plus, 3.5)), ((minus, -3.5), (minus, 3.5))
+            )
+            return [(leads, False, False), (_circle(), True, False), (signs, False, False)]
+        case "transducer" if element.name in board.straight:
+            moved = lines(((-9.0, 12.0), (9.0, 12.0)))
+            heads = joined(
+                head((14.0, 12.0), (1.0, 0.0), length=7.0, width=5.0),
+                head((-14.0, 12.0), (-1.0, 0.0), length=7.0, width=5.0),
+            )
+            return [(_windings(), False, False), (moved, False, False), (heads, False, True)]
+        case "transducer":  # a rotor between two brushes
+            brushes = [turned(box(5.0, 9.0), 0.0, s * ROUND) for s in (-1.0, 1.0)]
+            return [(leads, False, False), (_circle(), True, False), (joined(*brushes), False, True)]
+        case _:
+            return [(line((-HALF, 0.0), (HALF, 0.0)), False, False)]
+
+
+def _circle() -> Path:
+    return joined(arc(ROUND, 0.0, 2 * pi), Path((("Z", ()),)))
+
+
+def _windings() -> Path:
+    """Four half circles along x."""
+    r = HALF / 4
+    first, *rest = (arc(r, pi, 2 * pi, x=-HALF + (2 * n + 1) * r) for n in range(4))
+    return Path((*first.commands, *(c for x in rest for c in x.commands[1:])))
+
+
+def _sign(board: Board, element: CircuitBranch) -> float:
+    """The side on which a source of a positive input is positive."""
+    if not isinstance(element, VoltageSource) or not isinstance(element.value, sp.Expr):
+        return 1.0
+    return -1.0 if board.stage.value(element.value, board.q, board.p, u=1.0) < 0 else 1.0
+
+
+def _flux(board: Board, element: MutualInductance, centre: Pair) -> None:
+    """What two coils share: the two lines of a core, and the name of the mutual inductance above them."""
+    x, y = centre
+    of = (element.name,)
+    core = lines(*(((x + s, y - 19.0), (x + s, y + 19.0)) for s in (-2.5, 2.5)))
+    board.put(core, "body", of=of, kind=element.kind, layer=TIE, moves=False)
+    board.block(centre, 9.0, 38.0)
+    board.wish(_names(element), (x, y - 19.0), (0.0, -1.0), "body", of, distance=3.0)
+
+
+def _names(element: CircuitBranch) -> tuple[str, ...]:
+    """The letter of a branch; where its law is more than a letter, its own name, or else the letters in it."""
+    own, letter = element.name, element.suggested_name()
+    if letter:
+        return (letter,)
+    return (own,) if own and len(own) <= LONGEST and not own.startswith(element.kind) else symbol_names(element)
