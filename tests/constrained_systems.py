@@ -114,3 +114,26 @@ def sleigh():
     s.force((w, 0), at=at)
     s.velocity_constraint(y.diff() * sp.cos(theta) - x.diff() * sp.sin(theta), name="edge")
     return s
+
+
+PEAUCELLIER = {"alpha": 0.3, "beta1": 0.6, "beta2": -0.4, "x": 1.2, "y": 0.1}
+"""A rough guess for `peaucellier`; its point then moves along x = (1² − ½²)/(2 · 0.3) = 1.25."""
+
+
+def peaucellier():
+    """Peaucellier's linkage of four particles, two long arms, a crank, and four short rods: P moves on a line."""
+    s = lg.System("Peaucellier's linkage")
+    alpha, first, second, x, y = s.coordinates("alpha beta1 beta2 x y")
+    long, short, d, m = s.parameters("L l d m", L=1.0, l=0.5, d=0.3, m=1.0)
+    points = {
+        "B": s.point("B", (d + d * sp.cos(alpha), d * sp.sin(alpha))),
+        "A1": s.point("A1", (long * sp.cos(first), long * sp.sin(first))),
+        "A2": s.point("A2", (long * sp.cos(second), long * sp.sin(second))),
+        "P": s.point("P", (x, y)),
+    }
+    for name, at in points.items():
+        s.particle(m, at=at, name=name)
+    for k, (a, b) in enumerate((("A1", "B"), ("A2", "B"), ("A1", "P"), ("A2", "P"))):
+        s.constraint(between=(points[a], points[b]), distance=short, name=f"rod {k}")
+    s.gravity()
+    return s

@@ -410,3 +410,21 @@ def test_energies_alone_do_not_tell_a_constrained_motion(verb: str) -> None:
     """p_x of the sleigh would be kept without the force on its edge."""
     with pytest.raises(lg.ModelError, match="needs independent coordinates"):
         getattr(sleigh(), verb)()
+
+
+def test_a_rope_along_lines_is_an_atwood_machine() -> None:
+    """The length of each part is |x|, whose rate has no curvature. T = 2 m₁ m₂ g/(m₁ + m₂), a textbook's."""
+    s = lg.System("Atwood's machine with a rope")
+    x1, x2 = s.coordinates("x1 x2")
+    m1, m2, length = s.parameters("m1 m2 l", m1=3.0, m2=2.0, l=4.0)
+    ends = [s.point(name, (k, x)) for k, (name, x) in enumerate((("A", x1), ("B", x2)))]
+    for m, end in zip((m1, m2), ends, strict=True):
+        s.particle(m, at=end)
+    s.gravity()
+    s.rope((ends[0], s.point("P", (0, 0)), s.point("Q", (1, 0)), ends[1]), length=length, name="rope")
+    d = s.derive()
+    assert not d.constraint_equations[0].lhs.has(x1.diff(t) ** 2, x2.diff(t) ** 2)
+    assert all(check.holds for check in d.verify(states=20) if check.holds is not None)
+    run = s.simulate(0.5, x1=-1.0, x2=-2.0)
+    assert np.allclose(run["rope"], -2 * 3 * 2 * 9.81 / 5, rtol=1e-12)
+    assert np.allclose(run["x1"], -1.0 - 9.81 / 5 * run.t**2 / 2, rtol=1e-10)

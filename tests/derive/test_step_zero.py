@@ -8,7 +8,7 @@ import sympy as sp
 
 import built_in
 import lagrangian as lg
-from constrained_systems import pendulum_in_plane
+from constrained_systems import peaucellier, pendulum_in_plane
 from lagrangian.model import time as t
 
 
@@ -117,6 +117,17 @@ def test_rows_that_depend_on_each_other_along_the_motion_leave_it_free() -> None
     assert "only 3 of the 4 are independent" in found.holonomy.notes[0]
     other = built_in.derivation("four-bar").constraints
     assert other is not None and other.verdict == "holonomic: #GC = #DDOF = 1" and not other.holonomy.notes
+
+
+@pytest.mark.slow
+def test_positions_of_another_kind_are_noted_and_kept_out_of_the_verification() -> None:
+    """Peaucellier's linkage moves in one way; where its arms lie on each other it turns like two rods."""
+    derivation = peaucellier().derive()
+    found = derivation.constraints
+    assert found is not None and found.verdict == "holonomic: #GC = #DDOF = 1"
+    (note,) = found.holonomy.notes
+    assert "positions of another kind, where only 3 of them are independent: there the system moves in 2 ways" in note
+    assert all(check.holds is not False for check in derivation.verify(states=20))
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from scipy.special import ellipj
 
 import built_in
 import lagrangian as lg
+from constrained_systems import PEAUCELLIER, peaucellier
 from lagrangian.integrate import RunStatus
 from lagrangian.simulate import spared
 from redundant_systems import INERTIA, START, WEIGHT, crank_angle, plate_on_cranks
@@ -85,6 +86,20 @@ def test_multistep_methods_say_why_they_are_slow_or_stop_where_a_linkage_can_bra
     slow = plate.simulate(0.425, initial=START, method="LSODA", samples=11)
     (said,) = (n.text for n in slow.notices if "more than one way" in n.text)
     assert slow.success and slow.steps > 1000 and "'LSODA' takes very short steps" in said
+
+
+@pytest.mark.slow
+def test_a_linkage_steps_over_a_position_where_it_can_branch_or_the_run_names_what_does():
+    """At 0.427 s the arms lie on each other; on the same branch the point stays on Peaucellier's line x = 1.25."""
+    system = peaucellier()
+    for options, within in (({"method": "taylor"}, 1e-6), ({"method": "rk4", "step": 1e-3}, 1e-6)):
+        run = system.simulate(1.0, initial=PEAUCELLIER, **options)
+        assert run.success, run.message
+        assert np.abs(run["x"] - 1.25).max() < 1e-12
+        assert run["beta1"][-1] < run["beta2"][-1] and float(run.audit) < within
+    stopped = system.simulate(1.0, initial=PEAUCELLIER, rtol=1e-6)
+    assert stopped.success or "come to depend on each other there" in stopped.message
+    assert stopped.success or "method='taylor' or method='rk4' with a step" in stopped.message
 
 
 def test_without_projection_the_drift_is_measured():

@@ -62,9 +62,14 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 return broken, "look for a division by zero or a root of a negative number there"
             if said.startswith("["):  # the solver kept the message of an evaluation
                 return said, "a finite value everywhere the run may reach"
-            if branch := drift.branches(outcome):
-                other = "'Radau'" if task.method == "dop853" else "'dop853'"
-                return f"[E504] {branch}", Advice(Argument("method", other), ", which steps over such positions")
+            if branch := drift.branches(task, outcome):
+                other = "'taylor'" if task.method == "dop853" else "'dop853'"
+                return f"[E504] {branch}", Advice(
+                    Argument("method", other),
+                    " or ",
+                    Argument("method", "'rk4'"),
+                    " with a step, which may step over it",
+                )
             return f"[E504] {said}", _gentler(task, outcome)
         case RunStatus.TOO_MANY:
             return (

@@ -162,13 +162,15 @@ def _at(model: Model, make: object, task: Task, t: float, x: Array) -> dict[str,
     return evaluate(program, {g: list(map(float, values)) for g, values in given.items()})  # type: ignore[return-value]
 
 
-def branches(outcome: Outcome) -> str:
+def branches(task: Task, outcome: Outcome) -> str:
     """What is to be said of a run that could not go on where constraints come to depend on each other; else empty."""
     if outcome.drift is None:
         return ""
     drift = RunDrift.of_run(outcome.drift)
-    if not DEPENDENT < drift.margin < BRANCHING or outcome.reached - drift.margin_time > NEAR_THE_END * outcome.reached:
+    if not drift.margin < BRANCHING or outcome.reached - drift.margin_time > NEAR_THE_END * outcome.reached:
         return ""
+    if drift.margin < DEPENDENT and (not len(outcome.times) or float(_margins(task, outcome, 0).min()) < BRANCHING):
+        return ""  # not there alone
     return (
         f"the constraints come to depend on each other there (margin {drift.margin:.1g}): the system can move in more "
         "than one way, and rounding is a noise in its accelerations"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
@@ -39,6 +40,12 @@ HARDLY = 1e-9
 MOST_BENT = 1e3
 """The most that a row's second rate may be, in squares of the rates."""
 
+RANKED = 8
+"""Random positions from which the usual rank of the rows is found."""
+
+NEARBY = 1e-4
+"""How far on both sides the rows are looked at once more."""
+
 CLOSED = 1e-12
 """What is left of the rows, in parts of their size."""
 
@@ -52,6 +59,7 @@ class OnRows:
         self.velocity = dynamics.correction(model, position=False)
         self.residual, self.matrix = dynamics.residual(model), dynamics.constraint_matrix(model)
         self.positions = [named.condition.on_positions for named in named_conditions(model)]
+        self._rank: int | None = None
 
     def states(self, sampler: Sampler, count: int, seed: int, *, given: bool = False) -> Iterator[tuple[State, Groups]]:
         """Up to ``count`` random states on the rows; with ``given`` the parameters keep the values they have."""
@@ -71,7 +79,13 @@ class OnRows:
                     return
 
     def of(self, state: Mapping[str, list[float]]) -> dict[str, list[float]] | None:
-        """The state with q and v on the rows; None where no position near it was found."""
+        """The state with q and v on the rows; None where no position near it was found.
+
+        Positions of a special kind, where rows that are independent elsewhere depend on each other, are left out: there
+        the motion can branch, and neighbours move in other ways.
+        """
+        if self._rank is None:
+            self._rank = self._usual_rank(state)
         found = {group: list(x) for group, x in state.items()}
         if self.position is not None and not (self._closed(found, self.position) and self._polished(found)):
             return None
@@ -82,15 +96,42 @@ class OnRows:
             found["v"] = [float(x) for x in np.array(found["v"]) + step[0]]
         return found if self._moderate(found) else None
 
+    def _usual_rank(self, state: Mapping[str, list[float]]) -> int:
+        """The largest rank of the rows at positions that satisfy them, found from random ones."""
+        if self.position is None or sum(self.positions) < 2:
+            return 0
+        draw, largest = random.Random(len(state["q"])), 0
+        for _ in range(RANKED):
+            found = {**state, "q": [draw.uniform(-1.5, 1.5) for _ in state["q"]]}
+            if self._closed(found, self.position) and (sizes := self._sizes(found)) is not None:
+                largest = max(largest, int((sizes > CLEARLY * sizes.max()).sum()))
+        return largest
+
+    def _sizes(self, found: Groups) -> np.ndarray | None:
+        """The singular values of the rows on positions; None where they cannot be evaluated, and for frames that float,
+        whose coordinates are not as many as their velocities."""
+        try:
+            A = np.array(evaluated(self.matrix, found)["A"], float).reshape(len(self.positions), -1)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return None
+        return np.linalg.svd(A[self.positions], compute_uv=False) if len(found["q"]) == A.shape[1] else None
+
     def _moderate(self, found: Groups) -> bool:
-        """Whether the rows bend no more than usual there: not where two points of a rope or a rod almost coincide."""
+        """Whether the rows bend no more than usual there: not where two points of a rope or a rod almost coincide.
+
+        On a straight line such a row only changes its sign, so its coefficients are compared on both sides too.
+        """
+        q = np.array(found["q"])
+        sides = [{**found, "q": [float(x) for x in q + step]} for step in (-NEARBY, NEARBY)]
         try:
             made = evaluated(self.matrix, found)
+            before, after = (np.array(evaluated(self.matrix, side)["A"], float) for side in sides)
         except (ZeroDivisionError, ValueError, OverflowError):
             return False
         bend = np.abs(np.array(made["gamma"], float)).max(initial=0.0)
         speed = np.abs(np.array(found["v"], float)).max(initial=0.0)
-        return bool(bend <= MOST_BENT * (1.0 + speed**2))
+        turned = np.abs(after - before).max(initial=0.0)
+        return bool(bend <= MOST_BENT * (1.0 + speed**2) and turned <= MOST_BENT * 2 * NEARBY * np.abs(after).max())
 
     def _closed(self, found: dict[str, list[float]], program: Program) -> bool:
         for _ in range(STEPS):
@@ -121,6 +162,8 @@ class OnRows:
             sizes = np.linalg.svd(A[self.positions], compute_uv=False)
             if np.any((sizes > HARDLY * sizes.max()) & (sizes < CLEARLY * sizes.max())):
                 return False  # near a position where the motion branches: no digits are certain there
+            if (sizes >= CLEARLY * sizes.max()).sum() < (self._rank or 0):
+                return False
             step = np.linalg.pinv(A[self.positions], rcond=CLEARLY) @ f
             if not np.isfinite(step).all():
                 return False

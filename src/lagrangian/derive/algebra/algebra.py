@@ -121,7 +121,7 @@ class Algebra:
         for h, p in form.parts.items():
             for m, c in p.items():
                 for i, e in digits(m):
-                    if i in roots and e >= roots[i].q:
+                    if i in roots and roots[i].lowers(e):
                         times = e // roots[i].q
                         lower = m - unit(i) * times * roots[i].q
                         extra.setdefault((i, times), {}).setdefault(h, {})[lower] = c
@@ -130,7 +130,7 @@ class Algebra:
                     keep.setdefault(h, {})[m] = c
         if not extra:
             return form
-        replaced = [Form(self, parts, form.den) * roots[i].base ** times for (i, times), parts in extra.items()]
+        replaced = [Form(self, parts, form.den) * roots[i].whole(times) for (i, times), parts in extra.items()]
         return self.total([Form(self, keep, form.den), *replaced])
 
 

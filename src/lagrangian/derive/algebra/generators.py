@@ -33,11 +33,23 @@ class Symbolic:
 
 @dataclass(frozen=True, eq=False)
 class Root:
-    """g = b^(1/q) of a form b; with q = 1 it represents denominators, 1/b being g⁻¹. Relation: g^q = b."""
+    """g = b^(1/q) of a form b; with q = 1 it represents denominators, 1/b being g⁻¹. Relation: g^q = b.
+
+    ``inverse`` is 1/b of a product b that moves, such as the square in √(x²): then g⁻¹ = g^(q−1)/b.
+    """
 
     base: Form
     q: int
     moving: bool
+    inverse: Form | None = None
+
+    def lowers(self, exponent: int) -> bool:
+        """Whether g to this power is written with another one."""
+        return exponent >= self.q or (exponent < 0 and self.inverse is not None)
+
+    def whole(self, times: int) -> Form:
+        """b to a power, which is negative only if there is an ``inverse``."""
+        return self.base**times if times >= 0 else cast("Form", self.inverse) ** -times
 
     @property
     def expr(self) -> sp.Expr:
@@ -143,9 +155,17 @@ class Generators:
                 self.moving(m) for p in base.parts.values() for m in p
             )
             self._index[key] = i = len(self.table)
-            self.roots[i] = root = Root(base, q, moving)
+            self.roots[i] = root = Root(base, q, moving, self._inverse(base) if moving and q > 1 else None)
             self.table.append(root)
         return self._index[key]
+
+    def _inverse(self, base: Form) -> Form | None:
+        """1/b if b is one monomial."""
+        if base.size > 1 or list(base.parts) != [(0, 0)]:
+            return None
+        ((monomial, c),) = base.parts[0, 0].items()
+        sign = 1 if c > 0 else -1
+        return Form(self.algebra, {(0, 0): {-monomial: sign * base.den}}, sign * c)
 
     def opaque(self, expr: sp.Expr) -> int:
         """Return the number of a function that is treated as a symbol."""

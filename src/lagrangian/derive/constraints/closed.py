@@ -3,6 +3,9 @@
 At a random position a closed loop's rows may all be independent, while along the motion one of them follows from the
 others: a platform on three equal, parallel cranks moves, although four rows restrict four angles. So the rank is also
 taken at positions that satisfy the rows, which Newton's method finds from random starts.
+
+Positions may be of several kinds, between which no motion leads without passing through a position of both: where two
+arms of Peaucellier's linkage lie on each other, it turns like two rods.
 """
 
 from __future__ import annotations
@@ -21,14 +24,16 @@ CLOSED = 1e-11
 """The largest residual of a position that satisfies the rows."""
 
 AGREE = 2
-"""The number of positions that must show a lower rank."""
+"""The number of positions that must show a rank."""
 
 
-def rank_where_closed(sheet: Sheet, positions: Sequence[int]) -> int | None:
-    """Return the least rank of the rows ``positions`` at positions that satisfy them; None if too few were found."""
+def ranks_where_closed(sheet: Sheet, positions: Sequence[int]) -> tuple[int, ...]:
+    """Return the ranks of the rows ``positions`` at positions that satisfy them, each once, the largest first.
+
+    It is empty if too few positions were found.
+    """
     ranks = [rank for start in range(STARTS) if (rank := _rank_from(sheet, positions, start)) is not None]
-    least = min(ranks, default=0)
-    return least if ranks.count(least) >= AGREE else None
+    return tuple(sorted({rank for rank in ranks if ranks.count(rank) >= AGREE}, reverse=True))
 
 
 def _rank_from(sheet: Sheet, positions: Sequence[int], start: int) -> int | None:

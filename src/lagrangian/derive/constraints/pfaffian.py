@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, from_sympy, gradient, reached, replaced, to_sympy
+from lagrangian.graph import Graph, Program, from_sympy, gradient, reached, replaced, to_sympy
 
 
 class HasRow(Protocol):
@@ -62,6 +62,7 @@ class Sheet:
     graph: Graph = field(default_factory=Graph)
     symbols: dict[Any, int] = field(default_factory=dict[Any, int])
     numbers: dict[int, Fraction] = field(default_factory=dict[int, Fraction])
+    programs: dict[Any, Program] = field(default_factory=dict[Any, Program])
     _memo: dict[Any, int] = field(default_factory=dict[Any, int])
 
     def __post_init__(self) -> None:

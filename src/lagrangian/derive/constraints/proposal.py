@@ -21,6 +21,10 @@ ANGLES = ("theta", "alpha", "beta", "phi", "psi", "gamma")
 """Names for a new angle, in the order in which they are tried."""
 
 
+LONGEST = 400
+"""The size of a surface above which no simple way is expected."""
+
+
 @dataclass(frozen=True)
 class Proposal(Brief):
     """Coordinates as functions of others, so that ``integral`` is always satisfied; ``new`` is an added coordinate."""
@@ -53,7 +57,11 @@ def _ways(
     integral: Integral, free: Sequence[sp.Expr], coordinates: Sequence[sp.Expr], time: sp.Symbol, taken: set[str]
 ) -> Iterator[Proposal]:
     f = integral.expression
+    if size(f) > LONGEST:
+        return
     level = integral.level if integral.level is not None else sp.Symbol("c")
+    moving = f.atoms(*{q.func for q in coordinates})
+    free = [q for q in free if q in moving]
     for q in free:
         slope = bounded.diff(f, q)
         if slope != 0 and not slope.has(*coordinates, time):

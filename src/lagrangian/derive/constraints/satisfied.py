@@ -28,6 +28,9 @@ LONGEST = 0.7
 NEAR = 1e-2
 """A residual below which only the rows that are clearly independent lead on."""
 
+DOUBLE = 1e-13
+"""The smallest residual that is asked of doubles."""
+
 HARDLY, CLEARLY = 1e-9, 1e-4
 """A singular value below the first part of the largest one is 0, above the second it is not. Between them is doubt."""
 
@@ -45,16 +48,18 @@ def satisfied(
 ) -> SatisfiedAt | None:
     """Return a position at which the nodes ``positions`` are 0; None if none is found from the start of that number.
 
-    The residuals, with 50 digits, are at most ``within``. Steps have the precision of floating-point numbers, so each
-    of the last ones makes the residual smaller by at least ten digits. ``others`` are the nodes to evaluate there.
+    The residuals are at most ``within``, with 50 digits where that is less than doubles can say. Steps have the
+    precision of doubles, so each of the last ones makes the residual smaller by at least ten digits. ``others`` are the
+    nodes to evaluate there.
     """
+    digits = DIGITS if within < DOUBLE else None
     count, columns = len(positions), sheet.columns[:-1]
     slopes = [x for f in positions for x in sheet.differential(f)[:-1]]
     wanted = [*positions, *slopes, *others]
     with mpmath.workdps(DIGITS):
         values = _drawn(sheet, wanted, random.Random(start))
         for _ in range(STEPS):
-            found = evaluated(sheet, wanted, values)
+            found = evaluated(sheet, wanted, values, digits)
             numbers = np.array([float(x) if mpmath.isfinite(x) else np.nan for x in found])
             if not np.isfinite(numbers).all():
                 return None

@@ -246,8 +246,8 @@ def _unit(row: list[Any]) -> list[Any] | None:
     return None if size == 0 else [x / size for x in row]
 
 
-def evaluated(sheet: Sheet, ids: Sequence[int], values: dict[int, Any]) -> list[Any]:
-    """Return nodes with 50 digits, given the values of the input nodes."""
+def evaluated(sheet: Sheet, ids: Sequence[int], values: dict[int, Any], digits: int | None = DIGITS) -> list[Any]:
+    """Return nodes with 50 digits, or as doubles without ``digits``, given the values of the input nodes."""
     groups: dict[str, list[Any]] = {}
     for i, value in values.items():
         _, group, k = sheet.graph.nodes[i]
@@ -255,5 +255,7 @@ def evaluated(sheet: Sheet, ids: Sequence[int], values: dict[int, Any]) -> list[
         entries += [mpmath.mpf(0)] * (k + 1 - len(entries))
         entries[k] = value
     names = {group: tuple(f"{group}{k}" for k in range(len(e))) for group, e in groups.items()}
-    program = Program("rows", sheet.graph, names, {"x": Output(tuple(ids), (len(ids),))})
-    return [mpmath.mpf(x) for x in evaluate(program, groups, digits=DIGITS)["x"]]
+    key = (tuple(ids), tuple(names.items()))
+    if key not in sheet.programs:
+        sheet.programs[key] = Program("rows", sheet.graph, names, {"x": Output(tuple(ids), (len(ids),))})
+    return [mpmath.mpf(x) for x in evaluate(sheet.programs[key], groups, digits=digits)["x"]]

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +13,7 @@ import mpmath
 import sympy as sp
 
 from lagrangian.derive.constraints.brackets import MAX_NODES, Closure, closure
-from lagrangian.derive.constraints.closed import rank_where_closed
+from lagrangian.derive.constraints.closed import ranks_where_closed
 from lagrangian.derive.constraints.elimination import fields, kernel, solved
 from lagrangian.derive.constraints.integrals import TRIED, Integral, IntegralSearch
 from lagrangian.derive.constraints.pfaffian import HasRow, RowForm, Sheet, Variables, combined, forms
@@ -148,6 +148,24 @@ SIDES = 8
 """The number of random points at which growths are compared if kinks divide space into regions."""
 
 
+def _fewer_where_closed(ranks: Sequence[int], rows: int, n: int) -> Iterator[str]:
+    """What to note of rows that depend on others where all of them hold, everywhere or at some positions."""
+    for rank in ranks:
+        if rank == rows:
+            continue
+        ways = f"{n - rank} way{'s' if n - rank > 1 else ''}"
+        if rank == ranks[0]:
+            yield (
+                f"at positions that satisfy the rows only {rank} of the {rows} are independent: there the system moves "
+                f"in {ways}, and the multipliers are not unique"
+            )
+        else:
+            yield (
+                f"the rows also hold at positions of another kind, where only {rank} of them are independent: there "
+                f"the system moves in {ways}, and where the two kinds meet it can branch"
+            )
+
+
 @dataclass(frozen=True, eq=False)
 class _Judge:
     sheet: Sheet
@@ -169,13 +187,10 @@ class _Judge:
         if all(form.position is not None for form in rows.kept):
             seeker = IntegralSearch(self.sheet, self.place, rows.kept, len(names))
             seeker.positions()
-            rank = rank_where_closed(self.sheet, [form.position for form in rows.kept if form.position is not None])
-            if rank is not None and rank < len(names):
-                notes.append(
-                    f"at positions that satisfy the rows only {rank} of the {len(names)} are independent: there the "
-                    f"system moves in {n - rank} way{'s' if n - rank > 1 else ''}, and the multipliers are not unique"
-                )
-                found = replace(found, growth=(n - rank,))
+            ranks = ranks_where_closed(self.sheet, [form.position for form in rows.kept if form.position is not None])
+            if ranks and ranks[0] < len(names):
+                found = replace(found, growth=(n - ranks[0],))
+            notes += _fewer_where_closed(ranks, len(names), n)
             return replace(found, integrals=tuple(seeker.found), notes=tuple(notes))
         return self._closed(found, rows, notes, search)
 
