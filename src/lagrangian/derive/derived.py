@@ -88,7 +88,7 @@ WrittenForm: TypeAlias = Literal["expanded", "structured"]
 """How equations are written: in the coordinates alone, or in named quantities that are defined once."""
 
 QuantityKind: TypeAlias = Literal[
-    "turn", "vertical", "height", "length", "velocity", "momentum", "acceleration", "force", "shared"
+    "turn", "vertical", "height", "length", "velocity", "constraint", "momentum", "acceleration", "force", "shared"
 ]
 """What a named quantity is; in this order they are introduced."""
 

@@ -13,6 +13,7 @@ from lagrangian.bounded import hard
 from lagrangian.derive import Derived, Detail, derive
 from lagrangian.errors import Error, ModelError, did_you_mean
 from lagrangian.model import Inductor, Model, MutualInductance
+from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import text
 from lagrangian.structured.derive import derive_structured
 from lagrangian.structured.predict import is_long
@@ -100,13 +101,11 @@ def _structured(model: Model, detail: Detail) -> Derived:
 
 def refusal(model: Model) -> str:
     """Why a model has no structured derivation; empty if it has one."""
-    if model.constraints:
-        return "it has constraints"
-    if model.frictions:
-        return "it has dry friction"
-    given = [e for e in model.elements if e.ledger == "T*" and e not in model.bodies]
-    if given and isinstance(given[0], Inductor | MutualInductance):
-        return f"{given[0].title} stores energy by its current, and named quantities are those of moving bodies"
-    if given:
-        return f"{given[0].title} is an energy of motion that was given, without bodies"
+    if pressing_rows(model):
+        return "it has dry friction that a constraint presses on"
+    coils = [e for e in model.elements if isinstance(e, Inductor | MutualInductance)]
+    if coils:
+        return f"{coils[0].title} stores energy by its current, and named quantities are those of moving bodies"
+    if not model.bodies:
+        return "its energies were given directly, without bodies"
     return ""

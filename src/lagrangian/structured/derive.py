@@ -12,22 +12,25 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive import Derived, LedgerRow, Step
 from lagrangian.derive.algebra import Algebra
+from lagrangian.derive.constraints.page import Constraints, constraints
 from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.forces import contributions, forces
-from lagrangian.derive.holonomy import holonomic
+from lagrangian.derive.holonomy import constrained, holonomic
+from lagrangian.derive.multipliers.step import missing_equations
 from lagrangian.derive.result import ledger_items
 from lagrangian.derive.wiggle import study
 from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.model import Model
-from lagrangian.page.formula import EquationTerm, Heading, Item, formula, text
-from lagrangian.structured.floating import by_power, check_speeds, free, moved_by, speeds
+from lagrangian.page.formula import Elided, EquationTerm, Heading, Item, Left, formula, text
+from lagrangian.structured.floating import by_power, check_speeds, free, held_floating, moved_by, speeds
 from lagrangian.structured.listing import Listing, listing
 from lagrangian.structured.shares import ListedShares
-from lagrangian.structured.steps import ListedSteps, equalities
-from lagrangian.structured.writing import ListingWriter
+from lagrangian.structured.steps import ListedSteps
+from lagrangian.structured.writing import ListingWriter, equalities
 
 _log = logging.getLogger(__name__)
 
@@ -35,13 +38,14 @@ _log = logging.getLogger(__name__)
 def derive_structured(model: Model) -> Derived:
     """Return the equations of motion of a model in named quantities, with the seven steps that lead to them.
 
-    It takes a model without constraints and energies that are given directly; see `refusal`.
+    Raises `ModelError` where a row of a constraint contradicts others; `refusal` says which models it does not take.
     """
     _log.info("deriving: which coordinates move what")
-    early = _in_speeds(model) if model.floating else _in_coordinates(model)
+    known = constraints(model, _as_given) if model.constraints else None
+    early = _in_speeds(model, known) if model.floating else _in_coordinates(model, known)
     step0, step1 = early[:2]
     _log.info("deriving: velocities, momenta and forces")
-    found = listing(model)
+    found = listing(model, known.holonomy.independent if known is not None else ())
     write = ListingWriter(found)
     steps = ListedSteps(found, write)
     step2, step3, step4, step5 = steps.kinetic(), steps.potential(), steps.lagrangian(), steps.left_hand_sides()
@@ -59,44 +63,77 @@ def derive_structured(model: Model) -> Derived:
         equations=equations,
         terms=tuple(_terms(found, equation) for equation in equations),
         matrices=ListedMatrices(found),
-        result=(*_closing(model, equations), *ledger_items(book)),
+        result=(*_closing(steps, equations), *ledger_items(book)),
         ledger=book,
         shares=ListedShares(found, write),
         form="structured",
         definitions=steps.definitions(),
+        multipliers=steps.multipliers,
+        no_minimal=text("the equations are written in named quantities") if found.ties else None,
+        constraint_step=steps.constraints(),
+        constraints=known,
     )
 
 
-def _in_coordinates(model: Model) -> tuple[Step, Step, Step | None]:
+def _as_given(expr: sp.Expr) -> Left:
+    """A row as it was described, in few words where it is long: the step of the constraints has it in named quantities.
+
+    In normal form it may be too long.
+    """
+    operations = bounded.operations(expr)
+    return expr if operations <= MOST_GIVEN else Elided(expr, operations)
+
+
+MOST_GIVEN = 40
+"""Operations above which a row is written in named quantities alone."""
+
+
+def _in_coordinates(model: Model, known: Constraints | None) -> tuple[Step, Step, Step | None]:
     """Steps 0, 1 and 6 of a system whose speeds are the rates of its coordinates."""
     efforts = [x for e in model.elements for action in e.works(model) for x in (action.effort, action.rate)]
     context = Context(model, Algebra(model, efforts), study(model))
     step1 = coordinates(context)
-    return holonomic(context), step1, forces(context, contributions(context), step1.expressions["relative"])
+    step0 = holonomic(context) if known is None else constrained(context, known)
+    return step0, step1, forces(context, contributions(context), step1.expressions["relative"])
 
 
-def _in_speeds(model: Model) -> tuple[Step, Step, Step | None]:
+def _in_speeds(model: Model, known: Constraints | None) -> tuple[Step, Step, Step | None]:
     """Steps 0 and 1 of a system with floating frames; step 6 follows from the powers of the listing."""
-    check_speeds(model)
-    return free(model), speeds(model), None
+    if known is None:
+        check_speeds(model)
+        return free(model), speeds(model), None
+    return held_floating(model, known), speeds(model), None
 
 
 def _terms(found: Listing, equation: sp.Eq) -> tuple[EquationTerm, ...]:
     bodies = tuple(b.body.title for b in found.bodies)
     left = tuple(EquationTerm(x, "inertia", bodies) for x in _summands(equation.lhs))
     acting = tuple(t for t, added in found.mechanics.added.items() if added.efforts)
-    return left + tuple(EquationTerm(x, "input", acting) for x in _summands(equation.rhs) if x != 0)
+    multipliers = {tie.symbol: tie.row.element.title for tie in found.ties}
+    right: list[EquationTerm] = []
+    for x in (x for x in _summands(equation.rhs) if x != 0):
+        holding = tuple(dict.fromkeys(title for symbol, title in multipliers.items() if x.has(symbol)))
+        right.append(EquationTerm(x, "constraint", holding) if holding else EquationTerm(x, "input", acting))
+    return left + tuple(right)
 
 
 def _summands(side: sp.Basic) -> tuple[sp.Expr, ...]:
     return tuple(sp.Add.make_args(cast("sp.Expr", side)))
 
 
-def _closing(model: Model, equations: Sequence[sp.Eq]) -> list[Item]:
+def _closing(steps: ListedSteps, equations: Sequence[sp.Eq]) -> list[Item]:
+    model = steps.model
+    changes = [(name, row.second_rate) for name, row in steps.multipliers.items()]
+    slipping = [
+        text(f"These hold while {friction.title} slips; step 6 says what takes its place while it sticks.")
+        for friction in model.frictions
+    ]
     rates = "one ξ̈" if not model.floating else "the rate of one speed"
     return [
         Heading(text("Equations of motion")),
         *(formula(cast("sp.Expr", e.lhs), cast("sp.Expr", e.rhs), brief=True, boxed=True) for e in equations),
+        *missing_equations(len(equations), changes),
+        *slipping,
         text(
             f"The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with {rates} at 1."
         ),
@@ -106,6 +143,7 @@ def _closing(model: Model, equations: Sequence[sp.Eq]) -> list[Item]:
 def _ledger(steps: ListedSteps) -> tuple[LedgerRow, ...]:
     """All elements, each exactly once in T*, V or Ξ, and the reason."""
     energies: dict[str, sp.Expr] = {element.title: value for element, value in steps.V}
+    energies |= steps.given
     energies |= {b.body.title: value for b, (_, value) in zip(steps.found.bodies, steps.T, strict=True)}
     return tuple(LedgerRow(e.title, e.ledger, energies.get(e.title), text(*e.because)) for e in steps.model.elements)
 

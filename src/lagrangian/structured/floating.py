@@ -22,6 +22,7 @@ import sympy as sp
 
 from lagrangian.derive import Step
 from lagrangian.derive.circuits import nothing_acts
+from lagrangian.derive.constraints.page import Constraints
 from lagrangian.derive.context import big_xi
 from lagrangian.dynamics.loose import loose
 from lagrangian.dynamics.notices import configurations
@@ -95,6 +96,41 @@ def free(model: Model) -> Step:
         ),
         {"holonomic": True, "GC": GC, "DDOF": DDOF},
         (text(f"holonomic: #GC = #DDOF = {GC}, because no constraint on velocities was described"),),
+    )
+
+
+def held_floating(model: Model, known: Constraints) -> Step:
+    """Step 0 where constraints hold floating frames: every quaternion counts one number too many on both sides."""
+    spare, speeds = len(model.floating), len(model.velocities)
+    h = known.holonomy
+    DDOF, GC = h.DDOF - spare, None if h.GC is None else h.GC - spare
+    rows = tuple((text(row.name), text(*row.multiplier)) for row in known.rows)
+    items: list[Item] = [Table((text("row"), text("its multiplier λ")), rows)]
+    items += [text(f"The {notice.where} is {notice.text}.") for notice in known.notices()]
+    items.append(
+        text(
+            f"{speeds} speeds and {speeds - DDOF} independent rows: #DDOF = {speeds} − {speeds - DDOF} = {DDOF} is "
+            "the number of speeds that can be chosen freely at any instant. Of the quaternion of a frame only the "
+            "ratios matter, so that its four numbers count as three."
+        )
+    )
+    if GC is None:
+        items.append(text(f"Whether the system is holonomic was not decided beyond depth {len(h.growth)} of brackets."))
+    else:
+        verdict = "the system is holonomic" if GC == DDOF else f"the system is nonholonomic by {GC - DDOF}"
+        items.append(formula(Name("#GC"), Name(str(GC)), brief=True))
+        items.append(text(f"#GC = {GC} is the number of coordinates that describe all that can be reached: {verdict}."))
+    return Step(
+        0,
+        "Holonomic?",
+        text("Compared the number of generalized coordinates with the differential degrees of freedom."),
+        text(
+            "Lagrange's equations come one by one from a wiggle of one freedom while the others stay fixed. "
+            "Constraints forbid some of these wiggles; what they do instead is a force with a multiplier."
+        ),
+        tuple(items),
+        {"holonomic": h.holonomic, "GC": GC, "DDOF": DDOF, "redundant": h.redundant},
+        (text(f"#DDOF = {DDOF}, #GC = {'undecided' if GC is None else GC}"),),
     )
 
 

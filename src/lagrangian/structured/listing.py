@@ -8,7 +8,7 @@ left-hand sides. ∂v/∂ξ_i = d/dt ∂v/∂ξ̇_i, so of d/dt(m v·∂v/∂ξ�
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.derive import QuantityKind
@@ -16,9 +16,10 @@ from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
-from lagrangian.dynamics.vectors import Vector, bare, dot, times, transposed
-from lagrangian.graph import Graph, backwards, reached
+from lagrangian.dynamics.vectors import Vector, bare, dot, plus, times, transposed
+from lagrangian.graph import Graph, backwards, gradient, reached
 from lagrangian.model import Gravity, Model
+from lagrangian.structured.held_rows import ListedRow, pushes, ties
 from lagrangian.structured.names import COMPONENTS, Indices
 from lagrangian.structured.quantities import BodyMotion, Candidate, body_motions
 from lagrangian.structured.slopes import CoordinateSlopes
@@ -29,7 +30,8 @@ class Listing:
     """The nodes of a listing: what may get a name, and the lines of every coordinate.
 
     ``momenta`` are ∂T*/∂ξ̇_i, ``gradients`` ∂T*/∂ξ_i, ``rows`` the left-hand sides d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, ``forces``
-    the Ξ_i; of a floating frame the same for its quasi-velocities, see `floating`.
+    the Ξ_i, ``pushes`` what the constraints' rows, the ``ties``, add to them; of a floating frame the same for its
+    quasi-velocities, see `floating`. ``given`` are the kinetic co-energies that were given directly, by their titles.
     """
 
     model: Model
@@ -44,6 +46,9 @@ class Listing:
     rows: Vector
     forces: Vector
     heights: dict[str, Vector] = field(default_factory=dict[str, Vector])
+    ties: list[ListedRow] = field(default_factory=list[ListedRow])
+    pushes: Vector = field(default_factory=list[int])
+    given: dict[str, int] = field(default_factory=dict[str, int])
 
     def outputs(self) -> list[int]:
         """The nodes that the lines end in."""
@@ -52,12 +57,16 @@ class Listing:
             *self.gradients,
             *self.rows,
             *self.forces,
+            *self.pushes,
+            *self.given.values(),
+            *(x for tie in self.ties for x in (tie.rate, tie.change)),
+            *(tie.held for tie in self.ties if tie.held is not None),
             *(h for heights in self.heights.values() for h in heights),
         ]
 
 
-def listing(model: Model) -> Listing:
-    """Build the nodes of a model's listing."""
+def listing(model: Model, rows: Collection[str] = ()) -> Listing:
+    """Build the nodes of a model's listing; ``rows`` are the names of the constraints' rows that count."""
     graph = Graph()
     inputs = Inputs.of(graph, model)
     m, d = described(model, graph, inputs)
@@ -65,11 +74,16 @@ def listing(model: Model) -> Listing:
     acc = m.accelerations(vdot)
     indices = Indices(d)
     bodies = body_motions(d, m, acc, indices)
+    given = _given(d)
+    raw = m.raw_kinetic
     kinetic = [pair for b in bodies for pair in b.momenta()]
-    inertial = [pair for b in bodies for pair in b.inertial()]
+    kinetic += zip(m.v, gradient(graph, raw, m.v), strict=True)
+    inertial = [*(pair for b in bodies for pair in b.inertial()), *m.raw_inertial(vdot)]
+    held = ties(model, m, acc, rows)
     stored = [(rate, graph.neg(effort)) for rate, effort in m.stores]
     momenta = _backwards(graph, kinetic, [*m.v, *m.q])  # a prescribed velocity has momentum, too
     forces = _backwards(graph, [*inertial, *stored], m.v)
+    reactions = _backwards(graph, pushes(held), m.v)
     moving = _Moving(d, indices)
     velocities = list(moving.velocities())
     slopes = CoordinateSlopes(d, [bare(graph, node)[0] for node, *_ in velocities], momenta)
@@ -82,7 +96,9 @@ def listing(model: Model) -> Listing:
     candidates += moving.accelerations(acc.alpha, acc.a)
     candidates += _own(bodies, "force")
     candidates += list(_inward(graph, velocities, forces, "force", {"omega": "N", "v": "F"}))
+    candidates += list(_inward(graph, velocities, reactions, "constraint", {"omega": "K", "v": "R"}))
     zero = graph.zero
+    slope = plus(graph, [slopes.of(q) for q in m.q], gradient(graph, raw, m.q))
     return Listing(
         model,
         graph,
@@ -92,11 +108,20 @@ def listing(model: Model) -> Listing:
         bodies,
         candidates,
         [momenta.get(v, zero) for v in m.v],
-        m.motion.along_velocities([slopes.of(q) for q in m.q]),
+        m.motion.along_velocities(slope),
         [forces.get(v, zero) for v in m.v],
         m.gathered(m.efforts),
         heights,
+        held,
+        [reactions.get(v, zero) for v in m.v] if held else [],
+        given,
     )
+
+
+def _given(d: Description) -> dict[str, int]:
+    """The kinetic co-energies that were given directly, by the titles of their elements."""
+    elements = [e for e in d.model.elements if e.ledger == "T*" and e not in d.model.bodies]
+    return {e.title: d.node(e.kinetic(d.model)) for e in elements}
 
 
 def _backwards(g: Graph, pairs: Pairs, v: Sequence[int]) -> dict[int, int]:

@@ -11,11 +11,13 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrangian.derive import Origin
+from lagrangian.derive.multipliers.step import AFTER
 from lagrangian.dynamics.describe import moved
 from lagrangian.dynamics.mechanics import Pairs
 from lagrangian.model import Element
+from lagrangian.structured.held_rows import pushes
 from lagrangian.structured.listing import Listing
-from lagrangian.structured.writing import ListingWriter
+from lagrangian.structured.writing import ListingWriter, equalities
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,8 +35,8 @@ class ListedShares:
         """
         wanted = sp.sympify(term)
         found: list[Origin] = []
-        for i, (row, force) in enumerate(zip(self.found.rows, self.found.forces, strict=True)):
-            if any(wanted in sp.Add.make_args(side) or wanted == side for side in (self.write(row), self.write(force))):
+        for i, equation in enumerate(equalities(self.found, self.write)):
+            if any(wanted in sp.Add.make_args(side) or wanted == side for side in equation.args):
                 found += self.of(i)
         return tuple(found)
 
@@ -52,8 +54,12 @@ class ListedShares:
         for b in self.found.bodies:
             yield b.body, b.inertial(), 2
         for element in self.found.model.elements:
-            stored = [(rate, self.found.graph.neg(effort)) for rate, effort in m.added[element.title].stores]
+            if (added := m.added.get(element.title)) is None:
+                continue  # a constraint
+            stored = [(rate, self.found.graph.neg(effort)) for rate, effort in added.stores]
             if stored:
                 yield element, stored, 3
-            if acting := list(m.added[element.title].efforts):
+            if acting := list(added.efforts):
                 yield element, acting, 6
+        for tie in self.found.ties:
+            yield tie.row.element, pushes([tie]), AFTER

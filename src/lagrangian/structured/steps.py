@@ -5,16 +5,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
-from typing import cast
 
 import sympy as sp
 
 from lagrangian.derive import NamedQuantity, QuantityKind, Step
 from lagrangian.derive.circuits import nothing_stored
 from lagrangian.derive.energies import lagrangian_step, potential_step
-from lagrangian.derive.lagrange import left_hand_sides_step
+from lagrangian.derive.lagrange import SUMMED, left_hand_sides_step
+from lagrangian.derive.multipliers.step import by_multipliers, constraint_step
 from lagrangian.model import Element, Gravity
 from lagrangian.page.formula import (
     Heading,
@@ -42,6 +42,7 @@ ORDER: tuple[QuantityKind, ...] = (
     "vertical",
     "height",
     "length",
+    "constraint",
     "momentum",
     "acceleration",
     "force",
@@ -54,6 +55,7 @@ HEADINGS = {
     "vertical": "The upward direction in the axes of the frames",
     "height": "Heights",
     "length": "Lengths of springs and dampers",
+    "constraint": "Forces of the constraints",
     "momentum": "Momenta",
     "acceleration": "Accelerations",
     "force": "Forces",
@@ -68,7 +70,10 @@ class ListedSteps:
         self.flat = self.model.dimension == 2
         self.T = [self._kinetic(k) for k in range(len(found.bodies))]
         self.V = [(element, self._potential(element)) for element in self.model.elements if element.ledger == "V"]
-        self.total_T, self.total_V = (sp.Add(*[value for _, value in shares]) for shares in (self.T, self.V))
+        self.given = {title: write(node) for title, node in found.given.items()}
+        self.total_T = sp.Add(*[value for _, value in self.T], *self.given.values())
+        self.total_V = sp.Add(*[value for _, value in self.V])
+        self.multipliers = {tie.row.name: tie.known(write) for tie in found.ties}
         self.sections = self._sections()
 
     def _sections(self) -> dict[QuantityKind, list[NamedQuantity]]:
@@ -77,33 +82,57 @@ class ListedSteps:
         A part without a meaning of its own stands before the first that needs it.
         """
         kinds: dict[QuantityKind, list[NamedQuantity]] = {kind: [] for kind in ORDER}
-        known = {q.symbol: q for q in self.write.quantities.values()}
+        known: dict[sp.Basic, NamedQuantity] = {q.symbol: q for q in self.write.quantities.values()}
+        needs = {x: sorted(q.expression.free_symbols & known.keys(), key=str) for x, q in known.items()}
+        used = self._first_used(known.keys())
+        where = self._section_of(needs, used)
         done: set[sp.Basic] = set()
         first: dict[tuple[str, str, bool], int] = {}
         for node, q in sorted(self.write.quantities.items()):
             first.setdefault(_group(q), node)
 
-        def put(q: NamedQuantity, kind: QuantityKind) -> None:
-            if q.symbol in done:
-                return
-            done.add(q.symbol)
-            if q.kind != "shared" and ORDER.index(q.kind) < ORDER.index(kind):
-                kind = q.kind
-            for needed in sorted((s for s in q.expression.free_symbols if s in known), key=str):
-                put(known[cast("sp.Symbol", needed)], kind)
-            kinds[kind].append(q)
+        def put(symbol: sp.Basic) -> None:
+            if symbol not in done:
+                done.add(symbol)
+                for needed in needs[symbol]:
+                    put(needed)
+                kinds[where[symbol]].append(known[symbol])
 
-        for kind, values in (("velocity", [x for _, x in self.T]), ("length", [x for _, x in self.V])):
-            for symbol in sorted(set().union(*(x.free_symbols for x in values)) & known.keys(), key=str):
-                put(known[cast("sp.Symbol", symbol)], cast("QuantityKind", kind))
+        for symbols in used.values():
+            for symbol in symbols:
+                put(symbol)
         ordered = sorted(known.values(), key=lambda q: (first[_group(q)], _alphabetic(q)))
         for kind in ORDER:
             for q in ordered:
-                if q.kind == kind:
-                    put(q, kind)
-        for q in ordered:
-            put(q, "force")
+                if where[q.symbol] == kind:
+                    put(q.symbol)
         return kinds
+
+    def _first_used(self, known: Collection[sp.Basic]) -> dict[QuantityKind, list[sp.Basic]]:
+        """What the energies and the rows of constraints need, by the section that precedes them."""
+        rows = [x for row in self.multipliers.values() for x in (row.position, row.rate) if x is not None]
+        values: dict[QuantityKind, list[sp.Expr]] = {
+            "velocity": [*(x for _, x in self.T), *self.given.values()],
+            "length": [x for _, x in self.V],
+            "constraint": [*rows, *(self.write(x) for x in self.found.pushes)],
+        }
+        symbols = {kind: set[sp.Basic]().union(*(x.free_symbols for x in exprs)) for kind, exprs in values.items()}
+        return {kind: sorted((x for x in found if x in known), key=str) for kind, found in symbols.items()}
+
+    def _section_of(
+        self, needs: Mapping[sp.Basic, Sequence[sp.Basic]], used: Mapping[QuantityKind, Iterable[sp.Basic]]
+    ) -> dict[sp.Basic, QuantityKind]:
+        """The section of every quantity: that of its kind, or an earlier one in which something needs it."""
+        place: dict[sp.Basic, int] = {}
+        for q in self.write.quantities.values():
+            place[q.symbol] = len(ORDER) - 1 if q.kind == "shared" else ORDER.index(q.kind)
+        for kind, symbols in used.items():
+            for symbol in symbols:
+                place[symbol] = min(place[symbol], ORDER.index(kind))
+        for _, q in sorted(self.write.quantities.items(), reverse=True):  # operands have lower numbers
+            for needed in needs[q.symbol]:
+                place[needed] = min(place[needed], place[q.symbol])
+        return {symbol: ORDER[k] for symbol, k in place.items()}
 
     def definitions(self) -> tuple[NamedQuantity, ...]:
         """All quantities, each after those that it needs."""
@@ -171,6 +200,13 @@ class ListedSteps:
         names = [Name("T*", b.index) for b in self.found.bodies]
         for name, b, (shown, _) in zip(names, self.found.bodies, self.T, strict=True):
             items.append(formula(name, shown, note=text(b.body.title)))
+        reasons = [
+            text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
+        ]
+        for element in (e for e in self.model.elements if e.title in self.given):
+            names.append(Name("T*", element.name))
+            items.append(formula(names[-1], self.given[element.title], note=text(element.title)))
+            reasons.append(text(names[-1], f": {element.title} was given"))
         items.append(formula(Name("T*"), Terms(tuple(names)), brief=True))
         return Step(
             2,
@@ -182,9 +218,7 @@ class ListedSteps:
             ),
             tuple(items),
             {"T": self.total_T},
-            tuple(
-                text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
-            ),
+            tuple(reasons),
         )
 
     # -- step 3 -------------------------------------------------------------------------------------------------------
@@ -232,13 +266,28 @@ class ListedSteps:
         """L = T* − V."""
         return lagrangian_step(self.total_T - self.total_V)
 
+    # -- the constraints ----------------------------------------------------------------------------------------------
+
+    def constraints(self) -> Step | None:
+        """The rows of the constraints, their multipliers, and what they add to each equation; None without any."""
+        if not self.found.ties:
+            return None
+        known = self.multipliers.values()
+        added = zip(moved_by(self.model).values(), (self.write(x) for x in self.found.pushes), strict=True)
+        return constraint_step(self.found.ties, known, [row.rate for row in known], added, self.lines("constraint"))
+
     # -- step 5 -------------------------------------------------------------------------------------------------------
 
     def left_hand_sides(self) -> Step:
         """Momenta, accelerations and forces, their sums inwards, and three short lines for every coordinate."""
         by_xi = Partial(Name("L"), Name("xi", "i", 1))
         law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
-        items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
+        by_rows = by_multipliers() if self.found.ties else ()
+        items: list[Item] = [
+            formula(law, Terms((Name("Xi", "i"), *by_rows)), note=SUMMED, brief=True)
+            if by_rows
+            else formula(law, Name("Xi", "i"), brief=True)
+        ]
         items += [*laws()] if self.model.floating else []
         items += self._reason()
         items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
@@ -301,9 +350,3 @@ def _alphabetic(q: NamedQuantity) -> tuple[str, str]:
 def _group(q: NamedQuantity) -> tuple[str, str, bool]:
     """What the components of one vector have in common."""
     return "" if q.kind == "turn" else str(q.symbol)[:1], q.of, q.inward
-
-
-def equalities(found: Listing, write: ListingWriter) -> tuple[sp.Eq, ...]:
-    """The equations of motion as ``Eq(left-hand side, Ξ)``."""
-    pairs = zip(found.rows, found.forces, strict=True)
-    return tuple(cast("sp.Eq", sp.Eq(write(row), write(force), evaluate=False)) for row, force in pairs)

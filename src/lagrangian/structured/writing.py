@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from string import ascii_uppercase
 from typing import cast
 
 import sympy as sp
@@ -66,6 +67,7 @@ class ListingWriter:
         self.symbols: dict[int, sp.Expr] = dict(self.leaves)
         self.quantities: dict[int, NamedQuantity] = {}
         self._sums: dict[int, str] = {}
+        self._other_angles: dict[int, str] = {}
         self._live = set(reached(self.graph, found.outputs()))
         if not names:
             return
@@ -102,11 +104,12 @@ class ListingWriter:
         """The numbers of the coordinates in a sum of angles: 23 of θ₂ + θ₃."""
         if node in self._sums:
             return self._sums[node]
-        own: dict[sp.Expr, str] = {**self.found.indices.coordinates}
+        own: dict[sp.Expr, str] = {p.symbol: p.name for p in self.model.parameters}
+        own |= self.found.indices.coordinates
         angle = self(node)
         parts = [own[a] for a in sp.Add.make_args(angle) if a in own]
-        if len(parts) != len(sp.Add.make_args(angle)) or not parts:
-            return ""
+        if len(parts) != len(sp.Add.make_args(angle)) or not parts:  # a difference, for example: A, B, …
+            return self._other_angles.setdefault(node, ascii_uppercase[len(self._other_angles) % 26])
         if all(p.isdigit() and len(p) == 1 for p in parts):
             return "".join(sorted(parts))
         return "_".join(sorted(parts))
@@ -189,4 +192,14 @@ def _leaves(found: Listing) -> dict[int, sp.Expr]:
         table[g.input("a", i)] = cast("sp.Expr", sp.Derivative(velocity.symbol, time))
     table.update(zip(inputs.u, (u.symbol for u in model.inputs), strict=True))
     table.update(zip(inputs.p, (p.symbol for p in model.parameters), strict=True))
+    table.update((tie.multiplier, tie.symbol) for tie in found.ties)
     return table
+
+
+def equalities(found: Listing, write: ListingWriter) -> tuple[sp.Eq, ...]:
+    """The equations of motion as ``Eq(left-hand side, Ξ)``."""
+    right = [write(force) for force in found.forces]
+    if found.ties:
+        right = [sp.Add(force, write(push), evaluate=True) for force, push in zip(right, found.pushes, strict=True)]
+    pairs = zip(found.rows, right, strict=True)
+    return tuple(cast("sp.Eq", sp.Eq(write(row), force, evaluate=False)) for row, force in pairs)

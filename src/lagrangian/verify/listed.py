@@ -11,6 +11,7 @@ decimal numbers are rounded differently on the two sides, numbers at random stat
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -21,11 +22,14 @@ import sympy as sp
 from lagrangian import dynamics
 from lagrangian.derive import Derived
 from lagrangian.dynamics.floating import transported_momenta
+from lagrangian.dynamics.vectors import minus
 from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, from_sympy, gradient
 from lagrangian.model import Model, time
+from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.motion import verify_motion
-from lagrangian.verify.states import evaluated, random_states, relative
+from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.states import State, evaluated, random_states, relative
 
 POINTS = 3
 """The number of random points of the prime field."""
@@ -50,6 +54,8 @@ def verify_listed(derivation: Derived, *, states: int, seed: int) -> tuple[Check
     """
     reading = _Reading(derivation)
     checks = [_proved(reading, claim, states, seed) for claim in reading.claims()]
+    if derivation.multipliers:
+        checks.append(_on_rows(reading, states, seed))
     checks.append(_in_numbers(reading, states, seed))
     return (*checks, *verify_motion(derivation.model, states=states, seed=seed))
 
@@ -64,6 +70,10 @@ class _Reading:
         self.mechanics = dynamics.describe(self.model, self.graph, self.inputs)
         self.a = [self.graph.input("a", i) for i in range(len(self.inputs.v))]
         self.table = _table(self.model, self.inputs, self.a)
+        names = [row.name for row in self.mechanics.rows]
+        self.kept = [names.index(name) for name in derivation.multipliers]
+        self.lam = [self.graph.input("lambda", k) for k in range(len(self.kept))]
+        self.table |= {x.symbol: n for x, n in zip(derivation.multipliers.values(), self.lam, strict=True)}
         for d in derivation.definitions:
             self.table[d.symbol] = self.node(d.expression)
 
@@ -72,9 +82,20 @@ class _Reading:
         """The forward dynamics, which say whether a state has finite forces."""
         return dynamics.forward(self.model)
 
+    def held(self, state: State) -> dict[str, list[float]]:
+        """A state with values of the multipliers."""
+        source = random.Random(repr(state["q"]))
+        return {**state, "lambda": [source.uniform(-1, 1) for _ in self.lam]}
+
     def node(self, expr: sp.Basic) -> int:
         """The node of an expression in the coordinates and the defined symbols."""
         return from_sympy(self.graph, expr, self.table)
+
+    def pushed(self, forces: Sequence[int]) -> list[int]:
+        """Forces that a motion needs, less those of the constraints: Σ λ ∂c/∂v of the rows that are compiled."""
+        m = self.mechanics
+        pairs = [(m.rows[k].rate, lam) for k, lam in zip(self.kept, self.lam, strict=True)]
+        return minus(self.graph, forces, m.gathered(pairs)) if pairs else list(forces)
 
     def rows(self) -> list[int]:
         """Left minus right of every equation."""
@@ -100,7 +121,7 @@ class _Reading:
             _Claim(
                 text("the equations are Lagrange's equations of ", L, ", differentiated by the machine: identically"),
                 self.rows(),
-                m.inverse_from_lagrangian(self.a),
+                self.pushed(m.inverse_from_lagrangian(self.a)),
             ),
             _Claim(
                 text(
@@ -124,7 +145,41 @@ class _Reading:
             _Claim(
                 text(Xi, " is the power of the forces by its rate: identically"), self._forces(), m.gathered(m.efforts)
             ),
+            *self._rows_of_constraints(),
         ]
+
+    def _rows_of_constraints(self) -> list[_Claim]:
+        """The rows shown are those that the machine keeps; none without constraints."""
+        m, known = self.mechanics, list(self.derivation.multipliers.values())
+        if not known:
+            return []
+        shown, other = [self.node(row.rate) for row in known], [m.rows[k].rate for k in self.kept]
+        for row, k in zip(known, self.kept, strict=True):
+            if row.position is not None:
+                shown.append(self.node(row.position))
+                other.append(m.rows[k].residual or self.graph.zero)
+        return [
+            _Claim(text("the rows of the constraints shown are those that are compiled: identically"), shown, other)
+        ]
+
+    def row_rates(self) -> _Claim:
+        """f, c and ċ as shown against f as it was described, its rate and the rate of that: where f and c are zero."""
+        motion, shown, other = self.mechanics.motion, list[int](), list[int]()
+        described = {row.name: row for row in rows_of(self.model)}
+        for row in self.derivation.multipliers.values():
+            given, held = described[row.name], self.node(row.rate)
+            if row.position is not None and given.position is not None:
+                f = self.node(self.model.expand(given.position, constants=True))
+                shown.append(self.node(row.position))
+                other.append(f)
+                rate = motion.rate([f])[0]
+            else:
+                rate = self.node(self.model.expand(given.rate, constants=True))
+            shown += [held, self.node(row.second_rate)]
+            other += [rate, *motion.second_rate([rate], self.a)]
+        return _Claim(
+            text("on the constraints, ċ as shown is the rate of c, and c that of f as it was described"), shown, other
+        )
 
     def _kinematics(self) -> list[_Claim]:
         """The rates of the coordinates of floating frames, as step 1 shows them; none without such a frame."""
@@ -179,19 +234,38 @@ def _compared(reading: _Reading, claim: _Claim, states: int, seed: int, why: str
 
 def _worst(reading: _Reading, one: Sequence[int], other: Sequence[int], states: int, seed: int) -> float:
     """The largest relative difference of two lists of nodes at random states."""
-    outputs = {k: Output(tuple(x), (len(x),)) for k, x in (("one", one), ("other", other))}
-    program = Program(
-        "lines",
-        reading.graph,
-        {**reading.forward.inputs, "a": tuple(v.rate for v in reading.model.velocities)},
-        outputs,
-    )
-    worst = 0.0
+    program, worst = _sides(reading, one, other), 0.0
     for state in random_states(reading.model, reading.forward, states, seed):
-        got = {k: np.array(x, float) for k, x in evaluated(program, state).items()}
+        got = {k: np.array(x, float) for k, x in evaluated(program, reading.held(state)).items()}
         size = got["other"] if np.any(got["other"]) else np.array(state["a"])
         worst = float(np.maximum(worst, relative(got["one"] - got["other"], got["one"], size)))
     return worst
+
+
+def _sides(reading: _Reading, one: Sequence[int], other: Sequence[int]) -> Program:
+    """Two lists of nodes as the outputs of a program."""
+    outputs = {k: Output(tuple(x), (len(x),)) for k, x in (("one", one), ("other", other))}
+    inputs = {**reading.forward.inputs, "a": tuple(v.rate for v in reading.model.velocities)}
+    if reading.lam:
+        inputs["lambda"] = tuple(reading.derivation.multipliers)
+    return Program("lines", reading.graph, inputs, outputs)
+
+
+def _on_rows(reading: _Reading, states: int, seed: int) -> Check:
+    """The rates of the rows, at states that satisfy the rows."""
+    claim, onto, found, worst = reading.row_rates(), OnRows(reading.model), 0, 0.0
+    program = _sides(reading, claim.shown, claim.other)
+    for drawn in random_states(reading.model, reading.forward, states, seed):
+        if (state := onto.of(drawn)) is None:
+            continue
+        found += 1
+        got = {k: np.array(x, float) for k, x in evaluated(program, reading.held(state)).items()}
+        off, size = np.abs(got["one"] - got["other"]).max(), np.abs(got["other"]).max()
+        worst = float(np.maximum(worst, off / max(1.0, float(size))))
+    if not found:
+        why = "not checked: no random position could be moved to where it satisfies the constraints"
+        return Check(claim.what, None, why)
+    return Check(claim.what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {_counted(found)}")
 
 
 def _counted(states: int) -> str:
@@ -200,7 +274,7 @@ def _counted(states: int) -> str:
 
 def _in_numbers(reading: _Reading, states: int, seed: int) -> Check:
     """The equations as shown against virtual work, in numbers."""
-    worst = _worst(reading, reading.rows(), reading.mechanics.inverse(reading.a), states, seed)
+    worst = _worst(reading, reading.rows(), reading.pushed(reading.mechanics.inverse(reading.a)), states, seed)
     return Check(
         text("the equations agree with virtual work, a route without energies"),
         worst < TOLERANCE,

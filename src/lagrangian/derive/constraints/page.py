@@ -120,8 +120,11 @@ def _repeated(names: tuple[str, ...]) -> str:
     return f"it says again what {_names(names)} says" if names else "it holds for all positions"
 
 
-def constraints(model: Model, readable: Callable[[sp.Expr], sp.Expr]) -> Constraints:
-    """Return the constraints of a model and their consequences. Raises `ModelError` (E302) for contradictions."""
+def constraints(model: Model, readable: Callable[[sp.Expr], Left]) -> Constraints:
+    """Return the constraints of a model and their consequences; ``readable`` says how a row is written on the page.
+
+    Raises `ModelError` (E302) for contradictions.
+    """
     rows = rows_of(model)
     given = [_given(model, row) for row in rows]
     coordinates = tuple(c.symbol for c in model.coordinates)
@@ -151,7 +154,7 @@ def _given(model: Model, row: Row) -> _Given:
 # -- in words -------------------------------------------------------------------------------------------------------
 
 
-def _items(found: Constraints, readable: Callable[[sp.Expr], sp.Expr]) -> Iterator[Item]:
+def _items(found: Constraints, readable: Callable[[sp.Expr], Left]) -> Iterator[Item]:
     yield Heading(text("The constraints"))
     header = (text("row"), text("states"), text("its multiplier λ"))
     yield Table(header, tuple((text(r.name), _states(r, readable), text(*r.multiplier)) for r in found.rows))
@@ -167,7 +170,7 @@ def _items(found: Constraints, readable: Callable[[sp.Expr], sp.Expr]) -> Iterat
     yield from _routes(found)
 
 
-def _states(row: Row, readable: Callable[[sp.Expr], sp.Expr]) -> Text:
+def _states(row: Row, readable: Callable[[sp.Expr], Left]) -> Text:
     return text(readable(row.rate if row.position is None else row.position), " = 0")
 
 
@@ -206,7 +209,7 @@ def _verdict(found: Constraints) -> Iterator[Item]:
         yield text(f"With the given values of the parameters the verdict changes: {h.special}.")
 
 
-def _surfaces(found: Constraints, readable: Callable[[sp.Expr], sp.Expr]) -> Iterator[Item]:
+def _surfaces(found: Constraints, readable: Callable[[sp.Expr], Left]) -> Iterator[Item]:
     many = len(found.integrals) > 1
     yield text("The motion stays on ", "these surfaces:" if many else "this surface:")
     for integral in found.integrals:

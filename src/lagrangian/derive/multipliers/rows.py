@@ -18,7 +18,7 @@ from lagrangian.model import Friction, Model
 from lagrangian.model.elements import answers
 from lagrangian.model.names import moving_symbol
 from lagrangian.model.rows import Row, named_conditions, rows_of
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,13 +91,11 @@ def multipliers(context: Context, forms: tuple[RowForms, ...]) -> dict[str, Mult
 
 def _multiplier(context: Context, forms: RowForms) -> Multiplier:
     row = forms.row
-    return Multiplier(
-        row.name,
-        forms.symbol,
-        "" if row.unit is None else UNITS[row.unit],
-        text(*(context.readable(part) if isinstance(part, sp.Basic) else part for part in row.multiplier)),
-        row.element,
-        None if row.position is None else context.readable(row.position),
-        forms.rate.expr(),
-        forms.second_rate.expr(),
-    )
+    position = None if row.position is None else context.readable(row.position)
+    words = text(*(context.readable(part) if isinstance(part, sp.Basic) else part for part in row.multiplier))
+    return multiplier_of(row, forms.symbol, words, (position, forms.rate.expr(), forms.second_rate.expr()))
+
+
+def multiplier_of(row: Row, symbol: sp.Expr, words: Text, lines: tuple[sp.Expr | None, sp.Expr, sp.Expr]) -> Multiplier:
+    """The multiplier of a row; ``lines`` are f, c and ċ as they are written."""
+    return Multiplier(row.name, symbol, "" if row.unit is None else UNITS[row.unit], words, row.element, *lines)

@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Protocol
 
 import sympy as sp
 
@@ -15,6 +16,7 @@ from lagrangian.derive.derived import Step
 from lagrangian.derive.lagrange import SUMMED
 from lagrangian.derive.multiplier import Multiplier
 from lagrangian.derive.multipliers.rows import RowForms
+from lagrangian.model.rows import Row
 from lagrangian.page.formula import (
     Elided,
     Heading,
@@ -35,6 +37,15 @@ AFTER = 4
 """The lecture's step that the constraints follow: L is there, and nothing is differentiated yet."""
 
 
+class NamedRow(Protocol):
+    """What holds a row of a constraint, in whatever form its lines are."""
+
+    @property
+    def row(self) -> Row:
+        """The row as it was described."""
+        ...
+
+
 def by_multipliers() -> tuple[Left, ...]:
     """Σ over the rows of λ ∂c/∂ξ̇_i: what constraints add to the right-hand side."""
     return (Product((Name("lambda", "r"), Partial(Name("c", "r"), Name("xi", "i", 1)))),)
@@ -42,9 +53,26 @@ def by_multipliers() -> tuple[Left, ...]:
 
 def introduced(context: Context, rows: tuple[RowForms, ...], found: Mapping[str, Multiplier]) -> Step:
     """Write down every row, what its multiplier is, and what it adds to each equation of motion."""
-    items: list[Item] = []
-    for forms, known in zip(rows, found.values(), strict=True):
-        items += _row(context, forms, known)
+    rates = [context.written(forms.rate) for forms in rows]
+    return constraint_step(rows, found.values(), rates, _added(context, rows))
+
+
+def constraint_step(
+    rows: Sequence[NamedRow],
+    found: Iterable[Multiplier],
+    rates: Sequence[Left],
+    added: Iterable[tuple[sp.Expr, Left]],
+    defined: Iterable[Item] = (),
+) -> Step:
+    """The step between 4 and 5: every row with its rate as it is written, and what all of them add to each equation.
+
+    ``added`` has what an equation is called by and what the rows add to it; ``defined`` are the definitions of what
+    these lines contain.
+    """
+    known = list(found)
+    items: list[Item] = [*defined]
+    for named, one, rate in zip(rows, known, rates, strict=True):
+        items += _row(named, one, rate)
     items += [
         Heading(text("What the constraints add")),
         text(
@@ -52,9 +80,9 @@ def introduced(context: Context, rows: tuple[RowForms, ...], found: Mapping[str,
             "the row, and by virtual work, as for any other force, it adds to the right-hand side of equation i:"
         ),
         formula(*by_multipliers(), note=SUMMED, brief=True),
-        _table(context, rows),
+        _table(added),
     ]
-    if any(forms.row.position is None for forms in rows):
+    if any(one.position is None for one in known):
         items.append(text(*NEVER_INTO_L))
     return Step(
         AFTER,
@@ -65,8 +93,8 @@ def introduced(context: Context, rows: tuple[RowForms, ...], found: Mapping[str,
             "λ is that force: one more unknown, and one more equation, the row itself."
         ),
         tuple(items),
-        {"rows": {name: known.rate for name, known in found.items()}},
-        tuple(text(known.symbol, " is ", *known.words.parts) for known in found.values()),
+        {"rows": {one.name: one.rate for one in known}},
+        tuple(text(one.symbol, " is ", *one.words.parts) for one in known),
     )
 
 
@@ -82,46 +110,52 @@ NEVER_INTO_L: tuple[str | Left, ...] = (
 )
 
 
-def _row(context: Context, forms: RowForms, known: Multiplier) -> Iterator[Item]:
+def _row(named: NamedRow, known: Multiplier, rate: Left) -> Iterator[Item]:
     """One row: what is zero, its rate, and what its multiplier is."""
-    yield Heading(text(forms.row.element.title[:1].upper() + forms.row.element.title[1:], _component(forms)))
+    title, suffix = named.row.element.title, named.row.condition.suffix
+    yield Heading(text(title[:1].upper() + title[1:], f", row {suffix}" if suffix else ""))
     if known.position is not None:
         yield formula(Name("f"), fit(known.position), sp.S.Zero, brief=True)
-        yield formula(Name("c"), Name("f", "", 1), context.written(forms.rate), sp.S.Zero)
+        yield formula(Name("c"), Name("f", "", 1), rate, sp.S.Zero)
     else:
-        yield formula(Name("c"), context.written(forms.rate), sp.S.Zero, brief=True)
+        yield formula(Name("c"), rate, sp.S.Zero, brief=True)
     unit = f" [{known.unit}]" if known.unit else ""
     held = Name("c" if known.position is None else "f")
     sign = (". Where it is positive, it acts so as to increase ", held, ".")
     yield Text((known.symbol, f"{unit} is ", *known.words.parts, *sign), brief=True)
 
 
-def _component(forms: RowForms) -> str:
-    suffix = forms.row.condition.suffix
-    return f", row {suffix}" if suffix else ""
-
-
-def _table(context: Context, rows: tuple[RowForms, ...]) -> Table:
-    """What each λ adds to each equation."""
-    lines: list[tuple[Text, ...]] = []
+def _added(context: Context, rows: tuple[RowForms, ...]) -> Iterator[tuple[sp.Expr, Left]]:
+    """What the rows add to each equation, a term for each λ."""
     for i, c in enumerate(context.model.coordinates):
         pushes = [forms.pushes[i] for forms in rows]
         terms: tuple[Left, ...] = tuple(fit(push.expr()) for push in pushes if not push.is_zero)
-        lines.append((text(c.symbol), text(Terms(terms))))
-    return Table((text("equation"), text("constraints add")), tuple(lines))
+        yield c.symbol, Terms(terms)
+
+
+def _table(added: Iterable[tuple[sp.Expr, Left]]) -> Table:
+    """What the constraints add to each equation."""
+    lines = tuple((text(symbol), text(push)) for symbol, push in added)
+    return Table((text("equation"), text("constraints add")), lines)
 
 
 def second_rates(context: Context, rows: tuple[RowForms, ...]) -> Iterator[Item]:
     """What the rows ask of the accelerations, A ξ̈ + γ = 0, row by row; nothing without rows."""
-    if not rows:
+    changes = [(forms.row.name, context.written(forms.second_rate)) for forms in rows]
+    return missing_equations(len(context.model.coordinates), changes)
+
+
+def missing_equations(count: int, changes: Sequence[tuple[str, Left]]) -> Iterator[Item]:
+    """The rates ċ of the rows, by name, as the equations that ``count`` equations of motion need besides."""
+    if not changes:
         return
     yield text(
-        f"These are {len(context.model.coordinates)} equations with as many accelerations and {len(rows)} "
-        f"multiplier{'s' if len(rows) > 1 else ''} more. The rows, differentiated until accelerations stand in them, "
-        "are the missing equations:"
+        f"These are {count} equations with as many accelerations and {len(changes)} "
+        f"multiplier{'s' if len(changes) > 1 else ''} more. The rows, differentiated until accelerations stand in "
+        "them, are the missing equations:"
     )
-    for forms in rows:
-        yield formula(Name("c", "", 1), context.written(forms.second_rate), sp.S.Zero, note=text(forms.row.name))
+    for name, change in changes:
+        yield formula(Name("c", "", 1), change, sp.S.Zero, note=text(name))
 
 
 def matrix_form(context: Context, rows: tuple[RowForms, ...]) -> Iterator[Item]:

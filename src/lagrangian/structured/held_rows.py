@@ -1,0 +1,59 @@
+"""The rows of constraints in a listing: f, its rate c, the rate ċ of that, and the multiplier λ.
+
+λ is the force of the row along c, as any other effort is: one pass backwards over the velocities, with every λ as the
+weight of its c, leaves at each velocity node the constraint forces on everything that hangs there, and at every rate
+Σ λ ∂c/∂ξ̇_i, which the equation of that rate gets.
+"""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.multiplier import Multiplier
+from lagrangian.derive.multipliers.rows import multiplier_of, multiplier_symbols
+from lagrangian.dynamics.axes import Accelerations
+from lagrangian.dynamics.mechanics import Mechanics, Pairs
+from lagrangian.model import Model
+from lagrangian.model.rows import Row, rows_of
+from lagrangian.page.formula import text
+
+
+@dataclass(frozen=True, eq=False)
+class ListedRow:
+    """One row as nodes: ``held`` is f, None for a row on velocities; ``rate`` c, ``change`` ċ, ``multiplier`` λ."""
+
+    row: Row
+    symbol: sp.Expr
+    held: int | None
+    rate: int
+    change: int
+    multiplier: int
+
+    def known(self, write: Callable[[int], sp.Expr]) -> Multiplier:
+        """Its multiplier, with the row as it is written."""
+        held = None if self.held is None else write(self.held)
+        words = text(*self.row.multiplier)
+        return multiplier_of(self.row, self.symbol, words, (held, write(self.rate), write(self.change)))
+
+
+def ties(model: Model, m: Mechanics, acc: Accelerations, names: Collection[str]) -> list[ListedRow]:
+    """The rows with these names, in order; the others follow from them."""
+    symbols = multiplier_symbols(model)
+    found: list[ListedRow] = []
+    changes = m.row_accelerations(acc)
+    for k, (row, (made, change)) in enumerate(zip(rows_of(model), changes, strict=True)):
+        if row.name in names:
+            lam = m.graph.input("lambda", k)
+            found.append(ListedRow(row, symbols[row.name], made.residual, made.rate, change, lam))
+    return found
+
+
+def pushes(found: Collection[ListedRow]) -> Pairs:
+    """(c, λ) of every row: the efforts of the constraints on their rates."""
+    return [(tie.rate, tie.multiplier) for tie in found]
