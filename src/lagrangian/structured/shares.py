@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import cast
 
 import sympy as sp
 
@@ -36,7 +37,8 @@ class ListedShares:
         wanted = sp.sympify(term)
         found: list[Origin] = []
         for i, equation in enumerate(equalities(self.found, self.write)):
-            if any(wanted in sp.Add.make_args(side) or wanted == side for side in equation.args):
+            sides = (cast("sp.Expr", side) for side in equation.args)
+            if any(wanted in sp.Add.make_args(side) or wanted == side for side in sides):
                 found += self.of(i)
         return tuple(found)
 

@@ -116,8 +116,11 @@ class ListedSteps:
             "length": [x for _, x in self.V],
             "constraint": [*rows, *(self.write(x) for x in self.found.pushes)],
         }
-        symbols = {kind: set[sp.Basic]().union(*(x.free_symbols for x in exprs)) for kind, exprs in values.items()}
-        return {kind: sorted((x for x in found if x in known), key=str) for kind, found in symbols.items()}
+        found: dict[QuantityKind, list[sp.Basic]] = {}
+        for kind, exprs in values.items():
+            symbols = set[sp.Basic]().union(*(x.free_symbols for x in exprs))
+            found[kind] = sorted((x for x in symbols if x in known), key=str)
+        return found
 
     def _section_of(
         self, needs: Mapping[sp.Basic, Sequence[sp.Basic]], used: Mapping[QuantityKind, Iterable[sp.Basic]]
