@@ -14,10 +14,11 @@ import sympy as sp
 from lagrangian.advice import Advice, Verb
 from lagrangian.bounded import Budget
 from lagrangian.derive.algebra.form import LARGEST_FORM, Form, Harmonic, OutOfReach
-from lagrangian.derive.algebra.generators import WRITING, Generators, Symbolic
+from lagrangian.derive.algebra.generators import WRITING, Generators
 from lagrangian.derive.algebra.monomials import Packed, Poly, digits, unit
 from lagrangian.derive.algebra.readable import Writer
 from lagrangian.derive.algebra.reading import FormReader
+from lagrangian.derive.algebra.variables import Symbolic
 
 WORK = 5_000_000
 """The number of operations on terms for one system; textbook examples need a hundredth of it."""

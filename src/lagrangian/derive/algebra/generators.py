@@ -1,4 +1,4 @@
-"""The variables of the normal form: symbols, roots, functions treated as symbols, and the angles inside sines."""
+"""The table of the variables of the normal form, their derivatives, and the angles inside sines."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
@@ -6,9 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar, cast
+from typing import cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -16,78 +15,10 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.derive.algebra.form import Form, Harmonic, Ring
 from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, unit
-
-
-@dataclass(frozen=True, eq=False)
-class Symbolic:
-    """A symbol: time, a parameter, or a function of time with ``order`` dots. ``role`` is its meaning.
-
-    Roles: "coordinate", "rate", "acceleration" (and higher derivatives), "input", "time", "parameter".
-    """
-
-    time: ClassVar[sp.Symbol] = sp.Symbol("t")
-    expr: sp.Expr
-    role: str
-    order: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Root:
-    """g = b^(1/q) of a form b; with q = 1 it represents denominators, 1/b being g⁻¹. Relation: g^q = b.
-
-    ``inverse`` is 1/b of a product b that moves, such as the square in √(x²): then g⁻¹ = g^(q−1)/b.
-    """
-
-    base: Form
-    q: int
-    moving: bool
-    inverse: Form | None = None
-
-    def lowers(self, exponent: int) -> bool:
-        """Whether g to this power is written with another one."""
-        return exponent >= self.q or (exponent < 0 and self.inverse is not None)
-
-    def whole(self, times: int) -> Form:
-        """b to a power, which is negative only if there is an ``inverse``."""
-        return self.base**times if times >= 0 else cast("Form", self.inverse) ** -times
-
-    @property
-    def expr(self) -> sp.Expr:
-        """b^(1/q) with the base in readable form."""
-        return self.base.expr() ** sp.Rational(1, self.q)
-
-
-@dataclass(frozen=True, eq=False)
-class Opaque:
-    """A function treated as a symbol, such as exp(−x/l) or tanh(v/v₀); ``inside`` are the symbols on which it
-    depends."""
-
-    expr: sp.Expr
-    inside: tuple[sp.Expr, ...]
-    moving: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Trig:
-    """A sine or cosine as a symbol on the page; forms store harmonics and never contain one."""
-
-    harmonic: Harmonic
-    expr: sp.Expr
-    moving: bool
-
-
-@dataclass(frozen=True, eq=False)
-class Sum:
-    """A sum of parameters as a symbol on the page, such as L_a + L_b; forms store its symbols and never contain one."""
-
-    expr: sp.Expr
-    moving: ClassVar[bool] = False
-
+from lagrangian.derive.algebra.variables import Generator, Opaque, Root, Sum, Symbolic, Trig, reciprocal
 
 WRITING = 15_000
 """The number of terms that the search for shorter forms may examine for one system."""
-
-Generator = Symbolic | Root | Opaque | Trig | Sum
 
 
 class Generators:
@@ -155,17 +86,9 @@ class Generators:
                 self.moving(m) for p in base.parts.values() for m in p
             )
             self._index[key] = i = len(self.table)
-            self.roots[i] = root = Root(base, q, moving, self._inverse(base) if moving and q > 1 else None)
+            self.roots[i] = root = Root(base, q, moving, reciprocal(base) if moving and q > 1 else None)
             self.table.append(root)
         return self._index[key]
-
-    def _inverse(self, base: Form) -> Form | None:
-        """1/b if b is one monomial."""
-        if base.size > 1 or list(base.parts) != [(0, 0)]:
-            return None
-        ((monomial, c),) = base.parts[0, 0].items()
-        sign = 1 if c > 0 else -1
-        return Form(self.algebra, {(0, 0): {-monomial: sign * base.den}}, sign * c)
 
     def opaque(self, expr: sp.Expr) -> int:
         """Return the number of a function that is treated as a symbol."""

@@ -12,8 +12,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagrangian.derive.algebra.factor import Flat, Shortener, Tree, lead, order, ordered, primitive
-from lagrangian.derive.algebra.generators import Sum, Symbolic, Trig
 from lagrangian.derive.algebra.monomials import digits, packed
+from lagrangian.derive.algebra.variables import Sum, Symbolic, Trig
 from lagrangian.page.formula import TermKind
 
 if TYPE_CHECKING:

@@ -17,11 +17,12 @@ import sympy as sp
 
 from lagrangian.derive.algebra.factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
 from lagrangian.derive.algebra.form import Form, Term
-from lagrangian.derive.algebra.generators import Generators, Root
+from lagrangian.derive.algebra.generators import Generators
 from lagrangian.derive.algebra.group import MIN_HARMONIC_TERMS, Grouper, letters, role_of
 from lagrangian.derive.algebra.monomials import digits, unit
 from lagrangian.derive.algebra.sums import MAX_SUMS, sums_in, with_sums
 from lagrangian.derive.algebra.trig import displayed
+from lagrangian.derive.algebra.variables import Root
 from lagrangian.page.formula import TermKind
 
 WRITTEN = 50

@@ -14,7 +14,6 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive.algebra.form import Form, OutOfReach, Ring
-from lagrangian.derive.algebra.generators import Symbolic
 from lagrangian.derive.algebra.monomials import (
     LARGEST_EXPONENT,
     Packed,
@@ -25,6 +24,7 @@ from lagrangian.derive.algebra.monomials import (
     unit,
     whole,
 )
+from lagrangian.derive.algebra.variables import Symbolic
 
 EXACT_TURNS = 12
 """cos(x + π·p/q) is expanded to cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""

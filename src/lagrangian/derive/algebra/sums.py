@@ -12,9 +12,10 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagrangian.derive.algebra.factor import Flat, order, primitive
-from lagrangian.derive.algebra.generators import Generators, Symbolic
+from lagrangian.derive.algebra.generators import Generators
 from lagrangian.derive.algebra.monomials import digits, unit
 from lagrangian.derive.algebra.trig import plain_cost
+from lagrangian.derive.algebra.variables import Symbolic
 
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form

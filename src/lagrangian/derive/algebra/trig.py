@@ -7,8 +7,9 @@ from math import comb
 from typing import TYPE_CHECKING
 
 from lagrangian.derive.algebra.factor import Flat
-from lagrangian.derive.algebra.generators import Generators, Trig
+from lagrangian.derive.algebra.generators import Generators
 from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, turn, unit, whole
+from lagrangian.derive.algebra.variables import Trig
 
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form, Harmonic
