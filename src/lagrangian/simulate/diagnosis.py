@@ -63,13 +63,7 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             if said.startswith("["):  # the solver kept the message of an evaluation
                 return said, "a finite value everywhere the run may reach"
             if branch := drift.branches(task, outcome):
-                other = "'taylor'" if task.method == "dop853" else "'dop853'"
-                return f"[E504] {branch}", Advice(
-                    Argument("method", other),
-                    " or ",
-                    Argument("method", "'rk4'"),
-                    " with a step, which may step over it",
-                )
+                return f"[E504] {branch}", _stepping_over(task)
             return f"[E504] {said}", _gentler(task, outcome)
         case RunStatus.TOO_MANY:
             return (
@@ -120,6 +114,12 @@ def _state(task: Task, x: Array) -> str:
     names = [*(c.name for c in task.model.coordinates), *(v.name for v in task.model.velocities)]
     shown = [f"{name} = {value:.6g}" for name, value in zip(names, x, strict=False)]
     return ", ".join(shown[:SHOWN]) + (", …" if len(shown) > SHOWN else "")
+
+
+def _stepping_over(task: Task) -> Advice:
+    """Methods that may pass a position where a linkage can branch."""
+    other = Argument("method", "'taylor'" if task.method == "dop853" else "'dop853'")
+    return Advice(other, " or ", Argument("method", "'rk4'"), " with a step, which may step over it")
 
 
 def _singular(task: Task, outcome: Outcome) -> str:
