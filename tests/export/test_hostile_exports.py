@@ -10,10 +10,13 @@ import xml.etree.ElementTree as ET
 import zipfile
 
 import pytest
+from typer.testing import CliRunner
 
 import lagrangian as lg
+from lagrangian.cli.app import app
 from lagrangian.export import TARGETS, exported_files
 from lagrangian.export.fmu import archive
+from lagrangian.verify.foreign.checks import NOT_RUN, RUNNERS, not_run
 
 ATTACK = (
     '\x1b[31mred\x1b]0;t\x07 <script>alert(1)</script> %{ } ... \\input{x} */ // # """ \' " $(x) end end; '
@@ -78,3 +81,35 @@ def test_no_text_of_a_model_is_code(
 def test_hostile_fmus_compile(hostile: lg.System, target: str) -> None:
     (content,) = exported_files(hostile.model, target, "s").values()
     assert isinstance(content, bytes) and b"binaries/" in content
+
+
+@pytest.mark.parametrize(
+    ("name", "another"),
+    [("numpy.py", "numpy_system"), ("class.py", "class_system"), ("json.py", "json_system"), ("math.c", "math_system")],
+)
+def test_a_name_that_breaks_what_it_names_is_refused(name: str, another: str, tmp_path: pathlib.Path) -> None:
+    """``import numpy`` in numpy.py finds the file itself, nothing can be imported from class, and math.h is C's."""
+    with pytest.raises(lg.ModelError, match=f"has a meaning there\nFix: use another name, such as {another}"):
+        lg.example("pendulum").export(tmp_path / name)
+    assert not list(tmp_path.iterdir())
+
+
+def test_every_target_is_run_by_something_or_is_said_to_be_run_by_nothing() -> None:
+    """`verify` runs C, Python and JavaScript always, and the others where their programs are."""
+    always = {"c", "python", "javascript"}
+    assert always | set(RUNNERS) | set(NOT_RUN) == set(TARGETS)
+    assert not set(RUNNERS) & set(NOT_RUN)
+    for check in not_run():
+        assert check.holds is None
+        assert check.figure.startswith("not checked: ")
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [("c", "lagrangian verify runs"), ("jax", "lagrangian verify --exports runs"), ("modelica", "no Modelica tool")],
+)
+def test_the_command_says_that_an_export_is_not_checked(target: str, said: str, tmp_path: pathlib.Path) -> None:
+    made = CliRunner().invoke(app, ["export", "-e", "pendulum", "--to", target, "-o", str(tmp_path)])
+    assert made.exit_code == 0
+    assert said in made.stderr
+    assert "not checked" in made.stderr

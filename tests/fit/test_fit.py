@@ -228,3 +228,50 @@ def test_the_stated_confidence_is_that_of_a_hundred_draws() -> None:
             each[name] += low <= truth[name] <= high
     assert 90 <= joint <= 99
     assert all(90 <= count <= 99 for count in each.values()), each
+
+
+# -- what its arguments and its words must be ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"sigma": "1 kg"}, "sigma of 'theta' = '1 kg' has the unit kg"),
+        ({"sigma": {"theta": "1 kg"}}, "has the unit kg"),
+        ({"start": "0 kg"}, "start = '0 kg' has the unit kg, but s is needed"),
+        ({"rtol": "1 kg"}, "rtol = '1 kg' has the unit kg"),
+    ],
+)
+def test_units_of_options_are_checked(options: dict[str, Any], said: str) -> None:
+    with pytest.raises(lg.RunError, match=said):
+        lg.example("pendulum").fit({"t": T, "theta": 0.1 * T}, ["L"], **options)
+
+
+def test_units_of_values_that_are_asked_about_are_checked() -> None:
+    run = lg.example("pendulum").simulate(times=T, theta=0.5)
+    noise = 0.01 * np.random.default_rng(1).normal(size=21)
+    found = lg.example("pendulum").fit({"t": T, "theta": run["theta"] + noise}, ["L"], theta=0.5)
+    assert found.contains({"L": "50 cm"}) == found.contains({"L": 0.5})
+    with pytest.raises(lg.RunError, match="but m is needed"):
+        found.contains({"L": "1 s"})
+
+
+def test_a_fit_names_unknowns_and_units_as_they_are_written_in_formulas() -> None:
+    """A length L is no Lagrangian, and the unit V no potential energy, whatever letters the page needs for these."""
+    system = lg.System("coil")
+    q = system.coordinate("q", unit="C")
+    V, L, R = system.parameters("V L R", V="2 V", L="1 H", R="1 ohm")
+    system.inductor(L, q)
+    system.resistor(R, q)
+    system.voltage_source(V, q)
+    run = system.simulate(times=T)
+    page = str(system.fit({"t": T, "q'": run["q'"]}, {"V": 1.0, "L": 2.0, "q'": 0.1}))
+    table = [line.split() for line in page.splitlines() if line.endswith((" V", " H", " A"))]
+    assert [(row[0], row[-1]) for row in table] == [("V", "V"), ("L", "H"), ("q̇", "A")]
+
+
+def test_how_a_search_ended_is_said_in_words_of_its_own() -> None:
+    run = lg.example("pendulum").simulate(times=T, theta=0.5)
+    found = lg.example("pendulum").fit({"t": T, "theta": run["theta"]}, {"L": 0.6}, theta=0.5, max_evaluations=1)
+    assert found.message == "max_evaluations were not enough"
+    assert "The search did not end at a minimum: max_evaluations were not enough.\n" in str(found)

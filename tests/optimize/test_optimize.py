@@ -121,3 +121,25 @@ def test_a_cart_pole_is_swung_up_by_a_table_of_forces() -> None:
         assert best.success, best.message
         assert max(map(abs, best.missing.values())) < 1e-6
     assert found[0].cost == pytest.approx(found[1].cost, rel=1e-4)
+
+
+def test_units_of_what_is_to_be_reached_are_checked() -> None:
+    cart = lg.example("cart-pole")
+    push = {"F": ([0, 1], [0.0, 0.0])}
+    one, two = (
+        cart.optimize("F", 1.0, integral="F^2", reach={"x": end}, inputs=push, theta=0.1).cost for end in (0.1, "10 cm")
+    )
+    assert one == two
+    with pytest.raises(lg.RunError, match="reach: 'x' = '1 kg' has the unit kg, but m is needed"):
+        cart.optimize("F", 1.0, integral="F^2", reach={"x": "1 kg"}, inputs=push)
+    with pytest.raises(lg.RunError, match="tolerance = '1 kg' has the unit kg"):
+        cart.optimize("F", 1.0, integral="F^2", inputs=push, tolerance="1 kg")  # type: ignore[arg-type]
+
+
+def test_how_a_search_failed_is_said_in_words_of_its_own() -> None:
+    cart = lg.example("cart-pole")
+    push = {"F": ([0, 1], [0.0, 0.0])}
+    short = cart.optimize("F", 1.0, final="(x - 100)^2", inputs=push, max_evaluations=2)
+    assert short.message == "max_evaluations were not enough"
+    both = cart.optimize("F", 1.0, integral="F^2", reach={"M": 99}, inputs=push, theta=0.1)
+    assert both.message.endswith("contradicts itself, or no unknown changes it")

@@ -15,6 +15,7 @@ from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_sys
 from lagrangian.errors import Error
 from lagrangian.export import exported_files
 from lagrangian.model.without_friction import check_no_friction
+from lagrangian.verify.foreign.checks import NOT_RUN, RUNNERS
 
 
 class Language(StrEnum):
@@ -73,5 +74,14 @@ def export(
     for path, text in files.items():
         write.write_file(path, text)
         say(f"wrote {path}")
+    say(_proof(to.value))
     if json:
         put(as_json({"language": to.value, "files": [str(path) for path in files]}))
+
+
+def _proof(to: str) -> str:
+    """What is known of the numbers of an export, and what checks them."""
+    if to in NOT_RUN:
+        return f"not checked: {NOT_RUN[to]}"
+    option = " --exports" if to in RUNNERS else ""
+    return f"not checked yet: lagrangian verify{option} runs the export and compares its numbers"

@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import keyword
+import sys
+
 from lagrangian.errors import ModelError
 
 LONGEST_STEM = 200
 """The largest number of characters before the ending of a source file, so that file systems accept the name."""
 
-MODULES = frozenset(("jax", "jaxlib", "casadi", "numpy", "scipy", "json", "math", "typing"))
-"""Modules that exported ones import, or these again: a file of that name would be found in their place."""
+MODULES = frozenset((*sys.stdlib_module_names, *keyword.kwlist, "jax", "jaxlib", "casadi", "numpy", "scipy", "np"))
+"""Modules that exported ones import, or these again, for which a file of that name would be taken, and words of
+Python, after which nothing can be imported."""
+
+HEADERS = frozenset(
+    """
+    assert complex ctype errno fenv float inttypes limits locale math setjmp signal stdalign stdarg stdatomic stdbool
+    stddef stdint stdio stdlib string tgmath threads time uchar wchar wctype
+    """.split()  # noqa: SIM905
+)
+"""Headers of C: one of the same name could be included in their place."""
 
 WORDS_OF_C = frozenset(
     """

@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TypeAlias
 
 from lagrangian.errors import ModelError
-from lagrangian.export.names import LONGEST_STEM, MODULES, WORDS_OF_C, WORDS_OF_MODELICA, check_stem
+from lagrangian.export.names import HEADERS, LONGEST_STEM, MODULES, WORDS_OF_C, WORDS_OF_MODELICA, check_stem
 from lagrangian.model import Model
 
 _log = logging.getLogger(__name__)
@@ -40,8 +40,8 @@ class ExportTarget:
 
 
 TARGETS: dict[str, ExportTarget] = {
-    "c": ExportTarget(".c", "c99", whole=False),
-    "python": ExportTarget(".py", "numpy_module", whole=False),
+    "c": ExportTarget(".c", "c99", whole=False, reserved=HEADERS),
+    "python": ExportTarget(".py", "numpy_module", whole=False, reserved=MODULES),
     "javascript": ExportTarget(".js", "javascript", whole=False),
     "wasm": ExportTarget(".wasm", "wasm"),
     "matlab": ExportTarget(".m", "matlab", longest=50),  # MATLAB reads 63 characters of stem_mass_matrix

@@ -14,9 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import Error
-from lagrangian.fit.measured import MeasuredRun
+from lagrangian.errors import Error, RunError
+from lagrangian.fit.measured import MeasuredColumn, MeasuredRun
 from lagrangian.model import Model
+from lagrangian.page.formula import Check
+from lagrangian.simulate import quotients
 from lagrangian.simulate.admission import Admission, fitness
 from lagrangian.simulate.integrating import Task
 from lagrangian.simulate.sensitivities import observed
@@ -95,6 +97,44 @@ class FitProblem:
         """∂r/∂z, (residuals, unknowns)."""
         _, slopes = self.compared(z)
         return np.concatenate([J / s for J, s in zip(slopes, self.spread(sigma), strict=True)])
+
+    def checks(self, z: Array, sigma: Array) -> tuple[Check, ...]:
+        """Hold residuals and Jacobian against ordinary runs, which are integrated without variational equations."""
+        d = quotients.direction(quotients.units_of(z))
+        found = self.residuals(z, sigma)
+        size = max(float(np.max(np.abs(c.values)) / s) for c, s in self._weighed(sigma))
+        return (
+            quotients.agree(
+                "runs with the estimate, integrated without variational equations, leave the same residuals",
+                found,
+                lambda: self._plain_residuals(z, sigma),
+                size,
+            ),
+            quotients.held(
+                "the derivatives of the residuals equal difference quotients of such runs",
+                self.slopes(z, sigma) @ d,
+                lambda values: self._plain_residuals(values, sigma),
+                z,
+                d,
+            ),
+        )
+
+    def _plain_residuals(self, z: Array, sigma: Array) -> Array:
+        """All residuals by ordinary runs. Raises `RunError` if one fails."""
+        found: list[Array] = []
+        for run in self.runs:
+            made = quotients.plain_run(with_values(run.task, run.columns, z[run.places]))
+            if len(made.t) != len(run.task.times):
+                raise RunError("an event ends it before its last sample", code="E503")
+            before = len(made.t) - len(run.data.t)
+            values = made.quantities({f"column {k}": c.expression for k, c in enumerate(run.data.columns)})
+            found += [values[f"column {k}"][c.at + before] - c.values for k, c in enumerate(run.data.columns)]
+        return np.concatenate([r / s for r, s in zip(found, self.spread(sigma), strict=True)])
+
+    def _weighed(self, sigma: Array) -> list[tuple[MeasuredColumn, float]]:
+        """All columns of all runs with their σ."""
+        columns = [c for run in self.runs for c in run.data.columns]
+        return list(zip(columns, self.spread(sigma), strict=True))
 
     def beginning(self, share: float) -> FitProblem:
         """The same problem with the samples of the first ``share`` of every run alone."""

@@ -14,12 +14,15 @@ from lagrangian.errors import NoSuchEntry, RunError
 from lagrangian.fit.uncertainty import Undetermined
 from lagrangian.model import Model
 from lagrangian.page.figures import figure, or_none
-from lagrangian.page.formula import Item, Table, text
+from lagrangian.page.formula import Check, Item, Table, Verbatim, text
 from lagrangian.page.report import Part, Report
-from lagrangian.simulate.guesses import by_key
+from lagrangian.quantities.quantity import unit_dimension
+from lagrangian.simulate.guesses import by_key, checks_data, lettered
 from lagrangian.simulate.trajectory import Trajectory
+from lagrangian.values.dimensions import Dim
 from lagrangian.values.values import key_name, number
 from lagrangian.viewed import Entries
+from lagrangian.write.numerals import unit
 from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]
@@ -38,7 +41,8 @@ class Fit(Written):
     ``residuals`` has for each run the model minus the data by column, NaN where a sample is missing. ``undetermined``
     names the unknowns that cannot be told apart, ``at_bound`` those on a bound. ``runs`` are the runs with the
     estimate. ``chi2`` is Σ (residual/σ)², ``dof`` the number of samples minus that of what is determined. ``success``
-    says whether the search ended at a minimum, and ``message`` how.
+    says whether the search ended at a minimum, and ``message`` how. ``checks`` hold the residuals and their derivatives
+    against runs that were integrated without variational equations.
     """
 
     model: Model = field(repr=False)
@@ -58,6 +62,7 @@ class Fit(Written):
     success: bool
     message: str
     units: Mapping[str, str] = field(repr=False)
+    checks: tuple[Check, ...] = field(default=(), repr=False)
 
     @property
     def correlation(self) -> Array:
@@ -87,13 +92,16 @@ class Fit(Written):
         """Return the interval of every unknown by name."""
         return Entries({name: self.interval(name, confidence) for name in self.names}, "intervals")
 
-    def contains(self, values: Mapping[Any, float], confidence: float = USUAL) -> bool:
+    def contains(self, values: Mapping[Any, float | str], confidence: float = USUAL) -> bool:
         """Return whether values of all unknowns lie in their joint region, the ellipsoid δᵀ C⁻¹ δ ≤ quantile.
 
         The quantile is n F(n, dof), or χ²(n) if ``sigma`` was given. Raises `RunError` if a name is missing, or if an
         unknown is not determined.
         """
-        given = {name: number(value, f"the value of '{name}'") for name, value in by_key(values, "values").items()}
+        given = {
+            name: number(value, f"the value of '{name}'", self._dimension(name))
+            for name, value in by_key(values, "values").items()
+        }
         if missing := [name for name in self.names if name not in given]:
             raise RunError(f"there is no value of '{missing[0]}'", fix="give one for every unknown", code="E401")
         if not np.isfinite(self.covariance).all() or self.at_bound:
@@ -108,6 +116,11 @@ class Fit(Written):
         )
         return far <= float(most)
 
+    def _dimension(self, name: str) -> Dim | None:
+        """The dimension of an unknown, None where it is not known."""
+        own = self.units.get(name)
+        return Dim(unit_dimension(own)) if own else None
+
     def report(self) -> Report[Model]:
         """Return the report: the estimates with their intervals, what is not determined, and the residuals."""
         return fit_report(self)
@@ -116,6 +129,7 @@ class Fit(Written):
         """Name the estimates."""
         shown = ", ".join(f"{n} = {self.estimate[n]:.6g} ± {self.std[n]:.2g}" for n in self.names)
         failed = "" if self.success else f"; FAILED: {self.message}"
+        failed += "".join(f"; {c.what}: DOES NOT HOLD" for c in self.checks if c.holds is False)
         return f"<Fit {self.model.name!r}: {shown}{failed}>"
 
 
@@ -138,12 +152,14 @@ def fit_report(fit: Fit) -> Report[Model]:
             shown = ("on a bound", "")
         elif not np.isfinite(fit.std[name]):
             shown = ("not determined", "")
-        cells = (name, figure(fit.estimate[name]), *shown, fit.units.get(name, ""))
-        rows.append(tuple(text(cell) for cell in cells))
+        cells = (figure(fit.estimate[name]), *shown)
+        own = text(Verbatim(unit(fit.units.get(name, ""))))
+        rows.append((lettered(fit.model, name), *(text(cell) for cell in cells), own))
     items: list[Item] = [Table(header, tuple(rows))]
-    items += [text(f"Not determined: {x}.") for x in fit.undetermined]
+    items += [text(Verbatim(f"Not determined: {x}.")) for x in fit.undetermined]
     end = "" if fit.success else f"The search did not end at a minimum: {fit.message}."
     parts = [Part(text("The estimate"), (*items, *([text(end)] if end else []))), _left_over(fit)]
+    parts += [Part(text("What was checked"), (), fit.checks)] if fit.checks else []
     return Report(f"{fit.model.name}: fit of {', '.join(fit.names)}", fit.model, tuple(parts), _data(fit))
 
 
@@ -155,7 +171,8 @@ def _left_over(fit: Fit) -> Part:
         found = np.concatenate([run[name] for run in fit.residuals])
         count, missing = int(np.isfinite(found).sum()), int(np.isnan(found).sum())
         largest = float(np.nanmax(np.abs(found)))
-        rows.append(tuple(text(x) for x in (name, str(count), str(missing), figure(sigma), figure(largest))))
+        figures = (str(count), str(missing), figure(sigma), figure(largest))
+        rows.append((text(Verbatim(name)), *(text(x) for x in figures)))
     header = (text("column"), text("samples"), text("missing"), text(f"σ, {given}"), text("largest residual"))
     said = text(f"χ² = {figure(fit.chi2)} with {fit.dof} degrees of freedom.")
     return Part(text("Model minus data"), (Table(header, tuple(rows)), said))
@@ -176,6 +193,7 @@ def _data(fit: Fit) -> dict[str, Any]:
         "dof": fit.dof,
         "success": fit.success,
         "message": fit.message,
+        "checks": checks_data(fit.checks),
     }
 
 

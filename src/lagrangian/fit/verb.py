@@ -45,6 +45,16 @@ BEGINNINGS = (1 / 16, 1 / 8, 1 / 4, 1 / 2)
 SAMPLES_FOR_EACH = 3
 """The smallest number of samples for each unknown in such a share."""
 
+ENDED = {
+    -1: "SciPy refused the problem",
+    0: "max_evaluations were not enough",
+    1: "the slope of the sum of squares is 0",
+    2: "the sum of squares no longer changes",
+    3: "the unknowns no longer change",
+    4: "neither the sum of squares nor the unknowns change any more",
+}
+"""How the search ended, by SciPy's status."""
+
 LEAST_SIGMA = 1e-12
 """The smallest standard deviation, relative to the range of a column, that is estimated: data without noise."""
 
@@ -86,7 +96,7 @@ def fit(
             f"{problem.count} samples cannot determine {len(names)} unknowns", fix="measure more", code="E501"
         )
     problem.compared(z0)  # a first guess with which nothing can be computed is an error
-    sigma, known = _first_sigma(options.sigma, problem)
+    sigma, known = _first_sigma(options.sigma, problem, given)
     return _fitted(model, problem, z0, bounds, (sigma, known), most, owners)
 
 
@@ -171,7 +181,7 @@ def _first_run(
 ) -> Trajectory:
     """One run with the first guesses, the k-th of several. Raises what `System.simulate` raises."""
     k, count = which
-    begin = float(run.t[0]) if options.start is None else number(options.start, "start")
+    begin = float(run.t[0]) if options.start is None else given.time_value(options.start, "start")
     if begin > run.t[0]:
         raise RunError(
             f"the run would start at {begin:g} s, after the first sample at {run.t[0]:g} s",
@@ -204,15 +214,18 @@ def _first_run(
 # -- noise ---------------------------------------------------------------------------------------------------------
 
 
-def _first_sigma(given: Any, problem: FitProblem) -> tuple[Array, bool]:
+def _first_sigma(given: Any, problem: FitProblem, dims: Given) -> tuple[Array, bool]:
     """The standard deviation of the noise of each column: given, or as a first guess the range of its values."""
     titles = problem.titles
+    known = {c.name: dims.dimension(c.expression) for c in problem.runs[0].data.columns}
     if given is None:
         values = problem.by_column([c.values for run in problem.runs for c in run.data.columns])
         return np.array([float(np.ptp(x)) or float(np.max(np.abs(x))) or 1.0 for x in values]), False
     if not isinstance(given, Mapping):
         given = dict.fromkeys(titles, given)
-    found = {str(key): number(value, f"sigma of '{key}'") for key, value in given.items()}
+    found = {
+        name: number(value, f"sigma of '{name}'", known.get(name)) for name, value in by_key(given, "sigma").items()
+    }
     for name, value in found.items():
         if name not in titles:
             fix = did_you_mean(name, titles) or f"columns: {', '.join(titles)}"
@@ -350,6 +363,7 @@ def _result(
         dof=problem.count - sure.rank,
         evaluations=problem.evaluations,
         success=bool(found.success),
-        message=str(found.message).strip("`").replace("`", ""),
+        message=ENDED[int(found.status)],
         units={name: units.of(symbols[owner]) for name, owner in zip(names, owners, strict=True)},
+        checks=problem.checks(z, sigma),
     )

@@ -6,7 +6,7 @@ Where a terminal event ends the run, its end moves: dφ = δφ + φ̇ δt, d∫c
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import sympy as sp
@@ -14,13 +14,19 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate import RunStatus
+from lagrangian.page.formula import Check
+from lagrangian.simulate import quotients
 from lagrangian.simulate.admission import Admission, fitness
+from lagrangian.simulate.inputs import SampledInput
 from lagrangian.simulate.integrating import Task
 from lagrangian.simulate.sensitivities import observed
 from lagrangian.simulate.unknowns import with_values
 from lagrangian.simulate.varied import Columns, VariedRun, varied_run
 
 Array = NDArray[np.float64]
+
+PIECES = 200
+"""The number of even pieces into which a run is cut where an integral is computed by quadrature."""
 
 FAR = 1e8
 """The cost, in units of that of the first guess, of values with which a run is impossible."""
@@ -102,6 +108,59 @@ class Objective:
         if not (np.isfinite(cost) and np.isfinite(gradient).all() and np.isfinite(slopes).all()):
             raise RunError("the cost of the run or its gradient is not finite", code="E503")
         return RunCost(cost, gradient, missing, slopes)
+
+    def checks(self, z: Array, first: RunCost, unit: Array) -> tuple[Check, ...]:
+        """Hold cost, what is missing and their gradients against ordinary runs, without variational equations.
+
+        At a minimum the gradient is 0: a difference is related to the gradient of the first guess.
+        """
+        best, d = self.judged(z), quotients.direction(unit)
+        size = np.array([max(abs(best.cost), abs(first.cost)) or 1.0, *np.maximum(np.abs(first.missing), 1.0)])
+        slopes = np.array([best.gradient, *best.slopes]) @ d / size
+        least = float(np.max(np.abs(np.array([first.gradient, *first.slopes]) @ d / size)))
+
+        def values(given: Array) -> Array:
+            return self._plain(given) / size
+
+        return (
+            quotients.agree(
+                "the run, integrated without variational equations, has the same cost and end",
+                np.array([best.cost, *best.missing]) / size,
+                lambda: values(z),
+                1.0,
+            ),
+            quotients.held("the gradients equal difference quotients of such runs", slopes, values, z, d, least),
+        )
+
+    def _plain(self, z: Array) -> Array:
+        """Cost and what is missing, by ordinary runs and Gauss's quadrature of the integrand between its kinks."""
+        goal, task = self.goal, with_values(self.task, self.columns, z)
+        run = quotients.plain_run(task)
+        asked = {f"reach {k}": x for k, (x, _) in enumerate(goal.reach.values())}
+        asked |= {"final": goal.final} if goal.final is not None else {}
+        found = run.quantities(asked) if asked else {}
+        cost = float(found["final"][-1]) if goal.final is not None else 0.0
+        if goal.integral is not None:
+            cost += _quadrature(task, run, goal.integral)
+        ends = [float(found[f"reach {k}"][-1]) - value for k, (_, value) in enumerate(goal.reach.values())]
+        return np.array([cost, *ends])
+
+
+def _quadrature(task: Task, run: quotients.PlainRun, integrand: sp.Expr) -> float:
+    """∫ c dt by Gauss's quadrature with five nodes on short pieces between samples, knots of tables and events."""
+    begin, end = float(run.t[0]), float(run.t[-1])
+    knots = [s.times for s in task.drive.sources if isinstance(s, SampledInput)]
+    edges = np.unique(np.concatenate([np.linspace(begin, end, PIECES + 1), run.t, run.hits, *knots]))
+    edges = edges[(edges >= begin) & (edges <= end)]
+    edges = edges[np.append(True, np.diff(edges) > 1e-12 * (end - begin))]
+    x, w = np.polynomial.legendre.leggauss(5)
+    half = np.diff(edges)[:, None] / 2
+    nodes = (edges[:-1, None] + half * (1 + x)).ravel()
+    made = quotients.plain_run(replace(task, times=np.array([begin, *nodes, float(task.times[-1])])))
+    if len(made.t) < len(nodes) + 2:
+        raise RunError("an event ends it at another time", code="E503")
+    values = made.quantities({"integrand": integrand})["integrand"][1 : len(nodes) + 1]
+    return float((half * w).ravel() @ values)
 
 
 def _delay(task: Task, run: VariedRun) -> Array:

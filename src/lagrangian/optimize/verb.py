@@ -24,6 +24,7 @@ from lagrangian.simulate.settings import RunSettings, check_names, whole
 from lagrangian.simulate.simulation import OPTIONS, named, run_of, simulate
 from lagrangian.simulate.unknowns import values_of, with_values
 from lagrangian.simulate.varied import Columns, columns_of
+from lagrangian.values.dimensions import NONE
 from lagrangian.values.values import Given, key_name, number
 from lagrangian.viewed import Entries
 
@@ -32,6 +33,20 @@ Array = NDArray[np.float64]
 
 REACHED = 1e-6
 """Quantities at the end count as reached within this distance in SI units."""
+
+ROUGH = "no step along the slope makes the cost smaller: it may have no lowest value, or jump"
+
+ENDED: tuple[dict[int, str], dict[int, str]] = (
+    {0: "the cost no longer changes", 1: "max_evaluations were not enough", 2: ROUGH},
+    {
+        0: "the cost no longer changes",
+        2: "reach has more quantities than there are unknowns",
+        **dict.fromkeys((3, 4, 5, 6, 7), "what is to be reached contradicts itself, or no unknown changes it"),
+        8: "no step makes the cost smaller and comes closer to what is to be reached",
+        9: "max_evaluations were not enough",
+    },
+)
+"""How the search ended, by the status of L-BFGS-B, and of SLSQP with ``reach``."""
 
 ON_BOUND = 1e-9
 """A value counts as on its bound within this fraction of its size."""
@@ -57,13 +72,13 @@ def optimize(
 ) -> Optimum:
     """Minimize the cost of a run; see `lagrangian.System.optimize`. ``run_options``: duration, method, events, …"""
     check_names(model, by_name, (*OPTIONS, "final", "integral", "reach", "bounds"))
-    goal = _goal(model, options)
+    given = Given.of(model, named(model))
+    goal = _goal(model, options, given)
     most = whole(options.max_evaluations, "max_evaluations")
-    tolerance = number(options.tolerance, "tolerance")
+    tolerance = number(options.tolerance, "tolerance", NONE)
     if not 0 < tolerance < 1:
         raise RunError(f"tolerance must be between 0 and 1 (got {tolerance:g})", fix="such as 1e-9", code="E501")
     guesses = guessed(unknowns, "unknowns")
-    given = Given.of(model, named(model))
     task, settings = _first_run(model, guesses, given, options, by_name, run_options)
     columns = columns_of(task, list(guesses))
     names = [c.name for c in columns]
@@ -96,14 +111,15 @@ def optimize(
         evaluations=objective.evaluations,
         success=success,
         message=message,
+        checks=objective.checks(z, first, _sizes(columns, z0)),
     )
 
 
-def _goal(model: Model, options: OptimizeOptions) -> Goal:
+def _goal(model: Model, options: OptimizeOptions, given: Given) -> Goal:
     """What is minimized and what must be reached, as expressions."""
 
-    def read(given: Any, what: str) -> sp.Expr:
-        return as_expr(quantity(model, given, what) if isinstance(given, str) else given, what)
+    def read(asked: Any, what: str) -> sp.Expr:
+        return as_expr(quantity(model, asked, what) if isinstance(asked, str) else asked, what)
 
     if options.final is None and options.integral is None:
         raise RunError(
@@ -119,7 +135,8 @@ def _goal(model: Model, options: OptimizeOptions) -> Goal:
             code="E501",
         )
     ends = {
-        key_name(key): (read(key, "reach"), number(value, f"reach: '{key_name(key)}'")) for key, value in reach.items()
+        key_name(key): (expr := read(key, "reach"), number(value, f"reach: '{key_name(key)}'", given.dimension(expr)))
+        for key, value in reach.items()
     }
     final = None if options.final is None else read(options.final, "final")
     integral = None if options.integral is None else read(options.integral, "integral")
@@ -197,7 +214,8 @@ def _search(objective: Objective, z0: Array, bounds: Bounds, most: int, toleranc
         options=small,
     )
     _log.info("optimize: %d evaluations, %s", objective.evaluations, found.message)
-    return np.ascontiguousarray(found.x * size), bool(found.success), str(found.message)
+    ended = ENDED[bool(tied)].get(int(found.status), ROUGH)
+    return np.ascontiguousarray(found.x * size), bool(found.success), ended
 
 
 def _sizes(columns: Columns, z0: Array) -> Array:

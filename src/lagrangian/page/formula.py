@@ -153,7 +153,7 @@ class Elided(Worded):
         return f"[{self.operations} operations]"
 
 
-def show(item: Left | str) -> str:
+def show(item: Left | Verbatim | str) -> str:
     """Return plain text for any part of a formula or a text."""
     return plain(item) if isinstance(item, sp.Basic) else str(item)
 
@@ -173,10 +173,21 @@ class Formula(Worded):
 
 
 @dataclass(frozen=True)
+class Verbatim(Worded):
+    """Words that stay as they are, such as a unit or a user's name: no letter of the lecture is looked for in them."""
+
+    words: str
+
+    def __str__(self) -> str:
+        """Return the words."""
+        return self.words
+
+
+@dataclass(frozen=True)
 class Text(Worded):
     """Words and symbols, in order."""
 
-    parts: tuple[str | Left, ...]
+    parts: tuple[str | Verbatim | Left, ...]
     brief: bool = False
 
     def __str__(self) -> str:
@@ -225,7 +236,10 @@ class Check(Brief):
 
     def __repr__(self) -> str:
         """Return ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
-        verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
+        if self.holds is None:
+            why = self.figure.removeprefix("not checked").removeprefix(": ")
+            return cut(f"<Check: {self.what}: not checked{': ' if why else ''}{why}>")
+        verdict = "holds" if self.holds else "DOES NOT HOLD"
         return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
 
 
@@ -243,7 +257,7 @@ class EquationTerm(Brief):
     elements: tuple[str, ...]
 
 
-def text(*parts: str | Left, brief: bool = False) -> Text:
+def text(*parts: str | Verbatim | Left, brief: bool = False) -> Text:
     """Return words and symbols as a `Text`: ``text("wiggle only ", theta, ": …")``."""
     return Text(parts, brief)
 

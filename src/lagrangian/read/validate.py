@@ -209,6 +209,8 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
         )
     shape = "an array of tables" if kind == "list_type" and len(path) == 1 else None
     fix = f"write [[{path[0]}]] with two brackets" if shape else f"write {_wanted(first)}"
+    if kind in ("dict_type", "model_type") and len(path) == 1:
+        fix = f"write [{path[0]}] on a line of its own, and its entries below, a line for each"
     return ParseError(
         f"{field} must be {shape or _wanted(first)} (got {_KINDS.get(type(value), 'a date or time')})",
         element=element,

@@ -10,6 +10,8 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.model import Model
+from lagrangian.page.formula import Check, Text, Verbatim, text
 from lagrangian.values.values import Given, key_name, number
 
 Array = NDArray[np.float64]
@@ -109,3 +111,15 @@ def check_inside(names: Sequence[str], values: Array, bounds: Bounds) -> None:
                 fix="give a guess inside: a mapping from names to guesses",
                 code="E501",
             )
+
+
+def lettered(model: Model, name: str) -> Text:
+    """An unknown as it is written in formulas: a symbol, with the number of its run or of its value: θ[0]."""
+    base, bracket, rest = name.partition("[")
+    symbols = {**model.symbols, **{v.name: v.symbol for v in model.velocities}}
+    return text(symbols.get(base, Verbatim(base)), Verbatim(bracket + rest))
+
+
+def checks_data(checks: Sequence[Check]) -> list[dict[str, Any]]:
+    """The checks of a result as data."""
+    return [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in checks]

@@ -15,13 +15,16 @@ from lagrangian import dynamics
 from lagrangian.calls import Guided
 from lagrangian.errors import ModelError, NoSuchEntry, RunError
 from lagrangian.model import Point, as_expr
+from lagrangian.simulate import quotients
 from lagrangian.simulate.guesses import by_key
 from lagrangian.simulate.quantities import quantity
+from lagrangian.simulate.unknowns import values_of, with_values
 from lagrangian.simulate.varied import Columns, VariedRun, columns_of, varied_run, with_signals
-from lagrangian.values.values import key_name
+from lagrangian.values.values import check_sampling, key_name
 from lagrangian.viewed import Entries
 
 if TYPE_CHECKING:
+    from lagrangian.page.formula import Check
     from lagrangian.simulate.integrating import Task
     from lagrangian.simulate.recorded import Recorded
 
@@ -97,6 +100,33 @@ class Sensitivities(Guided):
         asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in read.items()}
         found = observed(self._task, self._columns, self._run, asked)
         return {name: found[f"change of {name}"] for name in asked}
+
+    def verify(self, *, seed: int = 1) -> tuple[Check, ...]:
+        """Hold the derivatives of all states against difference quotients of ordinary runs; return the checks.
+
+        All of ``wrt`` are changed together in a random direction by up to a thousandth of their values. Samples that
+        an event comes that close to are left out. In a chaotic run over a long time the quotients do not settle; the
+        check then says so, and ``holds`` is None.
+        """
+        check_sampling(1, seed)
+        task, columns = self._task, self._columns
+        z = values_of(task, columns)
+        d = quotients.direction(quotients.units_of(z), seed)
+        size = np.ptp(self._run.x, axis=0)
+        size = np.where(size > 0, size, 1.0)
+        moved = 2 * quotients.WIDTH * np.abs(self._run.delays @ d)
+        hits = np.array([h.time for h in self._run.hits])
+        kept = np.all(np.abs(self.t[:, None] - hits) > moved, axis=1)
+
+        def states(values: Array) -> Array:
+            made = quotients.plain_run(with_values(task, columns, values))
+            if made.x.shape != self._run.x.shape:
+                raise RunError("an event ends it at another sample", code="E503")
+            return (made.x[kept] / size).ravel()
+
+        exact = (self._run.changes[kept] @ d / size).ravel()
+        what = "the derivatives of the states equal difference quotients of runs without variational equations"
+        return (quotients.held(what, exact, states, z, d),)
 
     def _own_name(self, name: str) -> str | None:
         """Quantities are accessed as entries, not as attributes."""

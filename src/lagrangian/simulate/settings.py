@@ -21,7 +21,7 @@ from lagrangian.integrate.estimate import Confirm
 from lagrangian.integrate.scipy_methods import SCIPY
 from lagrangian.model import Model
 from lagrangian.simulate.events import Event, listed_events
-from lagrangian.values.dimensions import SECOND
+from lagrangian.values.dimensions import NONE, SECOND
 from lagrangian.values.values import number
 
 Array: TypeAlias = NDArray[np.float64]
@@ -250,7 +250,7 @@ def _positive(value: Any, what: str) -> float:
 
 
 def _tolerance(value: Any, what: str) -> float:
-    real = number(value, what)
+    real = number(value, what, NONE)
     if real <= 0:
         raise RunError(f"{what} must be above 0 (got {real:g})", fix="such as 1e-9", code="E501")
     return real

@@ -17,7 +17,7 @@ from lagrangian.graph import Program
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity
-from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, check_dimensions
+from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, Mismatch, check_dimensions
 
 Named = Mapping[Any, Any]
 """Values by name or by symbol; each is a number in SI units or text with a unit, such as "12 deg"."""
@@ -166,13 +166,20 @@ class Given:
         values = dict.fromkeys(self.inputs.names, 0.0) | self.inputs.values(given)
         return np.array(list(values.values()), float)
 
-    def time_value(self, given: object) -> float:
+    def dimension(self, expr: sp.Expr) -> Dim | None:
+        """The dimension of an expression, None where it is not known."""
+        return _dim(self.dimensions, expr)
+
+    def time_value(self, given: object, what: str = "time") -> float:
         """Return a time in seconds."""
-        return number(given, "time", SECOND)
+        return number(given, what, SECOND)
 
 
 def _dim(dims: Dimensions | None, symbol: Any) -> Dim | None:
     if dims is None:
         return None
-    found = dims.of(symbol)
+    try:
+        found = dims.of(symbol)
+    except Mismatch:
+        return None
     return None if found is None or found.unknown else found

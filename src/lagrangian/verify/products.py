@@ -29,7 +29,7 @@ from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.exports import Sources, exported
-from lagrangian.verify.foreign.checks import foreign_checks
+from lagrangian.verify.foreign.checks import foreign_checks, not_run
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import slopes
 from lagrangian.verify.states import State, cancelling, evaluated, random_states, relative
@@ -115,7 +115,7 @@ def verify_products(
     _log.info("verifying: the exported sources and the linearization")
     written = exported(program, functions.exported, sources, found)
     if exports:
-        written += foreign_checks(model, found)
+        written += (*foreign_checks(model, found), *not_run())
     return (*compiled, *written, slopes(model, functions.rhs, found))
 
 

@@ -36,6 +36,7 @@ from lagrangian.page.formula import (
     Text,
     Total,
     Variation,
+    Verbatim,
 )
 from lagrangian.write.expression import Expressions, NamedSymbol
 from lagrangian.write.expression_tree import (
@@ -309,6 +310,8 @@ class Quantities:
         for part in item.parts:
             if isinstance(part, str):
                 made += [part] if part in given else self.words(part)
+            elif isinstance(part, Verbatim):
+                made.append(part.words)
             else:
                 made.append(self(part))
         return tuple(made)
