@@ -94,6 +94,12 @@ def test_no_test_measures_time() -> None:
     assert not found
 
 
+def test_every_file_of_tests_has_a_name_of_its_own() -> None:
+    """pytest imports tests by the names of their files: of two with one name it collects neither."""
+    names = [file.name for file in (ROOT / "tests").rglob("*.py") if file.name not in ("__init__.py", "conftest.py")]
+    assert sorted(names) == sorted(set(names))
+
+
 def test_no_room_without_a_purpose() -> None:
     names = {p.name for p in SOURCE.rglob("*") if p.is_dir()} | {p.stem for p in FILES}
     assert not names & {"utils", "common", "helpers", "misc"}
