@@ -22,7 +22,7 @@ def test_every_target_has_a_line_and_says_what_it_was_run_with() -> None:
 @pytest.mark.slow
 def test_the_code_of_the_manual_runs(tmp_path: pathlib.Path) -> None:
     assert len(BLOCKS) >= 3
-    absent = [name for name in ("jax", "casadi", "fmpy") if find_spec(name) is None]
+    absent = [name for name in ("jax", "casadi", "fmpy", "rumoca") if find_spec(name) is None]
     code = "\n".join(b for b in BLOCKS if not any(f"import {name}" in b for name in absent))
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False

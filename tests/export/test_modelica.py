@@ -1,4 +1,4 @@
-"""Models of Modelica: read by pymoca where it is installed, and their equations read back as Python."""
+"""Models of Modelica: compiled by Rumoca and read by pymoca where these are installed, and read back as Python."""
 
 import pathlib
 import re
@@ -7,15 +7,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from foreign import states_of
+from foreign import holds, states_of
 
 import built_in
 import lagrangian as lg
+from lagrangian import examples
 from lagrangian.codegen.modelica import FUNCTIONS, to_modelica
 from lagrangian.export import exported_files, program_of
 from lagrangian.export.modelica import ModelicaNames
+from lagrangian.export.start import start_of
 from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.graph.graph import UNARY
+from lagrangian.verify.foreign.checks import answers, largest_difference
+from lagrangian.verify.foreign.runs import MissingError
 
 NAMES: dict[str, Any] = {
     name: getattr(np, other)
@@ -124,6 +128,51 @@ def test_names_that_modelica_does_not_take_are_replaced(tmp_path: pathlib.Path) 
         and "input Real u1" in text
     )
     assert 'model S "the _end_"' in text
+
+
+needs_rumoca = pytest.mark.skipif(find_spec("rumoca") is None, reason="Rumoca is not installed")
+SMALL = "capacitive-actuator"
+"""An example that Rumoca's solvers take no step of from random states: they are many orders too large for it."""
+
+
+@pytest.mark.slow
+@needs_rumoca
+@pytest.mark.parametrize("name", [x for x in examples.names() if x != SMALL])
+def test_rumoca_gives_the_numbers_of_the_compiled_code(name: str, tmp_path: pathlib.Path) -> None:
+    holds(name, "modelica", tmp_path)
+
+
+@pytest.mark.slow
+@needs_rumoca
+def test_rumoca_gives_them_where_states_are_small(tmp_path: pathlib.Path) -> None:
+    model = built_in.system(SMALL).model
+    state = {"q": [2e-14, 3e-7], "v": [1e-8, 2e-3], "a": [0.0, 0.0], "u": [4.0], "t": [0.0]}
+    states = [{**state, "p": [x.value for x in model.parameters]}]
+    made, found = answers(model, "modelica", states, tmp_path)
+    assert found["rhs"][0].shape == (1, 4)
+    assert largest_difference(made, found, states) < 1e-12
+    with pytest.raises(MissingError, match="takes no step"):
+        answers(model, "modelica", states_of(SMALL), tmp_path)
+
+
+@pytest.mark.slow
+@needs_rumoca
+@pytest.mark.parametrize("name", ["cart-pole", "four-bar", "rolling-disc"])
+def test_runs_by_rumoca_are_ours(name: str) -> None:
+    import rumoca
+
+    s = built_in.system(name)
+    (text,) = exported_files(s.model, "modelica", "S").values()
+    assert isinstance(text, str)
+    given = ", ".join(f"{x.name} = 0.3" for x in s.model.inputs)
+    model = rumoca.Session().loads(f"{text}model Run S part({given}); end Run;", model="Run")
+    there = model.simulate(t=(0, 1), dt=0.1, config=rumoca.SimConfig(rtol=1e-10, atol=1e-12, dt=0.1))
+    start, n = start_of(s.model), len(s.model.coordinates)
+    initial = {c.name: x for c, x in zip(s.model.coordinates, start.x[:n], strict=True)}
+    initial |= {v.name: x for v, x in zip(s.model.velocities, start.x[n:], strict=True)}
+    here = s.simulate(1.0, samples=11, initial=initial, inputs={x.name: 0.3 for x in s.model.inputs}, rtol=1e-11)
+    for c in s.model.coordinates:
+        np.testing.assert_allclose(np.ravel(there[f"part.{c.name}"])[-1], here[c.name][-1], rtol=0, atol=1e-7)
 
 
 @pytest.mark.slow

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from lagrangian.codegen.labels import WORD, comment
@@ -35,7 +35,13 @@ class ModelicaNames:
 
     @classmethod
     def of(cls, model: Model, rows: int) -> ModelicaNames:
-        """Names without a repetition. A velocity is called after its coordinate, with ``_dot``."""
+        """The names of a model with so many multipliers."""
+        groups = {"q": model.coordinates, "v": model.velocities, "u": model.inputs, "p": model.parameters}
+        return cls.among({letter: [x.name for x in group] for letter, group in groups.items()}, rows)
+
+    @classmethod
+    def among(cls, groups: Mapping[str, Sequence[str]], rows: int) -> ModelicaNames:
+        """Names without a repetition for those of a model. A velocity is called after its coordinate, with ``_dot``."""
         used: set[str] = set()
 
         def chosen(name: str, other: str) -> str:
@@ -46,11 +52,11 @@ class ModelicaNames:
             used.add(found)
             return found
 
-        q = tuple(chosen(c.name, f"q{k}") for k, c in enumerate(model.coordinates, 1))
-        u = tuple(chosen(x.name, f"u{k}") for k, x in enumerate(model.inputs, 1))
-        p = tuple(chosen(x.name, f"p{k}") for k, x in enumerate(model.parameters, 1))
-        v = tuple(chosen(x.name.replace("'", "_dot"), f"v{k}") for k, x in enumerate(model.velocities, 1))
-        return cls(q, v, u, p, tuple(chosen(f"lambda{k}", f"lambda{k}") for k in range(1, rows + 1)))
+        def all_of(names: Sequence[str], letter: str) -> tuple[str, ...]:
+            return tuple(chosen(x.replace("'", "_dot"), f"{letter}{k}") for k, x in enumerate(names, 1))
+
+        q, u, p, v = (all_of(groups[letter], letter) for letter in "qupv")
+        return cls(q, v, u, p, all_of([f"lambda{k}" for k in range(1, rows + 1)], "lambda"))
 
     @property
     def places(self) -> dict[tuple[str, int], str]:
@@ -86,7 +92,7 @@ def _head(model: Model, stem: str) -> list[str]:
     lines = [
         f"// The dynamics of a system with coordinates {coordinates_listed(model)}, for Modelica 3.2 and later.",
         "//",
-        "// NOT RUN with a Modelica tool: none was at hand. pymoca reads such files, and the formulas were read back.",
+        "// Run by Rumoca 0.10; NOT RUN with OpenModelica or Dymola, which were not at hand.",
         "// No library is needed. Inputs are inputs of the model: connect them, or set them by a declaration.",
     ]
     if model.constraints:

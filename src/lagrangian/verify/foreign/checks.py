@@ -16,6 +16,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, text
 from lagrangian.verify.foreign.fmus import fmu_answers
 from lagrangian.verify.foreign.julia import julia_answers
+from lagrangian.verify.foreign.modelica import modelica_answers
 from lagrangian.verify.foreign.octave import octave_answers
 from lagrangian.verify.foreign.python_modules import casadi_answers, jax_answers
 from lagrangian.verify.foreign.runs import Answers, Array, MissingError, RefusedError
@@ -39,6 +40,7 @@ RUNNERS: dict[str, tuple[str, Runner]] = {
     "jax": ("JAX", jax_answers),
     "casadi": ("CasADi", casadi_answers),
     "julia": ("Julia", julia_answers),
+    "modelica": ("Rumoca", modelica_answers),
     "fmu2": ("FMPy", fmu_answers),
     "fmu3": ("FMPy", fmu_answers),
 }

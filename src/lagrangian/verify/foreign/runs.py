@@ -23,7 +23,7 @@ PATIENCE = 300
 
 
 class MissingError(Exception):
-    """A program that is needed is not installed here, or does not start; the text says which."""
+    """A program that is needed is not installed, does not start, or cannot be asked this; the text says which."""
 
 
 class RefusedError(Exception):
