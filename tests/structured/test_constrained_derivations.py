@@ -119,3 +119,4 @@ def test_the_stewart_platform_is_derived_and_proved() -> None:
     d = built_in.system("stewart-platform").derive()
     assert len(d.multipliers) == 18 and all(c.holds for c in d.verified)
     assert d.steps[0].expressions["DDOF"] == d.steps[0].expressions["GC"] == 6
+    assert d.constraints is not None and d.constraints.verdict == "holonomic: #GC = #DDOF = 6"

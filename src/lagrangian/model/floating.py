@@ -75,3 +75,19 @@ class Floating:
         return sp.ImmutableMatrix(
             sp.Matrix([[1, 0, 0], [0, 1, 0], [0, 0, 1]]) + 2 / (x**2 + y**2 + z**2 + w**2) * (w * hat + hat * hat)
         )
+
+    @property
+    def in_rates(self) -> dict[sp.Expr, sp.Expr]:
+        """The quasi-velocities in the rates of the coordinates: v = Rᵀ ṗ and (ω, 0) = 2 e* ∘ ė/|e|²."""
+        x, y, z, w = self.quaternion
+        rates = [c.rate for c in self.coordinates]
+        dx, dy, dz, dw = rates[3:]
+        scale = 2 / (x**2 + y**2 + z**2 + w**2)
+        turning = [
+            scale * (w * dx - x * dw - y * dz + z * dy),
+            scale * (w * dy - y * dw - z * dx + x * dz),
+            scale * (w * dz - z * dw - x * dy + y * dx),
+        ]
+        turn = self.rotation
+        moving = [sp.Add(*[turn[j, k] * rates[j] for j in range(3)]) for k in range(3)]
+        return dict(zip((*self.velocity, *self.angular_velocity), (*moving, *turning), strict=True))

@@ -100,10 +100,9 @@ def free(model: Model) -> Step:
 
 
 def held_floating(model: Model, known: Constraints) -> Step:
-    """Step 0 where constraints hold floating frames: every quaternion counts one number too many on both sides."""
-    spare, speeds = len(model.floating), len(model.velocities)
-    h = known.holonomy
-    DDOF, GC = h.DDOF - spare, None if h.GC is None else h.GC - spare
+    """Step 0 where constraints hold floating frames."""
+    speeds, h = len(model.velocities), known.holonomy
+    DDOF, GC = h.DDOF, h.GC
     rows = tuple((text(row.name), text(*row.multiplier)) for row in known.rows)
     items: list[Item] = [Table((text("row"), text("its multiplier λ")), rows)]
     items += [text(f"The {notice.where} is {notice.text}.") for notice in known.notices()]

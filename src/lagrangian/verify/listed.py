@@ -70,6 +70,8 @@ class _Reading:
         self.mechanics = dynamics.describe(self.model, self.graph, self.inputs)
         self.a = [self.graph.input("a", i) for i in range(len(self.inputs.v))]
         self.table = _table(self.model, self.inputs, self.a)
+        rates = zip(self.model.coordinates, self.mechanics.motion.rates, strict=True)
+        self.table = {**{c.rate: rate for c, rate in rates}, **self.table}  # of floating frames: made of their speeds
         names = [row.name for row in self.mechanics.rows]
         self.kept = [names.index(name) for name in derivation.multipliers]
         self.lam = [self.graph.input("lambda", k) for k in range(len(self.kept))]

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.codes import Code
 from lagrangian.derive.constraints.integrals import Integral
 from lagrangian.derive.constraints.proposal import Proposal, proposals
@@ -131,7 +132,7 @@ def constraints(model: Model, readable: Callable[[sp.Expr], Left]) -> Constraint
     values: Mapping[Any, Any] = {
         symbol: sp.Rational(*Fraction(repr(value)).as_integer_ratio()) for symbol, value in model.values.items()
     }
-    found = judge(given, coordinates, time, values=values)
+    found = judge(given, coordinates, time, values=values, idle=len(model.floating))
     for row in found.contradictions:
         element = next(r.element for r in rows if r.name == row.name)
         raise ModelError(
@@ -148,7 +149,9 @@ def constraints(model: Model, readable: Callable[[sp.Expr], Left]) -> Constraint
 
 def _given(model: Model, row: Row) -> _Given:
     position = None if row.position is None else model.expand(row.position, constants=True)
-    return _Given(row.name, model.expand(row.rate, constants=True), position)
+    rate = model.expand(row.rate, constants=True)
+    speeds = {v: x for f in model.floating if f.floating is not None for v, x in f.floating.in_rates.items()}
+    return _Given(row.name, cast("sp.Expr", bounded.replaced(rate, speeds)) if speeds else rate, position)
 
 
 # -- in words -------------------------------------------------------------------------------------------------------
@@ -179,7 +182,7 @@ def _count(n: int, what: str) -> str:
 
 
 def _verdict(found: Constraints) -> Iterator[Item]:
-    h, n = found.holonomy, len(found.model.coordinates)
+    h, n = found.holonomy, len(found.model.velocities)
     m = n - h.DDOF  # fewer than the rows that are independent elsewhere, if some depend on others where all hold
     yield text(
         f"{_count(n, 'rate')} and {_count(m, 'independent row')}: #DDOF = {n} − {m} = {h.DDOF} is the number of rates "
@@ -219,7 +222,7 @@ def _surfaces(found: Constraints, readable: Callable[[sp.Expr], Left]) -> Iterat
 
 
 def _routes(found: Constraints) -> Iterator[Item]:
-    h, n = found.holonomy, len(found.model.coordinates)
+    h, n = found.holonomy, len(found.model.velocities)
     m = n - h.DDOF
     if found.proposals:
         yield text("1. Integrate, and use fewer coordinates:")

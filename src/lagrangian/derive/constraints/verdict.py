@@ -85,15 +85,28 @@ def judge(
     *,
     values: Mapping[Any, Any] | None = None,
     limit: int = MAX_NODES,
+    idle: int = 0,
 ) -> Holonomy:
     """Return the verdict on constraints: redundant rows, contradictions, holonomic or not, and integrals.
 
     Rows A(q, t) q̇ + a0(q, t) = 0 are differential forms over (q, t); the fields that satisfy them are closed under
     brackets. Ranks are exact, in a prime field, with parameters generic; ``values`` (rational, by symbol) are tried as
-    well. ``limit`` bounds the nodes that brackets may make. Raises `ModelError` for a row that is not linear in the
-    rates.
+    well. ``limit`` bounds the nodes that brackets may make. ``idle`` directions mean nothing, such as the length of a
+    quaternion; no row depends on them. Raises `ModelError` for a row that is not linear in the rates.
     """
     variables = Variables(tuple(coordinates), time)
+    found = _tried(rows, variables, values, limit)
+    return _without(found, idle) if idle else found
+
+
+def _without(found: Holonomy, idle: int) -> Holonomy:
+    """The verdict without directions that mean nothing."""
+    special = None if found.special is None else _without(found.special, idle)
+    return replace(found, growth=tuple(count - idle for count in found.growth), special=special)
+
+
+def _tried(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, Any] | None, limit: int) -> Holonomy:
+    """The verdict with generic parameters, and what changes with the values given."""
     generic = _judged(rows, variables, None, limit)
     moving = [row for row in rows if row.position is None]
     if not values or not any(row.rate.has(*values) for row in moving):
