@@ -122,3 +122,43 @@ def test_results_are_read_chunk_by_chunk_and_checked(system: lg.System, tmp_path
     assert -127 in left.status
     with pytest.raises(lg.RunError, match="only results in a store are read lazily"):
         system.sweep(1.0, GRID, **HOW).to_xarray(lazy=True)
+
+
+@pytest.mark.parametrize("answer", [False, np.False_])
+def test_every_no_is_a_no(system: lg.System, answer: Any) -> None:
+    """A comparison of NumPy's numbers is False without being the object False."""
+    with pytest.raises(lg.NotStarted):
+        system.sweep(1.0, GRID, **HOW, confirm=lambda _: answer)
+
+
+@pytest.mark.parametrize("answer", ["no", 0, np.array([False, False])])
+def test_an_answer_that_is_no_answer_starts_nothing(system: lg.System, answer: Any) -> None:
+    with pytest.raises(lg.RunError, match="confirm must return True or False, or nothing to go on"):
+        system.sweep(1.0, GRID, **HOW, confirm=lambda _: answer)
+
+
+def test_a_store_is_continued_or_replaced(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(lg.RunError, match="either continued or replaced, not both"):
+        lg.example("pendulum").sweep(1.0, GRID, **HOW, store=tmp_path / "a.zarr", resume=True, overwrite=True)
+
+
+def test_a_store_that_is_not_there_or_is_no_name() -> None:
+    with pytest.raises(lg.Error, match="name a store that a sweep made"):
+        lg.Ensemble.of_store("memory://nowhere.zarr")
+    with pytest.raises(lg.Error, match=r"a store must be text or a Path \(got NoneType\)"):
+        lg.Ensemble.of_store(None)  # pyright: ignore[reportArgumentType]
+
+
+@pytest.mark.parametrize("url", ["s3://me:secret@bucket/a.zarr", "http://me:secret@host/a.zarr"])
+def test_a_password_in_the_url_of_a_store_is_refused_without_being_shown(url: str) -> None:
+    with pytest.raises(lg.Error, match="contains a password") as found:
+        lg.Ensemble.of_store(url)
+    assert "secret" not in str(found.value)
+    with pytest.raises(lg.Error, match="contains a password") as found:
+        lg.example("pendulum").sweep(1.0, GRID, **HOW, store=url)
+    assert "secret" not in str(found.value)
+
+
+def test_a_range_with_too_many_values_says_so() -> None:
+    with pytest.raises(lg.ParseError, match="values are too many for one range"):
+        lg.example("pendulum").sweep(1.0, f"theta=0:1:{10**30}")

@@ -229,7 +229,7 @@ def _store_options(output: str | None, resume: bool, force: bool) -> dict[str, A
     if not _is_store(output):
         return {}
     interrupts.advice = f"finished results stay in {output}: continue with --resume"
-    return {"store": output, "resume": resume, "overwrite": force}
+    return {"store": output, "resume": resume, "overwrite": force and not resume}
 
 
 def _check_targets(output: str | None, plot: Path | None, resume: bool, force: bool) -> None:

@@ -124,7 +124,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
 def open_document(path: StorePlace) -> StoreDocument:
     """Read and check the root document of a store; raise `Error` if there is none, and `RunError` if it is damaged."""
     if not path.exists():
-        raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
+        raise Error(f"there is no '{path}'", fix="name a store that a sweep made", code="E801")
     root = parsed(path)
     kept = _at(root, "attributes", KEY)
     if root is None or not kept:

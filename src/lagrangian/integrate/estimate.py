@@ -71,14 +71,24 @@ class NotStarted(RunError):
 def ask(confirm: Confirm, study: Study, design: Design, runs: int, size: int, executor: Any) -> None:
     """Ask whether to go on with ``runs`` runs of an ensemble whose results have ``size`` bytes.
 
-    Workers on other machines are taken to be as fast as this one. Raises `NotStarted` if the answer is False.
+    Workers on other machines are taken to be as fast as this one. Raises `NotStarted` if the answer is False, and
+    `RunError` if it is neither True, nor False, nor None.
     """
     away = getattr(executor, "held", None) is not None
     threads = 1 if away else executor.threads or cores()
     total = executor.threads if away else threads
     per_run, measured = measure(study, design, threads) if runs else (0.0, 0)
     estimate = SweepEstimate(runs, per_run * threads / total * runs, size, measured, total)
-    if confirm(estimate) is False:
+    answer = confirm(estimate)
+    if answer is None:
+        return
+    if not isinstance(answer, (bool, np.bool_)):
+        raise RunError(
+            f"confirm must return True or False, or nothing to go on (got {answer!r:.30})",
+            fix="confirm=lambda estimate: estimate.seconds < 3600",
+            code="E501",
+        )
+    if not answer:
         raise NotStarted(estimate)
 
 

@@ -116,13 +116,25 @@ StorePlace: TypeAlias = Path | ObjectPath
 def place(store: str | Path) -> StorePlace:
     """Return the place of a store: text with ``://`` is in object storage, except for ``file://``.
 
-    Raises `MissingExtra` if the package for its service is not installed, and `Error` if there is no such service.
+    Raises `MissingExtra` if the package for its service is not installed, and `Error` if there is no such service, or
+    if the URL contains a password.
     """
+    if not isinstance(store, (str, Path)):
+        raise Error(
+            f"a store must be text or a Path (got {type(store).__name__})", fix='such as "sweep.zarr"', code="E801"
+        )
     text = str(store)
     if isinstance(store, Path) or "://" not in text:
         return Path(store)
     if text.startswith("file://"):
         return Path(text.removeprefix("file://"))
+    user, at, _ = text.partition("://")[2].partition("/")[0].rpartition("@")
+    if at and ":" in user:
+        raise Error(
+            "the URL of the store contains a password, which messages and files would show",
+            fix="leave it out: credentials come from where the service's package looks for them",
+            code="E801",
+        )
     if "::" in text:
         raise Error(
             f"'{text}' is a chain of places", fix="use the URL of one place: s3://bucket/sweep.zarr", code="E801"

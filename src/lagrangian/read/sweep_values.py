@@ -143,9 +143,9 @@ def _range(name: str, source: Source, part: Part, start: int) -> Spread:
 
 
 def _refuse_count(source: Source, count: str, offset: int) -> NoReturn:
-    if re.fullmatch(r"[0-9]{1,12}", count) and int(count) > MAX_COUNT:
+    if re.fullmatch(r"[0-9]+", count) and (len(count) > 12 or int(count) > MAX_COUNT):
         raise source.error(
-            f"{count} values are too many for one range", offset, fix=f"at most {MAX_COUNT}", code="E703"
+            f"{shown(count)} values are too many for one range", offset, fix=f"at most {MAX_COUNT}", code="E703"
         )
     if count in ("0", "1"):
         raise source.error(

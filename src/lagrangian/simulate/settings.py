@@ -157,6 +157,10 @@ class Execution:
             )
         if self.store is None and (self.resume or self.overwrite):
             raise RunError("resume and overwrite apply only to a store", fix=Advice(STORE), code="E501")
+        if self.resume and self.overwrite:
+            raise RunError(
+                "a store is either continued or replaced, not both", fix="give resume or overwrite", code="E501"
+            )
         if self.store is not None and not isinstance(self.store, (str, Path)):
             raise RunError(
                 f"a store must be text or a Path (got {type(self.store).__name__})", fix=Advice(STORE), code="E501"
