@@ -58,6 +58,8 @@ class Board:
     handles: list[int] = field(default_factory=list[int])
     sole: dict[int, float] = field(default_factory=dict[int, float])
     """How far below a body's point its floor is [px]."""
+    faces: dict[int, tuple[float, float, float]] = field(default_factory=dict[int, tuple[float, float, float]])
+    """The middle of a wedge's upright side from its body's point [px]; −1 if that is the left one, else 1."""
     tips: dict[int, int] = field(default_factory=dict[int, int])
     """The far end of a link or beam, by the point of its body."""
     shaft_spots: dict[str, Array] = field(default_factory=dict[str, Array])

@@ -95,7 +95,7 @@ def _block(board: Board, part: Player) -> None:
 
 
 def _wedge(board: Board, part: Player) -> None:
-    """A triangle with its top at the body's point, and the slope of what slides on it."""
+    """A triangle with the slope of what slides on it, its top at the body's point, or its foot if that moves upward."""
     of, stage = (part.name,), board.stage
     J = board.views.J[0]
     rider = next(k for k in range(len(stage.points)) if _on_slope(board, k, part))
@@ -106,16 +106,19 @@ def _wedge(board: Board, part: Player) -> None:
     width = 175.0 if slope < 0.75 else 130.0 / max(slope, 0.3)
     height = slope * width
     sense = 1.0 if e[0] > 0 else -1.0
-    shape = line((0.0, 0.0), (0.0, height), (sense * width, height), closed=True)
-    at = board.at(part.point)
+    climbs = float(board.seen(board.r[rider] - board.r[part.point])[1]) < -1e-9
+    x, y = (-0.88 * sense * width, -0.88 * height) if climbs else (0.0, 0.0)
+    shape = line((x, y), (x, y + height), (x + sense * width, y + height), closed=True)
     board.put(shape, "body", board.placed(part.point), of=of, kind="wedge", filled=True, layer=BODY - 2)
+    at = board.at(part.point) + (x, y)
     board.fence(at, at + (sense * width, height))
     board.fence(at + (0, height), at + (sense * width, height))
     board.wish(mass_names(part), at + (sense * width * 0.28, height * 0.72), (0, 0), "body", of, inside=True)
     J = board.motions.views.J[0]
     name = board.motions.slope_name(direction(J[rider] - J[part.point]))
     slope_angle(board, at + (sense * width, height), pi if sense > 0 else 0.0, heading((-e[0], -e[1])), name)
-    board.sole[part.point] = height
+    board.sole[part.point] = y + height
+    board.faces[part.point] = (x, y + height / 2, -sense)
 
 
 def _on_slope(board: Board, k: int, part: Player) -> bool:

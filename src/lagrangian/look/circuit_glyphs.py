@@ -12,9 +12,9 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.look.board import BODY, EFFORT, JOINT, TIE, Board
-from lagrangian.look.circuit_loops import CircuitLoop, PlacedBranch, moved_by, rows_of_loops
+from lagrangian.look.circuit_loops import LAWS, CircuitLoop, PlacedBranch, moved_by, rows_of_loops
 from lagrangian.look.shapes import arc, box, head, joined, line, lines, turned
-from lagrangian.look.tie_glyphs import symbol_names
+from lagrangian.look.tie_glyphs import LOCAL
 from lagrangian.model import CircuitBranch, MutualInductance, Transducer, VoltageSource
 from lagrangian.page.scene import Disc, Pair, Path, Role
 
@@ -199,4 +199,7 @@ def _names(element: CircuitBranch) -> tuple[str, ...]:
     own, letter = element.name, element.suggested_name()
     if letter:
         return (letter,)
-    return (own,) if own and len(own) <= LONGEST and not own.startswith(element.kind) else symbol_names(element)
+    if own and len(own) <= LONGEST and not own.startswith(element.kind.partition("_")[0]):
+        return (own,)
+    laws = [x for key in LAWS if isinstance(x := getattr(element, key, None), sp.Expr)]
+    return tuple(sorted({str(x) for law in laws[:1] for x in law.free_symbols} - {*LOCAL}))[:2]

@@ -26,6 +26,9 @@ from lagrangian.model import (
     VoltageSource,
 )
 
+LAWS = ("L", "C", "R", "M", "k", "value", "law", "coenergy", "energy")
+"""The fields of which one says what a branch is."""
+
 WIDE = 3
 """So many branches lie on the upper side of a loop before others go to its lower side."""
 
@@ -200,6 +203,6 @@ def _lay(board: Board, loop: CircuitLoop, placed: list[PlacedBranch], *, first: 
 def moved_by(board: Board, element: CircuitBranch) -> list[Coordinate]:
     """The coordinates, apart from charges, that change a branch, such as a gap that changes an inductance."""
     model = board.stage.model
-    laws = [getattr(element, key, None) for key in ("L", "C", "R", "M", "law", "coenergy", "energy")]
+    laws = [getattr(element, key, None) for key in LAWS if key not in ("k", "value")]
     met = {x for law in laws if isinstance(law, sp.Expr) for x in model.expand(law).atoms(sp.Function)}
     return [c for c in model.coordinates if c.symbol in met and c not in model.charges]

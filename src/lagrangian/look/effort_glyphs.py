@@ -89,7 +89,7 @@ class EffortArtist:
             across = np.array([-abs(e[1]), -abs(e[0])])
             at, reach = at + ((w if abs(e[1]) > 0.7 else h) / 2 + 9.0) * across, 0.0
         if part is not None and part.glyph is BodyGlyph.WEDGE:
-            at = at + (0.0, board.sole.get(k, 0.0) / 2)
+            at = at + board.faces[k][:2]
             reach = 0.0
         tip = -reach * e if push else (reach + LENGTH) * e
         start, end = (at + tip - LENGTH * e, at + tip) if push else (at + reach * e, at + tip)
@@ -160,7 +160,7 @@ class EffortArtist:
     def _winding(self, element: Transducer) -> None:
         """The effort of a winding in a magnet's field on what it moves, for a positive current."""
         if not isinstance(element.on, Frame):
-            self._along(element, self.resolver.along(element, element.on), self._unit_value(element.k))
+            self._along(element, self.resolver.driven(element, element.on), self._unit_value(element.k))
             return
         turn = self._turned(element)
         if turn is None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.kinematics import Kinematics, Views
+from lagrangian.model import RigidBody
 
 Array = NDArray[np.float64]
 
@@ -57,6 +59,9 @@ class Motions:
         self.holds: list[Hold] = []
         for k in range(len(stage.points)):
             self.holds.append(self._hold(k))
+        for body in stage.model.bodies:
+            if isinstance(body, RigidBody):
+                self._held_at_its_ends(body)
 
     # -- questions ----------------------------------------------------------------------------------------------
 
@@ -141,11 +146,18 @@ class Motions:
     def slopes(self, deflection: sp.Expr) -> tuple[Array, Array]:
         """∂δ/∂q (n,) of a deflection at two random states."""
         if deflection not in self._slopes:
-            rng = np.random.default_rng(5)
-            states = [rng.uniform(0.4, 1.3, len(self.stage.inputs.q)) for _ in range(2)]
-            first, second = (self.stage.slopes(deflection, q, self.views.p) for q in states)
+            first, second = (self.stage.slopes(deflection, q, self.views.p) for q in self._two_states())
             self._slopes[deflection] = first, second
         return self._slopes[deflection]
+
+    def _two_states(self) -> list[Array]:
+        rng = np.random.default_rng(5)
+        return [rng.uniform(0.4, 1.3, len(self.stage.inputs.q)) for _ in range(2)]
+
+    @cached_property
+    def two_views(self) -> Views:
+        """The stage at the two states of `slopes`."""
+        return self.stage.views(self._two_states(), self.views.p)
 
     def angle_slopes(self, frame: int) -> Array:
         """In the plane: ∂φ/∂q of a frame's angle (n,), at the first state."""
@@ -217,11 +229,30 @@ class Motions:
             return first
         others = [h for h in range(k) if h != home and self.stage.points[h] is not self.stage.points[k]]
         others.sort(key=lambda h: (self.still(h), float(np.linalg.norm(self.views.r[0, k] - self.views.r[0, h]))))
-        for h in others:
-            found = self.relation(k, h)
-            if found.how is HoldKind.ROD and len(found.moving) < len(first.moving) + (first.how is not HoldKind.FREE):
-                return found
+        found = [self.relation(k, h) for h in others]
+        for hold in found:
+            if hold.how is HoldKind.ROD and len(hold.moving) < len(first.moving) + (first.how is not HoldKind.FREE):
+                return hold
+        carriers = [x for x in found if not {*x.moving} & {*self.coordinates(x.holder)}]
+        for how in (HoldKind.SLIDE, HoldKind.TELESCOPE) if first.how is HoldKind.FREE else ():
+            for hold in carriers:
+                if hold.how is how and len(hold.moving) < len(first.moving):
+                    return hold
         return first
+
+    def _held_at_its_ends(self, body: RigidBody) -> None:
+        """Hold the centre of a body by one of its points that slide, not by a distance from what it does not meet.
+
+        The middle of a ladder keeps its distance from the corner, but no rod holds it there.
+        """
+        k, frame = self.stage.index(body.at), self.stage.frames.index(body.axes)
+        hold = self.holds[k]
+        if hold.how is not HoldKind.ROD or self.carried(hold.holder, k, frame):
+            return
+        ends = [h for h in range(1, len(self.holds)) if h != k and self.carried(h, k, frame)]
+        sliding = [h for h in ends if self.holds[h].how is HoldKind.SLIDE and self.holds[h].holder != k]
+        if len(sliding) > 1:
+            self.holds[k] = self.relation(k, sliding[0])
 
     def _shaken_by(self, k: int) -> int | None:
         """The point that carries a point which only time moves against it, such as the axle of an unbalanced rotor."""

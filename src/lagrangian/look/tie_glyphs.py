@@ -162,7 +162,7 @@ class TieArtist:
 
     def _half(self, k: int, e: Array) -> float:
         part = self.by_point.get(k)
-        if part is None:
+        if part is None or k in self.board.faces:
             return 0.0
         w, h = CART if part.glyph is BodyGlyph.CART else BLOCK if part.glyph is BodyGlyph.BLOCK else (16.0, 16.0)
         if part.glyph is BodyGlyph.WHEEL:
@@ -183,8 +183,10 @@ class TieArtist:
         return x + float(by[0]), y + float(by[1])
 
     def _lift(self, k: int, e: Array) -> Array:
-        """From a body's point to the height at which ties hold it: a block on a slope lies above its point."""
+        """From a body's point to where ties hold it: a block on a slope lies above its point, a wedge has its side."""
         part = self.by_point.get(k)
+        if k in self.board.faces:
+            return np.array(self.board.faces[k][:2])
         if part is not None and part.glyph is BodyGlyph.BLOCK and 0.1 < abs(e[1]) < 0.95:
             n = np.array([-e[1], e[0]])
             return (n if n[1] < 0 else -n) * BLOCK[1] / 2
@@ -207,6 +209,8 @@ class TieArtist:
         assert isinstance(k, int)
         part = self.by_point[k]
         e = slide_along(board, part)
+        if k in board.faces:
+            return board.faces[k][2] * float(np.sign(e[0]))
         others = [p for p in self.parts if p is not part and p.direction is not None and p.glyph is part.glyph]
         before = [p for p in others if (board.at(p.point) - board.at(k)) @ e < -30.0]
         after = [p for p in others if (board.at(p.point) - board.at(k)) @ e > 30.0]
@@ -370,7 +374,7 @@ LOCAL = ("delta", "current", "charge", "t")
 
 def symbol_names(element: Element) -> tuple[str, ...]:
     """The symbols by which an element is known in a picture: its stiffness, its coefficient, its value, its law."""
-    for key in ("k", "b", "mu", "limit", "value", "L", "C", "R", "M", "law", "coenergy", "energy"):
+    for key in ("k", "b", "mu", "limit", "value", "law", "energy"):
         value = getattr(element, key, None)
         values = value if isinstance(value, tuple) else (value,)
         found: list[str] = []

@@ -47,6 +47,7 @@ class Resolver:
     def __init__(self, motions: Motions, parts: list[Player], turns: list[Turn]) -> None:
         self.motions, self.parts, self.turns = motions, parts, turns
         self.p = motions.views.p
+        self._places: dict[tuple[int, int, sp.Expr], int] = {}
 
     def resolve(self, element: Element) -> Tie:
         """What an element ties together."""
@@ -60,10 +61,14 @@ class Resolver:
         """What a deflection ties together."""
         first, second = self.motions.slopes(deflection)
         if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
+            bent = self._slides(element, np.concatenate([first, second]), self.motions.two_views.J)
             g = self.motions.stage.slopes(deflection, np.zeros(len(first)), self.p)
-            return self._small(element, g) or Tie(element, "unknown")
+            return bent or self._small(element, g) or Tie(element, "unknown")
         g = first
-        rules = (self._slides, self._telescope, self._joint, self._stop, self._small)
+        slides = self._slides(element, g, self.motions.views.J[:1])
+        if slides is not None:
+            return slides
+        rules = (self._telescope, self._joint, self._stop, self._small, self._on_body)
         found = (rule(element, g) for rule in rules)
         return next((tie for tie in found if tie is not None), Tie(element, "unknown"))
 
@@ -99,15 +104,64 @@ class Resolver:
         _, a, b, sign = min(found)
         return Tie(element, "points", a, b, sign)
 
-    def _slope_of(self, part: Player) -> Array | None:
-        """e · ∂r/∂q of a body that slides on something in the direction e."""
+    def driven(self, element: Element, deflection: sp.Expr) -> Tie:
+        """What moves by a multiple of an expression, such as a cart by the angle of its motor."""
+        tie = self.along(element, deflection)
+        if tie.way != "unknown":
+            return tie
+        g = self.motions.slopes(deflection)[0]
+        for part in self.parts:
+            slope = self._slope_of(part, self.motions.two_views.J[:1])
+            if slope is not None and (ratio := _ratio(g, slope)) is not None:
+                return Tie(element, "slides", None, part.point, float(np.sign(ratio)))
+        return tie
+
+    def _on_body(self, element: Element, g: Array) -> Tie | None:
+        """A place on a rigid body whose small displacement along an axis it is: y − a θ, a beside the centre.
+
+        ∂δ/∂q = ±(∂r/∂q of the centre + offset · ∂φ/∂q), where φ is the angle of the body.
+        """
+        stage, zero = self.motions.stage, np.zeros(len(g))
+        if stage.dimension == 3:
+            return None
+        at_zero = stage.views([zero], self.p)
+        for part in self.parts:
+            for axis, sign in ((1, 1.0), (1, -1.0), (0, 1.0), (0, -1.0)) if part.frame is not None else ():
+                assert part.frame is not None
+                J = at_zero.J[0, part.point, axis]
+                ratio = _ratio(sign * g - J, self.motions.angle_slopes(part.frame)) if J.any() else None
+                if ratio is None:
+                    continue
+                offset = self._offset(element, part, axis, sign, ratio)
+                key = (part.point, axis, offset)
+                if key not in self._places:
+                    R = at_zero.R[0, part.frame]
+                    place = [offset * (float(R[0, i]) if axis else -float(R[1, i])) for i in (0, 1)]
+                    self._places[key] = stage.add(part.point, place, stage.frames[part.frame])
+                return Tie(element, "stop", None, self._places[key], sign, None, axis)
+        return None
+
+    def _offset(self, element: Element, part: Player, axis: int, sign: float, ratio: float) -> sp.Expr:
+        """How far beside the centre a place on a body is: a parameter, otherwise its value at the given parameters."""
+        named = self.motions.named(abs(ratio))
+        if named is not None:
+            return named if ratio > 0 else -named
+        stage = self.motions.stage
+        zero, p = np.zeros(len(stage.inputs.q)), stage.parameters()
+        g = stage.slopes(getattr(element, "deflection"), zero, p)  # noqa: B009
+        assert part.frame is not None
+        found = _ratio(sign * g - stage.views([zero], p).J[0, part.point, axis], self.motions.angle_slopes(part.frame))
+        return sp.Float(found or 0.0, 17)
+
+    def _slope_of(self, part: Player, J: Array) -> Array | None:
+        """e · ∂r/∂q, at one state after the other, of a body that slides on something in the direction e."""
         hold = self.motions.holds[part.point]
         if part.direction is None or hold.how is not HoldKind.SLIDE:
             return None
-        return part.direction @ self.motions.views.J[0, part.point]
+        return np.concatenate([part.direction @ at[part.point] for at in J])
 
-    def _slides(self, element: Element, g: Array) -> Tie | None:
-        slopes = [(part, s) for part in self.parts if (s := self._slope_of(part)) is not None]
+    def _slides(self, element: Element, g: Array, J: Array) -> Tie | None:
+        slopes = [(part, s) for part in self.parts if (s := self._slope_of(part, J)) is not None]
         for part, s in slopes:
             for sign in (1.0, -1.0):
                 if np.allclose(g, sign * s, atol=1e-8):
