@@ -62,3 +62,68 @@ def test_mistakes_beside_a_multiplier_are_named(
 def test_a_multiplier_in_an_equation_where_the_constraint_does_no_work(puck: lg.Derivation) -> None:
     (mistake,) = puck.check(f"{RADIAL}\n{TANGENT} + lambda").mistakes
     assert mistake.name == "term_too_much" and mistake.coordinate == "theta"
+
+
+# -- a multiplier of the answer's own scale, and where it stands wrong -----------------------------------------------
+
+ALONG = "(m1 + m3/4)*x'' + c*x' = F + 2*N*x"
+UP = "(m2 + m3/4)*y'' + (m2 + m3/2)*g + k*y = 2*N*y"
+
+
+@pytest.fixture(scope="module")
+def trammel() -> lg.Derivation:
+    """Two sliders on crossing rails, joined by a rod with a mass in its middle; λ is the force in the rod."""
+    s = lg.System("trammel")
+    x, y = s.coordinates("x y")
+    m1, m2, m3, d, k, c = s.parameters("m1 m2 m3 d k c")
+    F = s.inputs("F")
+    a, b = s.point("A", (x, 0)), s.point("B", (0, y))
+    s.particle(m1, at=a, name="slider A")
+    s.particle(m2, at=b, name="slider B")
+    s.particle(m3, at=s.point("C", (x / 2, y / 2)), name="pen")
+    s.gravity()
+    s.spring(k, deflection=y, name="spring")
+    s.damper(c, deflection=x, name="rail")
+    s.force((F, 0), at=a, name="push")
+    s.constraint(between=(a, b), distance=d, name="rod")
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "kind", "element"),
+    [
+        (" + c*x'", "", "element_forgotten", "damper 'rail'"),
+        ("m3/2)*g", "m3)*g", "element_twice", "gravity 'g'"),
+        ("= 2*N*y", "= -2*N*y", "multiplier_sign", "constraint 'rod'"),
+        ("= 2*N*y", "= 0", "multiplier_missing", "constraint 'rod'"),
+        ("= 2*N*y", "= 2*N*x", "multiplier_factor", "constraint 'rod'"),
+        ("x^2 + y^2 = d^2", "x + y = d", "constraint_wrong", "constraint 'rod'"),
+    ],
+)
+def test_mistakes_beside_a_multiplier_of_another_scale(
+    trammel: lg.Derivation, right: str, wrong: str, kind: str, element: str
+) -> None:
+    """The factors of λ are ∂f/∂x : ∂f/∂y = x : y, whatever the scale of f."""
+    answer = f"{ALONG}\n{UP}\nx^2 + y^2 = d^2"
+    assert trammel.check(answer).right
+    (mistake,) = trammel.check(answer.replace(right, wrong)).mistakes
+    assert (mistake.name, mistake.element) == (kind, element), str(mistake.what)
+
+
+def test_equations_with_a_multiplier_follow_from_a_wrong_energy(trammel: lg.Derivation) -> None:
+    T = "T = 1/2*m1*x'^2 + 1/2*m2*y'^2 + 1/2*m3*(x'^2 + y'^2)"
+    verdict = trammel.check(f"{T}\n{ALONG}\n{UP}".replace("m3/4", "m3"))
+    (mistake,) = verdict.mistakes
+    assert mistake.element == "particle 'pen'" and mistake.step == 2
+    assert [f.follows for f in verdict.findings] == [False, True, True]
+
+
+def test_mistakes_in_an_equation_without_its_multiplier(trammel: lg.Derivation) -> None:
+    """x·(second) − y·(first) holds no λ; the sum of both does."""
+    first, second = (f"({a}) - ({b})" for a, b in (row.split(" = ") for row in (ALONG, UP)))
+    without = f"x*({second}) - y*({first}) = 0\nx^2 + y^2 = d^2".replace(" + 2*N*x", "").replace("2*N*y", "0")
+    assert trammel.check(without).right
+    (mistake,) = trammel.check(without.replace(" - y*(", " + y*(")).mistakes
+    assert mistake.name == "elimination"
+    (mistake,) = trammel.check(without.replace("k*y", "2*k*y")).mistakes
+    assert mistake.element == "spring 'spring'"

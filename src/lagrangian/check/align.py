@@ -121,18 +121,18 @@ def _combined(options: Sequence[Sequence[tuple[Array, float]]]) -> Iterator[tupl
 
 def _factors(truth: Reference, exprs: Sequence[sp.Expr]) -> list[list[list[tuple[Array, float]]]]:
     """For every pair of an equation and a right row, possible factors with their votes."""
-    mine, by = _slopes(truth, exprs), range(truth.n)
+    mine, by = slopes_of_equations(truth, exprs), range(truth.n)
     right = slopes_of(truth)
-    return [[_agreed(truth, mine[j], right[i]) for i in by] for j in range(len(exprs))]
+    return [[agreed(truth, mine[j], right[i]) for i in by] for j in range(len(exprs))]
 
 
 @lru_cache(maxsize=32)
 def slopes_of(truth: Reference) -> Array:
-    """The slopes of the right rows, see `_slopes`, computed once for the systems that were checked most recently."""
-    return _slopes(truth, truth.rows)
+    """The slopes of the right rows, see `slopes_of_equations`, computed once for the systems checked most recently."""
+    return slopes_of_equations(truth, truth.rows)
 
 
-def _slopes(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
+def slopes_of_equations(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
     """The slopes of every equation by accelerations, inputs, rates and parameters, and its value at rest, (k, m, S)."""
     model, size = truth.model, truth.states.size
     moving = [
@@ -147,7 +147,7 @@ def _slopes(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
     return np.concatenate([values, rest[:, None]], axis=1)
 
 
-def _agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, float]]:
+def agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, float]]:
     """The quotients of slopes that are constant at every place, equal ones counted together; always ±1 as well."""
     size = truth.states.size
     blocks = SETS * PLACES

@@ -17,7 +17,7 @@ from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
-from lagrangian.check.multipliers import with_own_multipliers
+from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
@@ -79,14 +79,16 @@ def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], ver
     read = with_own_multipliers(truth, lines) if verdict.status is Status.WRONG else None
     if read is None:
         return verdict
-    rows, told = read
-    judged = _judged(truth, rows)
-    named = mistakes(truth, rows, judged.findings)
-    if not named.told or named.left:
+    judged = _judged(truth, read.lines)
+    named = mistakes(truth, read.lines, judged.findings)
+    of_constraints = wrong_constraints(truth, verdict.findings)
+    told = (*named.told, *read.mistakes, *of_constraints)
+    if not told:
         return verdict
     better = {f.line.number: f for f in judged.findings}
+    better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in read.wrong}
     findings = tuple(better.get(f.line.number, f) for f in verdict.findings)
-    return replace(verdict, findings=findings, mistakes=named.told, alternatives=named.others, notes=told)
+    return replace(verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes)
 
 
 def _valued(

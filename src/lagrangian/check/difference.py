@@ -18,6 +18,8 @@ from lagrangian.model import time
 
 MAX_DIFFERENCES = 12
 """The largest number of differences that are reported; an answer with more of them is a different answer."""
+LONGEST_FACTOR = 40
+"""Terms times a factor with more operations, such as the inverse of a long determinant, can no longer be compared."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ def differences(
 
     They are given in the scale of the answer, that is, times the factor.
     """
-    scale = truth.form(factor)
+    scale = truth.form(factor) if bounded.size(factor) <= LONGEST_FACTOR else None
     if scale is None or scale.is_zero:
         return ()
     inverse = truth.form(1 / factor)

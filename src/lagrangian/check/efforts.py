@@ -26,14 +26,16 @@ class Effort:
     rate: sp.Expr | None = None
 
 
-def effort_of(pool: Pool, kind: str, row: int | None, term: sp.Expr) -> Effort | None:
+def effort_of(pool: Pool, kind: str, row: int | None, term: sp.Expr, scale: sp.Expr | None = sp.S.One) -> Effort | None:
     """The force, torque or damper with whose own letters a term of an equation or a Ξ is written; None for others.
 
-    Of several with the same letter, the one that acts in equation ``row``.
+    Of several with the same letter, the one that acts in equation ``row``. The term is ``scale`` times one of the right
+    equation: a letter by which an equation was divided stands in all its terms.
     """
     if kind not in ("equation", "Xi"):
         return None
-    held = term.free_symbols | term.atoms(AppliedUndef)
+    above, _ = sp.fraction(bounded.cancel(term / scale) if scale is not None else term)
+    held = above.free_symbols | above.atoms(AppliedUndef)
     found = [e for e, own in _own_letters(pool).items() if own & held]
     if not found:
         return None

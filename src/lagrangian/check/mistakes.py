@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import sympy as sp
@@ -14,14 +15,17 @@ from lagrangian.check.changes.pool import Pool, Possible, pool_of
 from lagrangian.check.numerators import by_numerators, said_of
 from lagrangian.check.own_terms import OwnTerm, own_term, own_terms
 from lagrangian.check.quoted import is_quotable, letters_of
+from lagrangian.check.reduced import of_reduced
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import (
     EXOTIC,
+    MOST_FOR_PAIRS,
     Explanation,
     Told,
     Vectors,
     by_rows,
     first_explained,
+    reproduces,
     singles,
 )
 from lagrangian.check.sheets import sheets
@@ -39,6 +43,8 @@ ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
+MOST_TOGETHER = 10
+"""The largest number of explanations of each of two lines that are tried together."""
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
@@ -74,6 +80,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
     of_equation = [f for f in findings if f.line.kind == "equation"]
+    groups = (
+        _followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
+    )
     combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
         against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
@@ -89,6 +98,27 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
     return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
+
+
+def _followed(
+    pool: Pool, groups: list[list[Explanation]], equations: Sequence[AnsweredLine]
+) -> list[list[Explanation]]:
+    """The explanations of lines from which equations follow: those that lead to these equations as well, if any do.
+
+    A letter may be wrong in V alone or everywhere; only the equations below tell.
+    """
+    if not groups or not all(groups) or len(groups) > 2 or not equations:
+        return groups
+    exprs, P = _stated(pool, equations)
+    found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
+    few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
+    chosen: list[dict[int, Explanation]] = [{} for _ in groups]
+    for together in product(*few):
+        told = [t for e in together for t in e.told]
+        if any(reproduces(pool, told, a) for a in found):
+            for kept, e in zip(chosen, together, strict=True):
+                kept.setdefault(id(e), e)
+    return [[*kept.values()] for kept in chosen] if all(chosen) else groups
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
@@ -198,7 +228,16 @@ def _of_equations(
     explained = [e for e in explained if e.cost <= UNNATURAL]
     if not explained and (under := denominator(pool.truth, solved, Q)) is not None:
         return [], [under]
-    return explained, []
+    return (explained, []) if explained else _of_reduced(pool, exprs)
+
+
+def _of_reduced(pool: Pool, exprs: Sequence[sp.Expr]) -> tuple[list[Explanation], list[Mistake]]:
+    """The explanations of an equation from which a multiplier was eliminated."""
+    forces = [m.symbol for m in pool.truth.derivation.multipliers.values()]
+    if not forces or len(exprs) != 1 or exprs[0].has(*forces):
+        return [], []
+    found, slip = of_reduced(pool, exprs[0])
+    return found, [slip] if slip is not None else []
 
 
 def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm) -> Mistake:
@@ -315,9 +354,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     every = [_mistake(pool.truth, t, a) for t, a in chosen]
     if len(every) == 1:
         every[0], others = _of_either(pool.truth, every[0], chosen[0], others)
-    told = tuple(
-        {(m.name, m.element, m.coordinate) if m.element else str(m.what): m for m in reversed(every)}.values()
-    )[::-1]
+    told = _once(every, ())
     listed = [_mistake(pool.truth, t, e.under) for e in others[:8] for t in e.told]
     ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
     own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open

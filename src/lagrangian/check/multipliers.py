@@ -1,33 +1,56 @@
 """Reads an answer's multipliers as those of the system, so that mistakes in equations with constraints can be named.
 
-The equations m_i(ξ̈, ξ̇, ξ) = Ξ_i + Σ_k A_ki λ_k are compared with λ as with an input of the system.
+The equations m_i(ξ̈, ξ̇, ξ) = Ξ_i + Σ_k A_ki λ_k are compared with λ as with an input of the system. An answer's own
+multiplier is s = c λ, and c may depend on the position: λ x/√(x² + y²) is the same force as 2 s x.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from itertools import permutations, product
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice, permutations, product
 from typing import Any, cast
 
 import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 
 MOST = 3
-"""The largest number of multipliers for which all orders and signs are tried."""
+"""The largest number of multipliers for which all orders and scales are tried."""
+MOST_SCALES = 8
+"""The largest number of scales that are tried for one multiplier."""
+MOST_READINGS = 300
+LONGEST = 60
+"""The largest number of operations of the scale of a multiplier."""
+WHY = text(
+    "The force of a constraint f = 0 enters the equation of ξ as λ·∂f/∂ξ: one λ for all equations, and ∂f/∂ξ for each."
+)
+
+WHY_CONSTRAINT = text("Put in a position that the sketch shows, and see whether the line holds there.")
 
 
-def with_own_multipliers(
-    truth: Reference, lines: Sequence[AnsweredLine]
-) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]] | None:
+@dataclass(frozen=True, eq=False)
+class ReadMultipliers:
+    """An answer whose multipliers are read: its lines, with right multipliers in all equations, and how they were read.
+
+    ``mistakes`` say where the multipliers had stood wrong, in the lines with the numbers ``wrong``.
+    """
+
+    lines: tuple[AnsweredLine, ...]
+    notes: tuple[Text, ...]
+    mistakes: tuple[Mistake, ...]
+    wrong: frozenset[int]
+
+
+def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> ReadMultipliers | None:
     """The lines that can be compared one by one with the system's, and how the answer's multipliers were read.
 
     The constraints themselves, which hold no acceleration and no multiplier, are left out. None if there is no reading.
@@ -35,50 +58,176 @@ def with_own_multipliers(
     model = truth.model
     own: list[Any] = [m.symbol for m in truth.derivation.multipliers.values()]
     accelerations = [c.acceleration for c in model.coordinates]
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs)), *own}
+    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     rows = [line for line in lines if line.kind == "equation"]
+    rows = [line for line in rows if line.expr.has(*accelerations) or line.expr.has(*own)]
     used: set[Any] = {x for line in rows for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
-    unknown = sorted(used - known, key=str)
-    free = [x for x in own if x not in used]
-    rows = [line for line in rows if line.expr.has(*accelerations, *unknown, *own)]
-    if not own or len(unknown) > len(free) or len(unknown) > MOST or not rows:
+    names = sorted(used - known, key=str)
+    if not own or len(names) > len(own) or len(names) > MOST or not rows:
         return None
-    best = max(_readings(unknown, free), key=lambda table: _agreeing(truth, rows, table, own))
-    told = tuple(text(f"'{plain(a)}' was read as ", b, ".") for a, b in best.items())
-    read = {id(line): replace(line, expr=cast("sp.Expr", line.expr.xreplace(best))) for line in rows}
+    readings = islice(_readings(truth, rows, names, own), MOST_READINGS)
+    exprs = [line.expr for line in rows]
+    best = max(readings, key=lambda table: _score(_matched(truth, exprs, table, own)))
+    table = {s: cast("sp.Expr", c * x) for s, (x, c) in best.items()}
+    told = [text(f"'{plain(s)}' was read as ", x, ".") for s, x in table.items() if s != x]
+    read = {id(line): replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in rows}
+    mistakes: list[Mistake] = []
+    wrong: set[int] = set()
+    for line, found in zip(rows, _matched(truth, exprs, best, own), strict=True):
+        for s, (x, c) in best.items():
+            right = _right(truth, found, x)
+            written = cast("sp.Expr", line.expr.diff(s))
+            if right is None or right == 0 or bounded.cancel(rest := written * c - right) == 0:
+                continue
+            read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
+            wrong.add(line.number)
+            mistakes.append(_mistake(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
     kept = [read.get(id(line), line) for line in lines if line.kind != "equation" or id(line) in read]
-    return tuple(kept), told
+    return ReadMultipliers(tuple(kept), tuple(told), tuple(mistakes), frozenset(wrong))
 
 
-def _readings(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> Iterator[dict[sp.Basic, sp.Expr]]:
-    """Every assignment of multipliers with every sign, the plain ones first."""
-    for chosen in permutations(free, len(unknown)):
-        for signs in product((1, -1), repeat=len(unknown)):
-            yield {a: cast("sp.Expr", g * b) for a, b, g in zip(unknown, chosen, signs, strict=True)}
+_Reading = Mapping[Any, "tuple[Any, sp.Expr]"]
+"""For every multiplier of the answer the one of the system that it stands for, and its scale."""
 
 
-def _agreeing(
-    truth: Reference, rows: Sequence[AnsweredLine], table: dict[sp.Basic, sp.Expr], own: Sequence[Any]
-) -> float:
-    """How many terms of the rows agree with those of right rows: slopes that are equal, or all of the other sign."""
-    exprs = [cast("sp.Expr", line.expr.xreplace(table)) for line in rows]
-    right = _slopes(truth, truth.rows, own)
-    count = 0.0
-    for mine in _slopes(truth, exprs, own):
-        found = [0]
-        for theirs in right:
-            held = np.abs(theirs).max(axis=1) > 1e-9
-            for sign in (1, -1):
-                same = np.abs(mine - sign * theirs).max(axis=1) <= 1e-8 * (1 + np.abs(theirs).max(axis=1))
-                found.append(int((same & held).sum()))
-        count += max(found)
-    return count
+@dataclass(frozen=True, eq=False)
+class _Match:
+    """The right row that a row of the answer resembles most, the factor, and in how many slopes they agree."""
+
+    row: int
+    factor: sp.Expr | None
+    count: float
 
 
-def _slopes(truth: Reference, exprs: Sequence[sp.Expr], own: Sequence[Any]) -> Array:
-    """The slopes of every row by accelerations, inputs, rates, parameters and multipliers, (k, m, S)."""
+def _score(found: Sequence[_Match]) -> float:
+    return sum(m.count for m in found)
+
+
+def _readings(
+    truth: Reference, rows: Sequence[AnsweredLine], names: Sequence[Any], own: Sequence[Any]
+) -> Iterator[_Reading]:
+    """Every assignment of multipliers with every scale, the plain ones first."""
+    for chosen in permutations(own, len(names)):
+        scales = [_scales(truth, rows, s, x) for s, x in zip(names, chosen, strict=True)]
+        for cs in product(*scales):
+            yield {s: (x, c) for s, x, c in zip(names, chosen, cs, strict=True)}
+
+
+def _scales(truth: Reference, rows: Sequence[AnsweredLine], s: Any, x: Any) -> list[sp.Expr]:
+    """The scales c with which c·x in place of s has the right factor in some equation; ±1 first."""
+    found: dict[sp.Expr, None] = {sp.S.One: None, sp.S.NegativeOne: None}
+    for line in rows:
+        mine = cast("sp.Expr", line.expr.diff(s))
+        if mine == 0 or mine.has(s, *[c.acceleration for c in truth.model.coordinates]):
+            continue
+        for row in truth.rows:
+            if (right := row.diff(x)) == 0:
+                continue
+            for f in _row_factors(truth, line.expr, row):
+                c = bounded.cancel(f * right / mine)
+                if bounded.size(c) <= LONGEST and len(found) < MOST_SCALES:
+                    found[c] = None
+    return list(found)
+
+
+def _row_factors(truth: Reference, expr: sp.Expr, row: sp.Expr) -> list[sp.Expr]:
+    """±1, and what an acceleration has in an equation and in a right one."""
+    found: list[sp.Expr] = [sp.S.One, sp.S.NegativeOne]
+    for c in truth.model.coordinates:
+        mine, right = expr.diff(c.acceleration), row.diff(c.acceleration)
+        if mine != 0 and right != 0:
+            found.append(cast("sp.Expr", bounded.cancel(mine / right)))
+    return list(dict.fromkeys(found))
+
+
+def _matched(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, own: Sequence[Any]) -> list[_Match]:
+    """For every row the right row with which the most slopes agree, but for a factor; each right row once."""
+    table = {s: c * x for s, (x, c) in reading.items()}
+    read = [cast("sp.Expr", e.xreplace(table)) for e in exprs]
+    by = _by(truth, own)
+    mine, right = _slopes(truth, read, by), _slopes(truth, truth.rows, by)
+    cells = sorted(
+        ((count, -j, -i, k) for j, m in enumerate(mine) for i, r in enumerate(right) for count, k in [_agreeing(m, r)]),
+        reverse=True,
+    )
+    found: dict[int, _Match] = {}
+    for count, j, i, k in cells:
+        if -j not in found and all(m.row != -i for m in found.values()):
+            factor: sp.Expr | None = None
+            if k is not None:
+                factor = cast("sp.Expr", bounded.cancel(read[-j].diff(by[k]) / truth.rows[-i].diff(by[k])))
+            found[-j] = _Match(-i, factor, count)
+    return [found.get(j, _Match(0, None, 0.0)) for j in range(len(exprs))]
+
+
+def _by(truth: Reference, own: Sequence[Any]) -> list[Any]:
     model = truth.model
-    by = [*(x for c in model.coordinates for x in (c.acceleration, c.rate))]
-    by += [x.symbol for x in (*model.inputs, *model.parameters)]
-    slopes = CompiledExpressions(exprs).slopes([*by, *own]).at(truth.states)
-    return slopes.reshape(len(exprs), len(by) + len(own), truth.states.size)
+    by = [x for c in model.coordinates for x in (c.acceleration, c.rate)]
+    return [*by, *(x.symbol for x in (*model.inputs, *model.parameters)), *own]
+
+
+def _agreeing(mine: Array, right: Array) -> tuple[float, int | None]:
+    """How many slopes are the same multiple of the right ones, and the place of one of them; ±1 counts a bit more."""
+    held = (np.abs(right).max(axis=1) > 1e-9) & (np.abs(mine).max(axis=1) > 1e-9)
+    places = np.flatnonzero(held)
+    with np.errstate(all="ignore"):
+        ratios = mine[places] / right[places]
+    best: tuple[float, int | None] = (0.0, None)
+    for k, ratio in zip(places, ratios, strict=True):
+        if not np.isfinite(ratio).all():
+            continue
+        same = (np.abs(ratios - ratio) <= 1e-8 * np.abs(ratio)).all(axis=1)
+        count = float(same.sum()) + (0.5 if np.ptp(np.abs(ratio)) == 0 and abs(ratio[0]) == 1 else 0.0)
+        if count > best[0]:
+            best = count, int(k)
+    return best
+
+
+def _slopes(truth: Reference, exprs: Sequence[sp.Expr], by: Sequence[Any]) -> Array:
+    """The slopes of every row by accelerations, rates, inputs, parameters and multipliers, (k, m, S)."""
+    return CompiledExpressions(exprs).slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
+
+
+def _right(truth: Reference, found: _Match, x: Any) -> sp.Expr | None:
+    """What a multiplier of the system has for a factor in a row of the answer."""
+    return None if found.factor is None else cast("sp.Expr", found.factor * truth.rows[found.row].diff(x))
+
+
+def _mistake(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, right: sp.Expr) -> Mistake:
+    """A multiplier that is missing in an equation, or has the wrong sign or factor there, in words."""
+    q, name = truth.derivation.coordinates[i], truth.model.coordinates[i].name
+    multiplier = next(m for m in truth.derivation.multipliers.values() if m.symbol == x)
+    title = multiplier.element.title
+    if written == 0:
+        kind, what = "multiplier_missing", text("The multiplier ", s, " is missing in the equation of ", q, ".")
+    elif bounded.cancel(written + right) == 0:
+        words = " has the wrong sign in the equation of "
+        kind, what = "multiplier_sign", text("The multiplier ", s, words, q, ", beside the other equations.")
+    else:
+        sign = -1 if written.could_extract_minus_sign() else 1
+        words = (" stands with the factor ", sign * written, " in the equation of ", q, "; beside the others, ")
+        kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * right, " belongs there.")
+    brief = text("The multiplier does not stand in the equation of ", q, " as it should.")
+    return Mistake(kind, what, WHY, 6, title, name, brief)
+
+
+def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Mistake, ...]:
+    """The lines that say of positions alone what the constraints do not."""
+    model = truth.model
+    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
+    moving = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
+    elements = list(dict.fromkeys(m.element.title for m in truth.derivation.multipliers.values()))
+    told: list[Mistake] = []
+    for f in findings:
+        expr = f.line.expr
+        if f.line.kind != "equation" or f.status is not Status.WRONG or expr.has(*moving):
+            continue
+        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= known:
+            continue
+        which = elements[0] if len(elements) == 1 else "the constraints"
+        what = text(
+            f"{f.line.title[:1].upper()}{f.line.title[1:]} does not hold for the positions that {which} allows."
+        )
+        element = elements[0] if len(elements) == 1 else None
+        told.append(Mistake("constraint_wrong", what, WHY_CONSTRAINT, 1, element, None, what))
+    return tuple(told)

@@ -197,10 +197,10 @@ def own_term(
             continue
         if k < len(written):
             idle = _idle(pool, row, t) if number == 1 else None
-            return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort_of(pool, kind, row, t))
+            return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort_of(pool, kind, row, t, scale))
         if number in (1, -1):
             lost = cast("sp.Expr", -number * t)
-            return OwnTerm(row, LINES[kind], lost, forgotten=True, effort=effort_of(pool, kind, row, t))
+            return OwnTerm(row, LINES[kind], lost, forgotten=True, effort=effort_of(pool, kind, row, t, scale))
     if scale is None:
         return None
     listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use and t not in foreign]
@@ -235,7 +235,7 @@ def in_place(
     def instead_of(k: int, t: sp.Expr | None = None, times: Any = 1) -> OwnTerm:
         one = right.terms[k]
         expr = scale * one.expr if scale in (1, -1) else bounded.expand(scale * one.expr)
-        effort = effort_of(pool, kind, row, expr) if one.step == 6 else None
+        effort = effort_of(pool, kind, row, one.expr) if one.step == 6 else None
         written = cast("sp.Expr", times * expr) if t is None else t
         return OwnTerm(row, one.step, written, instead=(expr, one), effort=effort)
 

@@ -41,9 +41,12 @@ class StatedQuantity:
         return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
 
     def rows(self, truth: Reference) -> Array:
-        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ, at every state."""
+        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ − Aᵀλ, at every state."""
         Xi = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
-        return left_values(truth, self.lagrangian(truth)) - CompiledExpressions(Xi).at(truth.states)
+        forces = [m.symbol for m in truth.derivation.multipliers.values()]
+        of_constraints = [sp.Add(*[x * row.diff(x) for x in forces]) for row in truth.rows]
+        efforts = [x - y for x, y in zip(Xi, of_constraints, strict=True)]
+        return left_values(truth, self.lagrangian(truth)) - CompiledExpressions(efforts).at(truth.states)
 
 
 def given(truth: Reference, lines: Sequence[AnsweredLine]) -> StatedQuantity:
