@@ -4,49 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 import sympy as sp
 
 from lagrangian.check import say
-from lagrangian.check.align import LARGEST, Alignment, alignments
+from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.line_mistakes import MOST_TOLD, UNNATURAL, contradicted, followed, of_line, stated
 from lagrangian.check.numerators import by_numerators, said_of
-from lagrangian.check.own_terms import OwnTerm, own_term, own_terms
+from lagrangian.check.own_terms import OwnTerm, own_terms
 from lagrangian.check.quoted import is_quotable, letters_of
 from lagrangian.check.reduced import of_reduced
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import (
     EXOTIC,
-    MOST_FOR_PAIRS,
     Explanation,
     Told,
-    Vectors,
     by_rows,
     first_explained,
-    reproduces,
-    singles,
 )
 from lagrangian.check.sheets import sheets
 from lagrangian.check.solved import denominator, solved_from_wrong
-from lagrangian.check.stated import dissipation, index_of
 from lagrangian.check.undivided import undivided
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
-from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import text
 
-ENERGIES = ("T", "V", "L", "Xi")
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
-MOST_TOLD = 24
-"""The largest number of explanations of a line that are put into words."""
-MOST_TOGETHER = 10
-"""The largest number of explanations of each of two lines that are tried together."""
-UNNATURAL = 8.0
-"""An explanation that costs more may be true, but is no help."""
 
 
 @dataclass(frozen=True)
@@ -71,18 +59,16 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     pool = pool_of(truth)
-    against = _contradicted(pool, [f.line for f in findings if f.status.right])
+    against = contradicted(pool, [f.line for f in findings if f.status.right])
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     for line in wrong:
         if line.kind != "equation":
-            found, more = _of_line(pool, line)
+            found, more = of_line(pool, line)
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
     of_equation = [f for f in findings if f.line.kind == "equation"]
-    groups = (
-        _followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
-    )
+    groups = followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
     combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
         against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
@@ -98,27 +84,6 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
     return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
-
-
-def _followed(
-    pool: Pool, groups: list[list[Explanation]], equations: Sequence[AnsweredLine]
-) -> list[list[Explanation]]:
-    """The explanations of lines from which equations follow: those that lead to these equations as well, if any do.
-
-    A letter may be wrong in V alone or everywhere; only the equations below tell.
-    """
-    if not groups or not all(groups) or len(groups) > 2 or not equations:
-        return groups
-    exprs, P = _stated(pool, equations)
-    found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
-    few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
-    chosen: list[dict[int, Explanation]] = [{} for _ in groups]
-    for together in product(*few):
-        told = [t for e in together for t in e.told]
-        if any(reproduces(pool, told, a) for a in found):
-            for kept, e in zip(chosen, together, strict=True):
-                kept.setdefault(id(e), e)
-    return [[*kept.values()] for kept in chosen] if all(chosen) else groups
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
@@ -189,14 +154,6 @@ def _changing(pool: Pool, exprs: Sequence[sp.Expr]) -> set[int]:
     return found
 
 
-def _stated(pool: Pool, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
-    """The equations that have a value and say something, left minus right, with their values."""
-    exprs = [line.expr for line in lines]
-    P = CompiledExpressions(exprs).at(pool.truth.states)
-    says = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1, initial=0.0) > 1e-12)
-    return [e for e, s in zip(exprs, says, strict=True) if s], P[says]
-
-
 def _of_equations(
     pool: Pool, equations: Sequence[AnsweredLine], every: Sequence[AnsweredLine], against: set[int]
 ) -> tuple[list[Explanation], list[Mistake]]:
@@ -205,7 +162,7 @@ def _of_equations(
     ``every`` are all equations of the answer, with those that are sums of right ones; ``against`` are the mistakes that
     a right line speaks against.
     """
-    exprs, P = _stated(pool, equations)
+    exprs, P = stated(pool, equations)
     found = alignments(pool.truth, exprs, P)
     if any(np.abs(a.rest).max() <= 1e-9 for a in found):
         return [], []  # what is wrong is too small to be seen in doubles
@@ -216,7 +173,7 @@ def _of_equations(
         return [], [forgotten.mistake(pool.truth)]
     if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
         return explained, []
-    solved, Q = _stated(pool, every)
+    solved, Q = stated(pool, every)
     more = _likely(solved_from_wrong(pool, solved, Q), against)
     if more and more[0].cost < cost:
         explained, cost = more, more[0].cost
@@ -245,83 +202,6 @@ def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm)
     if isinstance(found, OwnTerm):
         return said_of(truth, found.mistake(truth), expr)
     return said_of(truth, _mistake(truth, found.told[0], None), expr)
-
-
-def _contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
-    """The possible mistakes that would be visible in a line that is right, by their identity."""
-    found: set[int] = set()
-    for line in right:
-        i = index_of(pool.truth, line.name)
-        if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
-            found |= _shown(pool, line.kind, i)
-    return found
-
-
-def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
-    """The possible mistakes that would be visible in a line, by their identity."""
-
-    def shown() -> set[int]:
-        visible = np.abs(_changes(pool, kind, i)).max(axis=1) > 1e-9
-        return {id(pool.all[k]) for k in np.flatnonzero(visible)}
-
-    return pool.kept(("shown", kind, i), shown)
-
-
-def _changes(pool: Pool, kind: str, i: int | None) -> Array:
-    """What every possible mistake adds to a line."""
-    if kind == "Xi":
-        return pool.Xi[:, i]
-    if kind == "T":
-        return pool.T
-    return pool.kept(("line", kind), lambda: _without_constant(pool.V if kind == "V" else pool.L))
-
-
-def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mistake]]:
-    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own."""
-    truth, i = pool.truth, index_of(pool.truth, line.name)
-    if line.kind == "D":
-        rest = line.expr - dissipation(truth)
-        values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
-        seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-        found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
-        return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
-    if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
-        return [], []
-    right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
-    if right is None:
-        assert i is not None
-        right = truth.Xi[i]
-    values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
-    if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
-        return [], []
-    whole = values
-    change = _changes(pool, line.kind, i)
-    values = _without_constant(values) if line.kind in ("V", "L") else values
-    if np.abs(values).max() <= 1e-12:
-        return [], []
-    found = singles(pool, [change], values)
-    if found and found[0].cost <= EXOTIC:
-        return found, []
-    vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
-    found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
-    own = own_term(pool, line.expr, whole, line.kind, i)
-    if own is not None and (not found or own.cost < found[0].cost):
-        return [], [own.mistake(truth)]
-    return [e for e in found if e.cost <= UNNATURAL], []
-
-
-def _of_whole_damper(possible: Possible) -> bool:
-    """Whether a mistake can be made in D, which has no ends, no reactions and no equation: ½ b (rate)² of a damper."""
-    if possible.wrong is not None:
-        v = possible.wrong.variant
-        return v.coordinate is None and "D" in v.stated
-    return possible.change is not None and possible.change.site.coordinate is None
-
-
-def _without_constant(values: Array) -> Array:
-    """Values minus the value at the first state with the same parameters."""
-    shaped = values.reshape(*values.shape[:-1], SETS, -1)
-    return (shaped - shaped[..., :1]).reshape(values.shape)
 
 
 def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes:

@@ -1,0 +1,129 @@
+"""The mistakes that lead to one line of T*, V, L, D or a Ξ, and what other lines say for or against them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.align import LARGEST, alignments
+from lagrangian.check.changes.pool import Pool, Possible
+from lagrangian.check.own_terms import own_term
+from lagrangian.check.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
+from lagrangian.check.stated import dissipation, index_of
+from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+
+ENERGIES = ("T", "V", "L", "Xi")
+MOST_TOLD = 24
+"""The largest number of explanations of a line that are put into words."""
+MOST_TOGETHER = 10
+"""The largest number of explanations of each of two lines that are tried together."""
+UNNATURAL = 8.0
+"""An explanation that costs more may be true, but is no help."""
+
+
+def of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mistake]]:
+    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own."""
+    truth, i = pool.truth, index_of(pool.truth, line.name)
+    if line.kind == "D":
+        rest = line.expr - dissipation(truth)
+        values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+        seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
+        found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+        return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
+    if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
+        return [], []
+    right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
+    if right is None:
+        assert i is not None
+        right = truth.Xi[i]
+    values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
+    if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
+        return [], []
+    whole = values
+    change = _changes(pool, line.kind, i)
+    values = _without_constant(values) if line.kind in ("V", "L") else values
+    if np.abs(values).max() <= 1e-12:
+        return [], []
+    found = singles(pool, [change], values)
+    if found and found[0].cost <= EXOTIC:
+        return found, []
+    vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
+    found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
+    own = own_term(pool, line.expr, whole, line.kind, i)
+    if own is not None and (not found or own.cost < found[0].cost):
+        return [], [own.mistake(truth)]
+    return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_whole_damper(possible: Possible) -> bool:
+    """Whether a mistake can be made in D, which has no ends, no reactions and no equation: ½ b (rate)² of a damper."""
+    if possible.wrong is not None:
+        v = possible.wrong.variant
+        return v.coordinate is None and "D" in v.stated
+    return possible.change is not None and possible.change.site.coordinate is None
+
+
+def _changes(pool: Pool, kind: str, i: int | None) -> Array:
+    """What every possible mistake adds to a line."""
+    if kind == "Xi":
+        return pool.Xi[:, i]
+    if kind == "T":
+        return pool.T
+    return pool.kept(("line", kind), lambda: _without_constant(pool.V if kind == "V" else pool.L))
+
+
+def _without_constant(values: Array) -> Array:
+    """Values minus the value at the first state with the same parameters."""
+    shaped = values.reshape(*values.shape[:-1], SETS, -1)
+    return (shaped - shaped[..., :1]).reshape(values.shape)
+
+
+def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[AnsweredLine]) -> list[list[Explanation]]:
+    """The explanations of lines from which equations follow: those that lead to these equations as well, if any do.
+
+    A letter may be wrong in V alone or everywhere; only the equations below tell.
+    """
+    if not groups or not all(groups) or len(groups) > 2 or not equations:
+        return groups
+    exprs, P = stated(pool, equations)
+    found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
+    few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
+    chosen: list[dict[int, Explanation]] = [{} for _ in groups]
+    for together in product(*few):
+        told = [t for e in together for t in e.told]
+        if any(reproduces(pool, told, a) for a in found):
+            for kept, e in zip(chosen, together, strict=True):
+                kept.setdefault(id(e), e)
+    return [[*kept.values()] for kept in chosen] if all(chosen) else groups
+
+
+def contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
+    """The possible mistakes that would be visible in a line that is right, by their identity."""
+    found: set[int] = set()
+    for line in right:
+        i = index_of(pool.truth, line.name)
+        if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
+            found |= _shown(pool, line.kind, i)
+    return found
+
+
+def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
+    """The possible mistakes that would be visible in a line, by their identity."""
+
+    def shown() -> set[int]:
+        visible = np.abs(_changes(pool, kind, i)).max(axis=1) > 1e-9
+        return {id(pool.all[k]) for k in np.flatnonzero(visible)}
+
+    return pool.kept(("shown", kind, i), shown)
+
+
+def stated(pool: Pool, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
+    """The equations that have a value and say something, left minus right, with their values."""
+    exprs = [line.expr for line in lines]
+    P = CompiledExpressions(exprs).at(pool.truth.states)
+    says = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1, initial=0.0) > 1e-12)
+    return [e for e, s in zip(exprs, says, strict=True) if s], P[says]
