@@ -119,8 +119,7 @@ class Derivation(Guided, derive.Derived):
         scheme = MarkingScheme(points=points or {}, require=require, coordinates=coordinates, other=other)
         judging = Judging(scheme=scheme, hint=hint, told=hint if told is None else told, feedback=feedback)
         run: dict[str, Any] = {"roster": roster, "store": store, "processes": processes, "progress": progress}
-        derived = self if self.form == "expanded" else None  # answers are compared in the coordinates alone
-        return check_class(self.model, answers, judging=judging, derivation=derived, **run)
+        return check_class(self.model, answers, judging=judging, derivation=self, **run)
 
     @cached_property
     def why(self) -> Why:

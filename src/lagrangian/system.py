@@ -65,9 +65,9 @@ class System(Designed):
         Every call derives the system again: to check many answers, derive once and use the derivation's `check`.
         """
         from lagrangian.check.verb import check_answer
-        from lagrangian.derive import derive
+        from lagrangian.structured.choose import derive_in_form
 
-        return check_answer(derive(self.model), answer, hint=hint)
+        return check_answer(derive_in_form(self.model), answer, hint=hint)
 
     def look(
         self,

@@ -235,9 +235,16 @@ def test_answers_and_reasons_go_back_to_the_coordinates() -> None:
     assert d.why.checks and all(c.holds for c in d.why.checks)
 
 
-def test_comparing_needs_the_coordinates_alone(puma_lines: Any) -> None:
-    with pytest.raises(ModelError, match="written in named quantities"):
-        lg.compare(puma_lines, puma_lines)
+@pytest.mark.slow
+def test_long_systems_are_compared_by_their_motions(puma_lines: Any) -> None:
+    """Absolute and relative angles of one chain, whose relative equations are too long; and a robot with itself."""
+    same = lg.compare(robots.chain(6, relative=True), robots.chain(6, relative=False))
+    assert same.same and "at random states" in str(same) and same.change is not None
+    assert lg.compare(puma_lines, puma_lines).same
+    heavier = robots.puma()
+    heavier.damper(0.1, deflection=heavier["q3"])
+    other = lg.compare(puma_lines, heavier)
+    assert not other.same and "q3" in str(other)
 
 
 def test_every_format_has_the_definitions(puma_lines: Any) -> None:

@@ -1,6 +1,7 @@
 """Checks an answer: whether it is right, in what sense, or where it is wrong and why."""
 
 from lagrangian.check.check import check
+from lagrangian.check.in_numbers import check_in_numbers
 from lagrangian.check.lines import lines_from, lines_of
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, TermOrigin, Verdict
 from lagrangian.check.words import report
@@ -14,6 +15,7 @@ __all__ = [
     "TermOrigin",
     "Verdict",
     "check",
+    "check_in_numbers",
     "lines_from",
     "lines_of",
     "report",

@@ -18,7 +18,7 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive import Derived
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Program
-from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.on_rows import Groups, OnRows, State
 from lagrangian.verify.states import evaluated, state_groups
 
 Array: TypeAlias = NDArray[np.float64]
@@ -66,11 +66,16 @@ class AnswerOnRows:
         self.skipped = len(atoms)
         self.sampler = Sampler(truth.model, [*atoms, *wanted, *self.along])
 
+    def states(self, count: int, *, given: bool) -> Iterator[tuple[State, Groups]]:
+        """Up to ``count`` random states on the rows; with ``given`` the parameters keep their values."""
+        return self.on_rows.states(self.sampler, count, 1, given=given)
+
     def _values(self, here: dict[sp.Basic, float]) -> Array:
         return np.array(self.sampler.at(here)[self.skipped : self.skipped + self.count])
 
-    def at(self, state: dict[sp.Basic, float], groups: dict[str, list[float]]) -> AnswerAt:
-        """The answer at one state with the true accelerations, which are put into ``state``."""
+    def at(self, here: tuple[State, Groups]) -> AnswerAt:
+        """The answer at one state with the true accelerations, which are put into it."""
+        state, groups = here
         n, coordinates = self.truth.n, self.coordinates
         a, rows, mass, lam = (evaluated(program, groups) for program in self.programs)
         state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
@@ -89,9 +94,9 @@ class AnswerOnRows:
             value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)
         )
 
-    def motions(self, state: dict[sp.Basic, float], count: int) -> Iterator[AnswerAt]:
+    def motions(self, here: tuple[State, Groups], count: int) -> Iterator[AnswerAt]:
         """The answer at other rates and inputs in the same position."""
-        source = np.random.default_rng(7)
+        source, state = np.random.default_rng(7), here[0]
         model = self.truth.model
         for _ in range(count):
             other = dict(state)
@@ -101,4 +106,4 @@ class AnswerOnRows:
             if groups is not None:
                 other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
                 other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
-                yield self.at(other, groups)
+                yield self.at((other, groups))

@@ -379,7 +379,7 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
 def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict, with the mistakes that explain the answer."""
     named = mistakes(truth, spelling.lines, judged.findings)
-    notes = (*verdict.notes, *(not_there(truth, name) for name in new_names(truth, spelling.lines)))
+    notes = (*verdict.notes, *(not_there(truth.model, name) for name in new_names(truth, spelling.lines)))
     if too_long(truth) or not truth.tried_all:
         every = "" if too_long(truth) else "all "
         said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."

@@ -8,10 +8,11 @@ Both are decided by numbers, at random states.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import combinations
-from typing import TypeAlias, cast
+from typing import Any, Protocol, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -24,7 +25,8 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.spelling import not_there
 from lagrangian.check.stated import judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
-from lagrangian.model import time
+from lagrangian.derive import Derived
+from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
@@ -47,6 +49,56 @@ MOST = 10
 """Lines among which those are sought that are true together."""
 
 
+class Answered(Protocol):
+    """The equations of an answer, evaluated at random states with the true accelerations."""
+
+    def states(self, count: int, *, given: bool) -> Iterator[Any]:
+        """Up to ``count`` states; with ``given`` the parameters keep their values."""
+        ...
+
+    def at(self, here: Any) -> AnswerAt:
+        """The answer at a state."""
+        ...
+
+    def motions(self, here: Any, count: int) -> Iterator[AnswerAt]:
+        """The answer at ``count`` other motions from the position of a state."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """What an answer is compared with: the system with the ``names`` of its equations and all names that are ``known``.
+
+    ``answer`` evaluates its lines, given its own multipliers; ``judge`` judges a line that is not an equation.
+    ``holding`` are the multipliers in named quantities.
+    """
+
+    derivation: Derived
+    names: Sequence[str]
+    known: Set[sp.Basic]
+    answer: Callable[[Sequence[AnsweredLine], Sequence[sp.Basic]], Answered]
+    judge: Callable[[Sequence[AnsweredLine], int], Finding]
+    holding: Mapping[sp.Basic, Set[sp.Basic]] = field(default_factory=dict[sp.Basic, "Set[sp.Basic]"])
+
+    @property
+    def model(self) -> Model:
+        """The system."""
+        return self.derivation.model
+
+
+def _expanded(truth: Reference) -> Compared:
+    """A system whose equations are written in the coordinates."""
+    model = truth.model
+    known: set[sp.Basic] = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
+    return Compared(
+        truth.derivation,
+        [c.name for c in model.coordinates],
+        known | direction_symbols(model),
+        partial(AnswerOnRows, truth),
+        partial(judge, truth),
+    )
+
+
 def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
     """Return the verdict on an answer for a system with constraints."""
     tried: list[Verdict] = []
@@ -64,19 +116,21 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
     lines = [_in_rates(truth, _of_motion(truth, line)) for line in lines]
-    first = _verdict(truth, lines, hint, given=False)
+    other = _expanded(truth)
+    first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
-    second = _verdict(truth, lines, hint, given=True)  # the numbers of an answer may be values of parameters
+    second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
     return second if second.right else first
 
 
 def _as_read(truth: Reference, read: SizeReading) -> bool:
     """Whether the multipliers of a right answer have the sizes that they were given."""
     equations = [line for line in read.lines if line.kind == "equation"]
-    unknown = _unknown(truth, equations)
+    other = _expanded(truth)
+    unknown = _unknown(other, equations)
     for given in (False, True):
-        places = _places(truth, equations, unknown, given=given)
+        places = _places(other, equations, unknown, given=given)
         if all(
             read.fits(dict(zip(unknown, map(float, _solved(p)), strict=True)), p.multipliers.tolist()) for p in places
         ):
@@ -117,14 +171,15 @@ def _left(line: AnsweredLine) -> str:
     return line.text.partition("=")[0].strip(" $&")
 
 
-def _verdict(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:
+def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:
+    """The verdict on an answer by its values at random states; with ``given`` parameters keep their values."""
     equations = [line for line in lines if line.kind == "equation"]
     unknown = _unknown(truth, equations)
     found: dict[int, Finding] = {}
     notes: list[Text] = []
     status: Status | None = None
     if equations and len(unknown) > len(truth.derivation.multipliers):
-        notes += [not_there(truth, s) for s in unknown]
+        notes += [not_there(truth.model, s) for s in unknown]
         found = {id(line): Finding(line, Status.WRONG) for line in equations}
         status = Status.WRONG
     elif equations:
@@ -154,7 +209,7 @@ def _verdict(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, give
     findings: list[Finding] = []
     for k, line in enumerate(lines):
         if line.kind not in ("definition", "statement"):
-            findings.append(found[id(line)] if line.kind == "equation" else judge(truth, lines, k))
+            findings.append(found[id(line)] if line.kind == "equation" else truth.judge(lines, k))
     others = [f.status for f in findings if f.line.kind != "equation"]
     return Verdict(
         _worst([*others, *([status] if status is not None else [])]), tuple(findings), notes=tuple(notes), hint=hint
@@ -165,28 +220,25 @@ def _worst(statuses: Sequence[Status]) -> Status:
     return max(statuses, key=list(Status).index, default=Status.INCOMPLETE)
 
 
-def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
+def _unknown(truth: Compared, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
     """The names in an answer that the system does not have, and its multipliers."""
-    model = truth.model
-    known: set[sp.Basic] = {time}
-    known |= {x.symbol for x in model.parameters}
-    known |= {x.symbol for x in (*model.coordinates, *model.inputs)} | direction_symbols(model)
     used: set[sp.Basic] = set()
     for line in lines:
         used |= {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
-    return sorted(used - known, key=str)
+    used |= {x for name in used & truth.holding.keys() for x in truth.holding[name]}
+    return sorted(used - truth.known, key=str)
 
 
 def _places(
-    truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
+    truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
 ) -> Iterator[AnswerAt]:
     """The answer at random states that satisfy the constraints, with the true accelerations."""
-    answer = AnswerOnRows(truth, lines, unknown)
-    for state, groups in answer.on_rows.states(answer.sampler, STATES, 1, given=given):
-        yield answer.at(state, groups)
+    answer = truth.answer(lines, unknown)
+    for here in answer.states(STATES, given=given):
+        yield answer.at(here)
 
 
-def _are_forces(truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:
+def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:
     """Whether the answer's multipliers are those of the system times what depends on the position alone.
 
     A multiplier that also takes up a slip in its equation, such as a centrifugal term left out, is not: at one
@@ -194,9 +246,9 @@ def _are_forces(truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequen
     """
     if not unknown:
         return True
-    answer = AnswerOnRows(truth, lines, unknown)
-    for state, _ in answer.on_rows.states(answer.sampler, POSITIONS, 1, given=given):
-        found = list(answer.motions(state, len(rows_of(truth.model)) + 4))
+    answer = truth.answer(lines, unknown)
+    for here in answer.states(POSITIONS, given=given):
+        found = list(answer.motions(here, len(rows_of(truth.model)) + 4))
         if any(np.linalg.matrix_rank(p.by_multiplier, tol=1e-8) < len(unknown) for p in found):
             return True  # a multiplier that no line determines
         own, right = np.array([_solved(p) for p in found]), np.array([p.multipliers for p in found])
@@ -243,9 +295,8 @@ def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
     return set()
 
 
-def _finding(truth: Reference, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:
+def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:
     """The finding for an equation: one with multipliers, one without, or something else that holds."""
-    names = [c.name for c in truth.model.coordinates]
     if not true:
         return Finding(line, Status.WRONG)
     if all(np.abs(p.by_acceleration[j]).max() <= SMALL * (1.0 + p.size[j]) for p in places):
@@ -254,7 +305,7 @@ def _finding(truth: Reference, line: AnsweredLine, j: int, places: Sequence[Answ
         return Finding(line, Status.RIGHT, text("what the constraints ask of the accelerations"))
     if any(np.abs(p.by_multiplier[j]).max(initial=0.0) > 0 for p in places) or truth.derivation.minimal is None:
         index, scaled = _like([p.by_acceleration[j] for p in places], [p.mass for p in places])
-        named = None if index is None else names[index]
+        named = None if index is None else truth.names[index]
     else:
         index, scaled = _like([p.by_acceleration[j] @ p.along for p in places], [p.reduced for p in places])
         named = None
@@ -284,7 +335,7 @@ def _like(slopes: Sequence[Array], rows: Sequence[Array]) -> tuple[int | None, b
     return None, False
 
 
-def _complete(truth: Reference, places: Sequence[AnswerAt], notes: list[Text]) -> Status | None:
+def _complete(truth: Compared, places: Sequence[AnswerAt], notes: list[Text]) -> Status | None:
     """Incomplete unless the answer and the constraints determine the accelerations and the answer's multipliers."""
     ranks: list[int] = []
     for p in places:
@@ -294,18 +345,18 @@ def _complete(truth: Reference, places: Sequence[AnswerAt], notes: list[Text]) -
         )
         size = np.abs(whole).max(axis=1, keepdims=True)
         ranks.append(int(np.linalg.matrix_rank(whole / np.where(size > 0, size, 1.0), tol=1e-8)) - m)
-    if max(ranks) >= truth.n:
+    if max(ranks) >= len(truth.names):
         return None
+    whose = "With the constraints, your" if truth.model.constraints else "Your"
     notes.append(
         text(
-            f"With the constraints, your equations determine {max(ranks)} of {truth.n} accelerations; "
-            "more equations are needed."
+            f"{whose} equations determine {max(ranks)} of {len(truth.names)} accelerations; more equations are needed."
         )
     )
     return Status.INCOMPLETE
 
 
-def _named(truth: Reference, unknown: Sequence[sp.Basic], places: Sequence[AnswerAt]) -> Iterator[Text]:
+def _named(truth: Compared, unknown: Sequence[sp.Basic], places: Sequence[AnswerAt]) -> Iterator[Text]:
     """What the answer's multipliers are: a number times one of the system's, or another scale."""
     names = list(truth.derivation.multipliers.values())
     order = [row.name for row in rows_of(truth.model)]

@@ -16,7 +16,7 @@ from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.errors import did_you_mean
-from lagrangian.model import time
+from lagrangian.model import Model, time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 
@@ -53,13 +53,13 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
     left = [s for s in unknown if s not in close]
     told = [_read(a, b) for a, b in close.items()]
-    told += [not_there(truth, s) for s in left]
+    told += [not_there(truth.model, s) for s in left]
     return Spelling(put, (*notes, *told))
 
 
-def not_there(truth: Reference, symbol: sp.Basic) -> Text:
+def not_there(model: Model, symbol: sp.Basic) -> Text:
     """Report that the system has no such symbol, and which of its names is nearest."""
-    hint = did_you_mean(plain(symbol), truth.model.symbols)
+    hint = did_you_mean(plain(symbol), model.symbols)
     return text(f"The system has no '{plain(symbol)}'.{f' {hint}' if hint else ''}")
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
+from lagrangian.check import AnsweredLine
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
@@ -15,6 +16,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import text
 from lagrangian.page.report import Report
 from lagrangian.read import MAX_BYTES
+from lagrangian.structured.predict import is_long
 from lagrangian.viewed import cut
 from lagrangian.write.written import Written
 
@@ -38,20 +40,60 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
-    ``name`` is the file of the answer, for messages. Raises `ParseError`, with the place, if a text cannot be read, and
-    `ModelError` if the equations cannot be written in the coordinates alone.
+    ``name`` is the file of the answer, for messages. Where the equations cannot be written in the coordinates alone, an
+    answer is compared by numbers. Raises `ParseError`, with the place, if a text cannot be read.
     """
     if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
         raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix=Advice(Argument("hint", "2")), code="E406")
-    if derivation.form == "structured":  # answers are compared in the coordinates alone
-        derivation = derive(derivation.model)
     if isinstance(answer, str):
         answer = parse_answer(answer, derivation.model, name=name)
-    if isinstance(answer, Answer):
-        verdict = _of_readings(derivation, answer, hint)
+    given = answer if isinstance(answer, Answer) else check.lines_from(answer)
+    if derivation.form == "structured":
+        verdict = _in_numbers(derivation, given, hint)
+        other = None if verdict.right else _expanded(derivation.model)
+        if other is None:
+            return verdict
+        derivation = other
+    if isinstance(given, Answer):
+        verdict = _of_readings(derivation, given, hint)
     else:
-        verdict = check.check(derivation, check.lines_from(answer), hint=hint)
+        verdict = check.check(derivation, given, hint=hint)
     return CheckedAnswer(**vars(verdict), model=derivation.model)
+
+
+def _expanded(model: Model) -> Derived | None:
+    """The equations in the coordinates alone, in which mistakes are named; None where they cannot be had."""
+
+    def made() -> Derived | None:
+        try:
+            return derive(model)
+        except Error as error:
+            if error.code != "E601":
+                raise
+            return None
+
+    hopeless = bool(model.floating or model.constraints) or is_long(model, MOST_EXPANDED)
+    return None if hopeless else model.remembered("expanded", made)
+
+
+MOST_EXPANDED = 10_000
+"""Terms of the equations, as predicted, up to which they are written out to name a mistake."""
+
+
+def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], hint: int) -> CheckedAnswer:
+    """The verdict on an answer for a system whose equations are not written in the coordinates alone."""
+    read = isinstance(answer, Answer)
+    verdict = check.check_in_numbers(derivation, check.lines_of(answer) if read else answer, hint=hint)
+    for other in answer.others if read and not verdict.right else ():
+        try:
+            found = check.check_in_numbers(derivation, check.lines_of(other()), hint=hint)
+        except ParseError:
+            continue
+        if found.right:
+            verdict = found
+            break
+    told = _told(verdict, answer) if read else verdict
+    return CheckedAnswer(**vars(told), model=derivation.model)
 
 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:

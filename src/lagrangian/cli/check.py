@@ -12,8 +12,8 @@ from lagrangian.check.verb import check_answer, read_text
 from lagrangian.cli.check_class import Allowed, ClassOptions, FeedbackKind, check_folder
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, Output, Width, open_system, standard_bytes
-from lagrangian.derive import derive
 from lagrangian.errors import Error
+from lagrangian.structured.choose import derive_in_form
 
 CLASS = "A folder of answers"
 """The group of options for a folder in the help."""
@@ -121,7 +121,7 @@ def check(
     wanted = chosen(format, json, output, force)
     words = decode_answer(standard_bytes(), "<standard input>") if path is None else read_text(path)
     name = "<standard input>" if path is None else answer_file
-    verdict = check_answer(derive(open_system(model_file, example).model), words, hint=hint, name=name)
+    verdict = check_answer(derive_in_form(open_system(model_file, example).model), words, hint=hint, name=name)
     put_report(verdict.report(), wanted, width, output)
     if not verdict.right:
         raise typer.Exit(1)

@@ -57,7 +57,7 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
     a, b = _derived(a, "first"), _derived(b, "second")
     tag_a, tag_b = _letters(a, b)
     sides = ComparedSystem("A", a, tag_a), ComparedSystem("B", b, tag_b)
-    if a.model.constraints or b.model.constraints:
+    if a.model.constraints or b.model.constraints or "structured" in (a.form, b.form):
         _log.info("comparing: motions that the constraints allow")
         return _by_motions(sides, change)
     if len(a.coordinates) != len(b.coordinates):
@@ -72,12 +72,6 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
 
 def _derived(thing: object, which: str) -> Derived:
     if isinstance(thing, Derived):
-        if thing.form == "structured":
-            raise ModelError(
-                f"the {which} of the two is written in named quantities, and comparing needs the coordinates alone",
-                fix='derive(form="expanded"), if that can be done',
-                code="E601",
-            )
         return thing
     if not hasattr(thing, "derive"):
         raise ModelError(
@@ -85,11 +79,11 @@ def _derived(thing: object, which: str) -> Derived:
             fix="compare(System, System), or their derivations",
             code="E406",
         )
-    return thing.derive(form="expanded")  # type: ignore[attr-defined]
+    return thing.derive()  # type: ignore[attr-defined]
 
 
 def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any, Any] | None) -> Comparison:
-    """The comparison of two systems at least one of which has constraints."""
+    """The comparison of two systems of which one has constraints, or equations that are too long to be compared."""
     a, b = (side.derivation.model for side in sides)
     change, turned, assumed = _embedding(a, b, given)
     source, into = reversed(sides) if turned else sides
@@ -106,7 +100,7 @@ def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any
         assumed=assumed,
         motions=found.checks,
         parameters=values,
-        why=motion_words(found.same, found.first),
+        why=motion_words(found.same, found.first, bound=bool(a.constraints or b.constraints)),
     )
 
 
@@ -122,6 +116,8 @@ def _embedding(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Cha
         if all(c.name in names for c in one.coordinates):
             same = Change(one.coordinates, other.coordinates, {c.symbol: c.symbol for c in one.coordinates})
             proposals.append((agreement(one, same, seen), len(one.coordinates), same, turned))
+            if proposals[-1][0] == 1:
+                break
         for table in solved(one, other, seen):
             made = Change(one.coordinates, other.coordinates, table)
             proposals.append((agreement(one, made, seen), len(one.coordinates), made, turned))
@@ -148,7 +144,8 @@ def _likeliest(a: Model, b: Model, proposals: Sequence[Proposal]) -> tuple[Chang
 def _letters(a: Derived, b: Derived) -> tuple[str, str]:
     """The lecture's letters, a for absolute and r for relative, if they distinguish the two systems; otherwise a and
     b."""
-    relative = [any(to is not None for to in d.steps[1].expressions["relative"].values()) for d in (a, b)]
+    measured = [d.steps[1].expressions.get("relative", {}) for d in (a, b)]
+    relative = [any(to is not None for to in found.values()) for found in measured]
     return ("r", "a") if relative == [True, False] else ("a", "r") if relative == [False, True] else ("a", "b")
 
 

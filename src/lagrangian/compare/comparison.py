@@ -84,7 +84,8 @@ def comparison_report(found: Comparison) -> Report[Model]:
     parts.append(Part(text("Side by side"), tuple(shown.side_by_side())))
     if found.motions:
         parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))
-        words = comparison_method(found.source.tag, found.into.tag)
+        bound = any(side.derivation.model.constraints for side in (found.source, found.into))
+        words = comparison_method(found.source.tag, found.into.tag, bound=bound)
         parts.append(Part(text("Motions"), (words,), tuple(shown.check(c) for c in found.motions)))
     elif found.change is not None:
         parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))

@@ -5,25 +5,26 @@ with ξ = φ(η), states of one system are taken that satisfy its rows, and with
 
     satisfy its rows there,    have the same ways to move,    and have the accelerations q̈ = d²φ/dt² along the motion.
 
-Then both have the same motions near these states.
+Then both have the same motions near these states. Where velocities are not rates of coordinates, q̇ = N(q) v is solved
+for them. Systems whose equations are too long to be compared row by row are compared in the same way.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.assembly.assemble import consistent
 from lagrangian.coordinates import Change
+from lagrangian.dynamics.describe import described
 from lagrangian.errors import ModelError, RunError
-from lagrangian.graph import Program, evaluate
-from lagrangian.model import Model, time
+from lagrangian.graph import Graph, Output, Program, evaluate
+from lagrangian.model import Model
 from lagrangian.model.without_friction import check_no_friction
 from lagrangian.page.formula import Check, Name, Text, text
 
@@ -56,62 +57,64 @@ def compared_motions(source: Model, into: Model, change: Change, tags: tuple[str
 
     ``tags`` are the letters of the two systems.
 
-    Raises `ModelError` if no states are found that satisfy the constraints, or for friction and floating frames.
+    Raises `ModelError` if no states are found that satisfy the constraints, or for friction.
     """
     for model in (source, into):
         check_no_friction(model, "motions are compared by their accelerations")
-        if model.floating:
-            raise ModelError(
-                f"system '{model.name}' has a floating frame: its velocities are not the rates of its coordinates",
-                fix="compare descriptions with angles, or runs of both",
-                code="E202",
-            )
     into = _with_parameters_of(into, source)
     own = {p.name: _value(p.name, p.value) for p in (*into.parameters, *source.parameters)}
     ours, theirs = _Side.of(source, own), _Side.of(into, own)
     path = _along(into, source, change)
+    bending = _bending(source)
     gaps, ways, seen, rates = _Worst(), set[tuple[int, int]](), set[bool](), _Worst()
     worst = ""
     for q, v, u, t in _allowed_states(theirs):
-        given = {"x": [*q, *v], "u": u.tolist(), "p": theirs.p, "t": [t]}
-        found = {name: float(cast("float", x)) for name, x in evaluate(path, given).items()}
-        place, rate, bend = (np.array([found[f"{kind} {c.name}"] for c in source.coordinates]) for kind in "qva")
+        found = theirs.at(path, (q, v, u, t))
+        place, rate, bend = (np.array(found[kind], float) for kind in ("value", "rate", "bend"))
         driven = dict(zip((i.name for i in into.inputs), u, strict=True))
         inputs = np.array([driven.get(i.name, 0.7) for i in source.inputs])
-        here = (place, rate, inputs, t)
+        speeds = ours.speeds(place, rate, t)
+        here = (place, speeds, inputs, t)
         gaps.add(*ours.off(here))
         ways.add((theirs.freedoms((q, v, u, t)), ours.freedoms(here)))
-        seen.add(_ways_seen(theirs, path, source, (q, v, u, t)))
-        acceleration = np.array(ours.at(ours.forward, here)["a"])
+        seen.add(_ways_seen(theirs, path, (q, v, u, t)))
+        acceleration = np.array(ours.at(bending, here)["a"], float)
         size = 1.0 + float(np.abs(bend).max(initial=0.0))
         k = int(np.argmax(np.abs(acceleration - bend)))
         if rates.add(float(np.abs(acceleration - bend)[k]), size):
             worst = f"{source.coordinates[k].name}'' is {acceleration[k]:.6g} instead of {bend[k]:.6g}"
-    return _judged(gaps, ways if all(seen) else ways | {(-1, 0)}, rates, worst, tags)
+    bound = ours.rows is not None or theirs.rows is not None
+    return _judged(gaps, ways if all(seen) else ways | {(-1, 0)}, rates, worst, tags, bound=bound)
 
 
-def _ways_seen(side: _Side, path: Program, source: Model, state: State) -> bool:
+def _ways_seen(side: _Side, path: Program, state: State) -> bool:
     """Whether different velocities that the rows allow are different rates of the other system's coordinates."""
     q, v, u, t = state
 
     def rates(v: Array) -> Array:
-        found = evaluate(path, {"x": [*q, *v], "u": u.tolist(), "p": side.p, "t": [t]})
-        return np.array([cast("float", found[f"v {c.name}"]) for c in source.coordinates])
+        return np.array(side.at(path, (q, v, u, t))["rate"], float)
 
     free, still = side.directions(state), rates(0 * v)
     images = np.array([rates(e) - still for e in free]).reshape(len(free), len(still))
     return len(free) == int(np.linalg.matrix_rank(images, tol=SOMETHING)) if len(free) else True
 
 
-def _judged(gaps: _Worst, ways: set[tuple[int, int]], rates: _Worst, worst: str, tags: tuple[str, str]) -> MotionChecks:
+def _judged(
+    gaps: _Worst,
+    ways: set[tuple[int, int]],
+    rates: _Worst,
+    worst: str,
+    tags: tuple[str, str],
+    *,
+    bound: bool,
+) -> MotionChecks:
     ours, theirs = (f"({tag})" for tag in tags)
-    where = f"at {rates.count} random states that the constraints allow"
+    where = f"at {rates.count} random states{' that the constraints allow' if bound else ''}"
     free = all(a == b for a, b in ways)
     counts = ", ".join(sorted(f"{b} in {ours}, {a} in {theirs}" for a, b in ways if a >= 0))
+    held = text(f"the constraints of {ours} hold where those of {theirs} do")
     checks = (
-        Check(
-            text(f"the constraints of {ours} hold where those of {theirs} do"), gaps.holds, f"{gaps.most:.0e} {where}"
-        ),
+        *([Check(held, gaps.holds, f"{gaps.most:.0e} {where}")] if bound else []),
         Check(text("both can move in the same ways"), free, counts),
         Check(text("the accelerations are the same"), rates.holds, f"{rates.most:.0e} {where}"),
     )
@@ -155,6 +158,7 @@ class _Side:
     forward: Program
     rows: Program | None
     matrix: Program | None
+    rates: Program
 
     @classmethod
     def of(cls, model: Model, values: Mapping[str, float]) -> _Side:
@@ -162,12 +166,28 @@ class _Side:
         bound = bool(model.constraints)
         rows = dynamics.residual(model) if bound else None
         matrix = dynamics.constraint_matrix(model) if bound else None
-        return cls(model, [values[p.name] for p in model.parameters], dynamics.forward(model), rows, matrix)
+        return cls(
+            model,
+            [values[p.name] for p in model.parameters],
+            dynamics.forward(model),
+            rows,
+            matrix,
+            dynamics.rates(model),
+        )
 
     def at(self, program: Program, state: State) -> dict[str, Any]:
         """The outputs of a program."""
         q, v, u, t = state
-        return evaluate(program, {"q": q.tolist(), "v": v.tolist(), "u": u.tolist(), "p": self.p, "t": [t]})
+        groups = {"q": q.tolist(), "v": v.tolist(), "u": u.tolist(), "p": self.p, "t": [t]}
+        return evaluate(program, {group: groups[group] for group in program.inputs})
+
+    def speeds(self, q: Array, rates: Array, t: float) -> Array:
+        """The velocities v of rates q̇ = N(q) v."""
+        if not self.model.floating:
+            return rates
+        none = np.zeros(len(self.model.inputs))
+        columns = [self.at(self.rates, (q, e, none, t))["qdot"] for e in np.eye(len(self.model.velocities))]
+        return np.asarray(np.linalg.lstsq(np.array(columns, float).T, rates, rcond=None)[0], float)
 
     def off(self, state: State) -> tuple[float, float]:
         """The largest residual of a row, and the size that it is compared with."""
@@ -204,7 +224,8 @@ def _allowed_states(side: _Side) -> Iterator[State]:
     model, source, found = side.model, np.random.default_rng(3), 0
     for _ in range(TRIES):
         n = len(model.coordinates)
-        q, v = source.uniform(0.2, 1.2, n) * source.choice([-1, 1], n), source.uniform(-1.0, 1.0, n)
+        q = source.uniform(0.2, 1.2, n) * source.choice([-1, 1], n)
+        v = source.uniform(-1.0, 1.0, len(model.velocities))
         q = np.where([c.positive for c in model.coordinates], np.abs(q), q)
         u, t = source.uniform(0.3, 1.2, len(model.inputs)), float(source.uniform(0.1, 0.9))
         try:
@@ -228,14 +249,27 @@ def _allowed_states(side: _Side) -> Iterator[State]:
 
 
 def _along(into: Model, source: Model, change: Change) -> Program:
-    """x, u, p, t of ``into`` → the coordinates of ``source``, their rates and accelerations along its motion."""
-    asked: dict[str, sp.Expr] = {}
-    for c in source.coordinates:
-        value = cast("sp.Expr", into.expand(change.table[c.symbol], constants=True))
-        for kind in "qva":
-            asked[f"{kind} {c.name}"] = value
-            value = cast("sp.Expr", sp.diff(value, time))
-    return dynamics.observe(into, asked)
+    """q, v, u, p, t of ``into`` → the coordinates of ``source``, their rates and accelerations along its motion."""
+    g = Graph()
+    inputs = dynamics.Inputs.of(g, into)
+    m, d = described(into, g, inputs)
+    value = [d.node(into.expand(change.table[c.symbol], constants=True)) for c in source.coordinates]
+    rate = m.motion.rate(value)
+    made = {"value": value, "rate": rate, "bend": m.motion.second_rate(rate, m.forward())}
+    return _program(into, g, made)
+
+
+def _bending(model: Model) -> Program:
+    """q, v, u, p, t → the second rates of the coordinates along the motion."""
+    g = Graph()
+    inputs = dynamics.Inputs.of(g, model)
+    m = dynamics.describe(model, g, inputs)
+    return _program(model, g, {"a": m.motion.second_rate(list(m.motion.rates), m.forward())})
+
+
+def _program(model: Model, g: Graph, made: Mapping[str, list[int]]) -> Program:
+    outputs = {name: Output(tuple(ids), (len(ids),)) for name, ids in made.items()}
+    return Program("motions", g, dynamics.forward(model).inputs, outputs)
 
 
 def _with_parameters_of(model: Model, other: Model) -> Model:
@@ -250,8 +284,10 @@ def _value(name: str, value: float | None) -> float:
     return value if value is not None else 0.6 + (sum(map(ord, name)) % 17) / 20
 
 
-def motion_words(same: bool, first: str) -> Text:
-    """The verdict in words."""
+def motion_words(same: bool, first: str, *, bound: bool) -> Text:
+    """The verdict in words; ``bound``: one of the systems has constraints."""
+    if same and not bound:
+        return text("(A) and (B) describe the same motion: the accelerations are the same at random states.")
     if same:
         return text(
             "(A) and (B) describe the same motion: where the constraints of one hold, those of the other hold, and the "
@@ -260,11 +296,11 @@ def motion_words(same: bool, first: str) -> Text:
     return text(f"(A) and (B) do not describe the same motion: {first}.")
 
 
-def comparison_method(source: str, into: str) -> Text:
-    """How systems with multipliers are compared, in words."""
+def comparison_method(source: str, into: str, *, bound: bool) -> Text:
+    """How systems with multipliers, or with equations in named quantities, are compared, in words."""
+    what, which = ("multipliers", " that its constraints allow") if bound else ("named quantities", "")
     return text(
-        f"Equations with multipliers are not compared row by row. States of ({into}) that its constraints allow are "
-        f"put into ({source}), and ",
+        f"Equations with {what} are not compared row by row. States of ({into}){which} are put into ({source}), and ",
         Name("q vector", "", 2),
         f" of ({source}) must be what follows from the motion of ({into}), with the values of the parameters that are "
         "given.",

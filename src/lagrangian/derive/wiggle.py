@@ -131,7 +131,7 @@ def _refuse_quaternion(frame: Frame) -> None:
         "dependent, and its velocities are not the rates of its coordinates",
         place=frame.place,
         fix="derive writes its equations in velocities that are not the rates of coordinates; for equations in "
-        "coordinates alone, which can be checked, describe the turn by three angles: frame(yaw, axis=(0, 0, 1)), then "
+        "coordinates alone describe the turn by three angles: frame(yaw, axis=(0, 0, 1)), then "
         "frame(pitch, axis=(0, 1, 0), parent=…), then a third",
         code="E202",
     )

@@ -36,17 +36,17 @@ class _TooManyError(Exception):
     """The equations may be too long: the count of their functions from above is."""
 
 
-def is_long(model: Model) -> bool:
-    """Whether the equations of a model would have more than `MOST_TERMS` terms, or too long a root or quotient."""
-    return model.remembered("is_long", lambda: _is_long(model))
+def is_long(model: Model, most: int = MOST_TERMS) -> bool:
+    """Whether the equations of a model would have more than ``most`` terms, or too long a root or quotient."""
+    return model.remembered(f"is_long {most}", lambda: _is_long(model, most))
 
 
-def _is_long(model: Model) -> bool:
+def _is_long(model: Model, most: int) -> bool:
     graph = Graph()
     inputs = Inputs.of(graph, model)
     m, d = described(model, graph, inputs)
     try:
-        supports = _Supports(graph, inputs)
+        supports = _Supports(graph, inputs, most)
         found: set[Monomial] = set()
         for body in model.bodies:
             place = d.places[body.at]
@@ -58,7 +58,7 @@ def _is_long(model: Model) -> bool:
                 for k, entry in enumerate(row):
                     if entry != 0:
                         found |= supports.product(supports.of(omega[i]), supports.of(omega[k]))
-            if _terms(found) > MOST_TERMS:
+            if _terms(found) > most:
                 return True
         return any(supports.is_steep(node) for node in reached(graph, m.potentials))
     except _TooManyError:
@@ -77,8 +77,8 @@ def _terms(found: set[Monomial]) -> int:
 class _Supports:
     """The supports of the nodes of a graph."""
 
-    def __init__(self, graph: Graph, inputs: Inputs) -> None:
-        self.graph = graph
+    def __init__(self, graph: Graph, inputs: Inputs, most: int) -> None:
+        self.graph, self.most = graph, most
         self._q = {node: i for i, node in enumerate(inputs.q)}
         self._v = {node: i for i, node in enumerate(inputs.v)}
         self._known: dict[int, Support] = {}
@@ -98,7 +98,7 @@ class _Supports:
 
     def product(self, a: Support, b: Support) -> Support:
         """All products; cos a cos b holds cos(a + b) and cos(a − b)."""
-        if len(a) * len(b) > 4 * MOST_TERMS:
+        if len(a) * len(b) > 4 * self.most:
             raise _TooManyError
         found: set[Monomial] = set()
         for first, lengths, rates in a:
@@ -146,7 +146,7 @@ class _Supports:
         return frozenset([((), (len(self._q) + i,), ())])  # a function of its own
 
     def _small(self, found: Support) -> Support:
-        if len(found) > MOST_TERMS:
+        if len(found) > self.most:
             raise _TooManyError
         return found
 

@@ -13,10 +13,11 @@ from lagrangian.check.verb import check_answer
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.run_summary import figures
 from lagrangian.derivation import Derivation
-from lagrangian.derive import Derived, derive, pages
+from lagrangian.derive import Derived, pages
 from lagrangian.errors import Error
 from lagrangian.simulate import plot
 from lagrangian.simulate.trajectory import Trajectory
+from lagrangian.structured.choose import derive_in_form
 from lagrangian.system import System, loads
 from lagrangian.web.answers import lines_of_answer, report_pieces
 from lagrangian.web.requests import Arguments, LargeModel, Part, Task
@@ -65,7 +66,7 @@ def _loaded(text: str, name: str) -> System:
 
 @lru_cache(maxsize=4)
 def _derived(system: System) -> Derived:
-    return derive(system.model)
+    return derive_in_form(system.model)
 
 
 @lru_cache(maxsize=2)

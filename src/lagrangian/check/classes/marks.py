@@ -53,8 +53,8 @@ def lacking(verdict: Verdict, derivation: Derived, require: Sequence[str]) -> tu
         if part == "Xi":
             lacks += _forces_lacking(given, derivation, moved=verdict.status is Status.OTHER_COORDINATES)
         elif part == "equations":
-            missing = len(derivation.coordinates) - _independent(verdict, given)
-            every = missing == len(derivation.coordinates)
+            missing = len(derivation.equations) - _independent(verdict, given)
+            every = missing == len(derivation.equations)
             if missing > 0:
                 lacks.append("the equations" if every else f"{missing} of the equations")
         elif not given:
@@ -74,7 +74,8 @@ def _forces_lacking(given: Sequence[Finding], derivation: Derived, *, moved: boo
 def _acted_on(derivation: Derived) -> list[str]:
     """The coordinates whose Ξ is not 0."""
     model = derivation.model
-    return [c.name for c, q in zip(model.coordinates, derivation.coordinates, strict=True) if derivation.Xi[q] != 0]
+    names = {x.symbol: x.name for x in (*model.coordinates, *model.velocities)}
+    return [names[q] for q, force in derivation.Xi.items() if force != 0]
 
 
 def _independent(verdict: Verdict, equations: Sequence[Finding]) -> int:
@@ -132,7 +133,7 @@ def _line_share(lines: Sequence[Finding], derivation: Derived, base: str, coordi
 
 def _lines_share(verdict: Verdict, derivation: Derived, base: str, lines: Sequence[Finding]) -> tuple[float, str]:
     """The share of lines that are right, of those that are needed or given, whichever are more."""
-    n = len(derivation.coordinates)
+    n = len(derivation.equations)
     earned = [f for f in lines if _earned(f)]
     if base == "Xi":
         acted = set(_acted_on(derivation))

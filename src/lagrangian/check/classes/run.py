@@ -16,10 +16,11 @@ from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.classes.scheme import MarkingScheme
 from lagrangian.check.classes.store import VerdictStore, fingerprint, key_of
 from lagrangian.check.classes.students import MOODLE_FILE, Roster, read_roster
-from lagrangian.derive import Derived, derive
+from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
 from lagrangian.model import Model
 from lagrangian.read import MAX_BYTES, dumps
+from lagrangian.structured.choose import derive_in_form
 
 _log = logging.getLogger(__name__)
 
@@ -192,7 +193,7 @@ class _ClassRun:
         if count > 1 and (model := self._written()) is not None:
             yield from judged_by_processes(model, self.judging, tasks, count)
             return
-        judge = Judge(self.derivation or derive(self.model), self.judging)
+        judge = Judge(self.derivation or derive_in_form(self.model), self.judging)
         for k, file, content in tasks:
             yield k, judge.judge(file, content), True
 

@@ -13,9 +13,9 @@ import sys
 from typing import Any, TextIO
 
 from lagrangian.check.classes.judge import Judge, Judging
-from lagrangian.derive import derive
 from lagrangian.errors import Error
 from lagrangian.read import loads
+from lagrangian.structured.choose import derive_in_form
 
 
 def main() -> None:
@@ -23,7 +23,7 @@ def main() -> None:
     source, sink = _streams()
     begun = json.loads(source.readline())
     try:
-        judge = Judge(derive(loads(begun["model"]).model()), Judging.from_dict(begun["judging"]))
+        judge = Judge(derive_in_form(loads(begun["model"]).model()), Judging.from_dict(begun["judging"]))
     except Error as error:
         _say(sink, {"error": str(error)})
         return
