@@ -15,6 +15,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.tape import EliminationTape, Form
+from lagrangian.dynamics.vectors import rotated
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 
@@ -121,12 +122,12 @@ class Elimination:
         H.add(b, b, g.add(h22, su))
         H.add(a, b, g.sub(g.mul(c, u), h12))
         for k in dict.fromkeys((*one, *two)):
-            x, y = one.get(k, g.zero), two.get(k, g.zero)
-            H.couple(a, k, g.sub(g.mul(c, x), g.mul(s, y)))
-            H.couple(b, k, g.add(g.mul(s, x), g.mul(c, y)))
-        x, y = self.g.pop(first, g.zero), self.g.pop(second, g.zero)
-        self.add_linear(a, g.sub(g.mul(c, x), g.mul(s, y)))
-        self.add_linear(b, g.add(g.mul(s, x), g.mul(c, y)))
+            x, y = rotated(g, one.get(k, g.zero), two.get(k, g.zero), c, s)
+            H.couple(a, k, x)
+            H.couple(b, k, y)
+        x, y = rotated(g, self.g.pop(first, g.zero), self.g.pop(second, g.zero), c, s)
+        self.add_linear(a, x)
+        self.add_linear(b, y)
 
     def minimise(self, k: int, name: str) -> None:
         """Eliminate v̇_k by minimizing: v̇_k = −(g_k + Σ_i h_ki v̇_i)/h_kk,  H_ij −= h_ik h_kj/h_kk,  g_i −= h_ik

@@ -24,6 +24,7 @@ from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.row_problem import AttachedRow, Problem, RowSolution
 from lagrangian.dynamics.rows import Added, ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
+from lagrangian.dynamics.turned_rates import in_speeds_of_rows
 from lagrangian.dynamics.vectors import bare, dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
 from lagrangian.model.spare import SpareRows
@@ -361,11 +362,10 @@ class Mechanics:
             tape = make_tape(self.graph, seeds, rates, {*form.rows, *nodes} if exchange else None)
             if exchange and not tape.exchanged:
                 continue  # the next one is the same
-            moving = form if len(rates) == len(self.v) else form.without(set(form.rows).difference(tape.order))
-            yield Problem(
+            problem = Problem(
                 self.graph,
                 tape,
-                moving,
+                form if len(rates) == len(self.v) else form.without(set(form.rows).difference(tape.order)),
                 linear,
                 attached,
                 self.v,
@@ -377,6 +377,7 @@ class Mechanics:
                 [spare for spare in self.spare if set(names).issuperset(spare.names)],
                 pressed,
             )
+            yield from in_speeds_of_rows(problem)
 
     @cached_property
     def _dense(self) -> Quadratic:

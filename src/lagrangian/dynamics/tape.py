@@ -195,7 +195,7 @@ def _mates(graph: Graph, forms: dict[int, Form]) -> dict[int, tuple[int, int, in
     for (a, b), group in pairs.items():
         for i in group:
             c, s = forms[i][a], forms[i][b]
-            if i in found or not _unit(graph, c, s):
+            if i in found or not is_unit(graph, c, s):
                 continue
             for k in group:
                 if k == i or k in found:
@@ -206,7 +206,7 @@ def _mates(graph: Graph, forms: dict[int, Form]) -> dict[int, tuple[int, int, in
     return found
 
 
-def _unit(graph: Graph, c: int, s: int) -> bool:
+def is_unit(graph: Graph, c: int, s: int) -> bool:
     """Whether c and s are, up to sign, cosine and sine of one angle."""
     bare = [graph.nodes[x[1]] if x[0] == "neg" else x for x in (graph.nodes[c], graph.nodes[s])]
     return {bare[0][0], bare[1][0]} == {"sin", "cos"} and bare[0][1] == bare[1][1]

@@ -16,6 +16,41 @@ def bare(g: Graph, node: int) -> tuple[int, bool]:
     return (n[1], True) if n[0] == "neg" else (node, False)
 
 
+def rotated(g: Graph, x: int, y: int, c: int, s: int) -> tuple[int, int]:
+    """(c x − s y, s x + c y); with x, y = K c, −K s or K s, K c and c² + s² = 1 that is (K, 0) or (0, K)."""
+    if x != g.zero and y != g.zero:
+        left, right, (cosine, flip), (sine, turn) = _factors(g, x), _factors(g, y), bare(g, c), bare(g, s)
+        for one, other, along in ((cosine, sine, True), (sine, cosine, False)):
+            if one in left[0] and other in right[0] and _less(left[0], one) == _less(right[0], other):
+                K = g.one
+                for factor in _less(left[0], one):
+                    K = g.mul(K, factor)
+                if along and (left[1] == flip) != (right[1] == turn):  # x = K c, y = −K s up to one sign
+                    return (g.neg(K) if left[1] != flip else K), g.zero
+                if not along and (left[1] == turn) == (right[1] == flip):  # x = K s, y = K c up to one sign
+                    return g.zero, (g.neg(K) if left[1] != turn else K)
+    return g.sub(g.mul(c, x), g.mul(s, y)), g.add(g.mul(s, x), g.mul(c, y))
+
+
+def _factors(g: Graph, node: int) -> tuple[list[int], bool]:
+    """The factors of a product, in order, and whether it has a minus sign."""
+    node, negative = bare(g, node)
+    found, waiting = list[int](), [node]
+    while waiting:
+        i = waiting.pop()
+        if g.nodes[i][0] == "mul":
+            waiting += [g.nodes[i][1], g.nodes[i][2]]
+        else:
+            found.append(i)
+    return sorted(found), negative
+
+
+def _less(factors: list[int], one: int) -> list[int]:
+    """The factors without one of them."""
+    at = factors.index(one)
+    return factors[:at] + factors[at + 1 :]
+
+
 def plus(g: Graph, a: Sequence[int], b: Sequence[int]) -> Vector:
     """a + b."""
     return [g.add(x, y) for x, y in zip(a, b, strict=True)]

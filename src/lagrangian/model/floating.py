@@ -13,6 +13,7 @@ angular velocity, both with components in the frame's own axes. Pinocchio's free
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 import sympy as sp
 
@@ -89,5 +90,5 @@ class Floating:
             scale * (w * dz - z * dw - x * dy + y * dx),
         ]
         turn = self.rotation
-        moving = [sp.Add(*[turn[j, k] * rates[j] for j in range(3)]) for k in range(3)]
+        moving = [sp.Add(*[cast("sp.Expr", turn[j, k]) * rates[j] for j in range(3)]) for k in range(3)]
         return dict(zip((*self.velocity, *self.angular_velocity), (*moving, *turning), strict=True))
