@@ -40,6 +40,9 @@ NEVER_ZERO = ("kg", "m", "kg m^2")
 """Units of parameters that are not set to 0 by a slider: masses, lengths and inertias."""
 
 
+LONGEST_SUBTITLE = 480
+"""At most so many characters of what is seen stand below the name of a system."""
+
 MAX_FUNCTIONS = 60_000
 """Functions in JavaScript of more characters are left out as far as WebAssembly replaces them."""
 
@@ -63,6 +66,7 @@ def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Eve
         subtitle=_subtitle(scene),
         missing=scene.missing,
         space=len(scene.view[0]) == 3,
+        bodies=bool(scene.handles),
     )
     return page_html(contents)
 
@@ -80,6 +84,8 @@ def _document(model: Model) -> Document:
 def _subtitle(scene: Scene) -> str:
     """What is seen, without the name, which stands above it, and the coordinates, which have sliders."""
     words = scene.description.removeprefix(f"{scene.name}: ").partition(" Coordinates: ")[0]
+    if len(words) > LONGEST_SUBTITLE:  # the picture's own description has all of it
+        words = re.sub(r"[;.,]?[^;.]*\Z", " …", words[:LONGEST_SUBTITLE])
     return words[:1].upper() + words[1:]
 
 

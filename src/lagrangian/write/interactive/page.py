@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from base64 import b64encode
+from base64 import b64encode, b85encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -76,9 +76,18 @@ UNPACKED = (
 """The inverse of `packed`, in JavaScript."""
 
 
+LARGE_PICTURE = 16_000
+"""A schematic of more characters travels packed; smaller ones are seen without a script, too."""
+
+
 def packed(content: bytes) -> str:
     """Return bytes compressed and in base64, a fifth of their size where they are the MathML of a derivation."""
     return b64encode(compress(content, 9)).decode("ascii")
+
+
+def dense(content: bytes) -> str:
+    """Return bytes compressed and in base 85, five characters for four bytes, without ``<``: for `unpack.js`."""
+    return b85encode(compress(content, 9)).decode("ascii").replace("<", ",")
 
 
 @dataclass(frozen=True)
@@ -123,6 +132,8 @@ class PageContents:
     subtitle: str = ""
     missing: Sequence[str] = field(default=())
     space: bool = False
+    bodies: bool = True
+    """Whether there is a body that moves; a circuit alone has none."""
 
 
 def page_html(contents: PageContents) -> str:
@@ -133,15 +144,15 @@ def page_html(contents: PageContents) -> str:
     return Template(_file("page.html")).substitute(
         title=title,
         subtitle=f"<p>{escape(contents.subtitle)}</p>" if contents.subtitle else "",
-        style=squeezed(html_page.style_sheet() + _file("page.css")),
-        schematic=contents.schematic,
+        style=_style(html_page.style_sheet() + _file("page.css")),
+        schematic="" if len(contents.schematic) > LARGE_PICTURE else contents.schematic,
         missing=_missing(contents.missing),
-        motion_hint="drag a body to place it" + ("; drag beside it to turn the view" if contents.space else ""),
+        motion_hint=_hint(contents),
         coordinate_legend=_legend(coordinates),
         energy_legend=_ENERGIES,
         phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
-        packed=packed(_parts(contents).encode()),
+        packed=dense(_parts(contents).encode()),
         unpack=_script("unpack.js"),
         **_studies(contents, states, coordinates),
         map_of=_choice("map-of", "what is coloured", coordinates, 0),
@@ -172,6 +183,7 @@ def _parts(contents: PageContents) -> str:
     """What is packed, as JSON: [id, text, type] of the insides of elements and of scripts, in the order of use."""
     html, plain, script = "text/html", "text/plain", "text/javascript"
     parts = [
+        *([("drawing", _lighter(contents.schematic), html)] if len(contents.schematic) > LARGE_PICTURE else []),
         ("result", _equations(contents.document), html),
         ("values", _controls(contents.adjustables), html),
         ("numbers", _numbers([a for a in contents.adjustables if a.group == "x"]), html),
@@ -183,6 +195,12 @@ def _parts(contents: PageContents) -> str:
         ("page", "\n".join(map(_script, SCRIPTS)), script),
     ]
     return json.dumps(parts, ensure_ascii=False)
+
+
+def _lighter(picture: str) -> str:
+    """A schematic without the colours that its style repeats, its outlines to a tenth of a pixel."""
+    text = re.sub(r' (fill|stroke)="#[0-9a-f]{6}"', "", picture)
+    return re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d)\d+", r"\1", d[0]), text)
 
 
 def embedded(data: Mapping[str, Any]) -> str:
@@ -211,6 +229,18 @@ def _script(name: str) -> str:
     """A script of this folder, squeezed; where nothing is quoted or divided, spaces beside punctuation mean nothing."""
     lines = squeezed(_file(name)).splitlines()
     return "\n".join(line if re.search(r"[\"'`/\\]", line) else _SPACED.sub(r"\1", line) for line in lines)
+
+
+def _hint(contents: PageContents) -> str:
+    if not contents.bodies:
+        return "no body moves: the plots show the charges"
+    return "drag a body to place it" + ("; drag beside it to turn the view" if contents.space else "")
+
+
+def _style(sheet: str) -> str:
+    """A style sheet, squeezed, without the spaces beside its punctuation (a colon ends a property before a space)."""
+    text = re.sub(r"\n(?=[^}])", " ", squeezed(sheet))
+    return re.sub(r" ?([{};,]) ?", r"\1", text).replace(": ", ":").replace(";}", "}") + "\n"
 
 
 def _missing(listed: Sequence[str]) -> str:

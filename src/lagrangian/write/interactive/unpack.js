@@ -2,7 +2,17 @@
 // Formulas, sliders, data and scripts come packed, for they are the most of a page.
 
 (async function unpack() {
-  const bytes = Uint8Array.from(atob(document.getElementById("packed").textContent), (c) => c.charCodeAt(0));
+  const text = document.getElementById("packed").textContent.trim();
+  const digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
+  const values = Object.fromEntries([...digits].map((c, i) => [c, i]));
+  const count = Math.ceil(text.length / 5);
+  const view = new DataView(new ArrayBuffer(4 * count));
+  for (let n = 0; n < count; n++) {
+    let word = 0; // of base 85; the last one may be short
+    for (let i = 0; i < 5; i++) word = 85 * word + (values[text[5 * n + i]] ?? 84);
+    view.setUint32(4 * n, word);
+  }
+  const bytes = new Uint8Array(view.buffer, 0, 4 * count - (5 * count - text.length));
   const parts = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
   for (const [id, text, type] of parts) {
     if (type === "text/html") {
