@@ -145,7 +145,7 @@ NAMES = [
 DOCUMENTS = [(name, "lecture") for name in NAMES] + [("lecture-3b", "physics"), ("cart-pole", "robotics")]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(("physics", "robotics", "two-carts"))
 @pytest.mark.parametrize(("name", "notation"), DOCUMENTS)
 def test_our_own_document_is_read_back(name, notation):
     d = derivation(name)

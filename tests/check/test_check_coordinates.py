@@ -56,6 +56,7 @@ def test_a_turned_sign_is_a_mistake_before_it_is_another_axis() -> None:
     assert verdict.mistake is not None and verdict.mistake.name == "gravity_sign"
 
 
+@pytest.mark.slow
 def test_one_energy_alone_does_not_tell_a_relative_angle_from_a_wrong_one() -> None:
     answer = (
         "V = m1*g*L_a*sin(theta1) + m2*g*(L_a + L_b)*sin(theta1) + m3*g*((L_a + L_b)*sin(theta1) + L_c*sin(theta2))"

@@ -165,6 +165,7 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
     assert not {m.__name__.rsplit(".", 1)[1] for m in MISCONCEPTIONS} - set(made)
 
 
+@pytest.mark.slow
 def test_mistakes_are_tried_up_to_a_number_of_operations(monkeypatch: pytest.MonkeyPatch) -> None:
     """The likelier ones first; where the operations are spent, the answer is told so."""
     monkeypatch.setattr(candidates, "WORK", 300)

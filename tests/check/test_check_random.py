@@ -42,7 +42,7 @@ WHOLE = st.integers(-3, 3)
 SHAPES = [lambda e: e, sp.expand, sp.expand_trig, lambda e: sp.expand(sp.expand_trig(e)), lambda e: e.rewrite(sp.cos)]
 
 
-@sized(25, 4)
+@sized(25, 2)
 @given(WHOLE, WHOLE, WHOLE, WHOLE, st.sampled_from(range(len(SHAPES))), st.sampled_from(range(5)))
 def test_combinations_with_factors_in_other_identities(p: int, q: int, r: int, s: int, shape: int, by: int) -> None:
     derivation, rows, symbols = arm()

@@ -70,6 +70,7 @@ def test_a_true_combination_is_the_same_motion(pendulum: lg.Derivation) -> None:
     assert pendulum.check("x''*y - x*y'' = g*x").status is Status.SAME_MOTION
 
 
+@pytest.mark.slow
 def test_the_equations_without_multipliers_are_right(sleigh: lg.Derivation) -> None:
     right = "(J + m*a^2)*theta'' + a*m*v*theta' = 0\nm*v' - a*m*theta'^2 = 0"
     assert sleigh.check(right).status is Status.RIGHT

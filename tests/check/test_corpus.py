@@ -105,6 +105,7 @@ def test_the_first_wrong_line_is_named(system):
 
 @size.also_in_full
 def test_the_planted_mistake_is_named_first():
-    wrong = [(a, v) for system in SYSTEMS for a, v in verdicts(system) if "mistake" in a]
+    systems = SYSTEMS if size.FULL else sorted(set(SYSTEMS) - LARGE)[::4]  # those that the tests above have checked
+    wrong = [(a, v) for system in systems for a, v in verdicts(system) if "mistake" in a]
     missed = [(a["id"], a["mistake"], v.mistake.name if v.mistake else None) for a, v in wrong if not named(a, v)]
     assert len(missed) <= len(wrong) // 10, missed

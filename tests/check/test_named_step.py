@@ -56,6 +56,7 @@ X = "m*(x'' - 2*Omega*y' - Omega^2*x) + k*x"
 Y = "m*(y'' + 2*Omega*x' - Omega^2*y)"
 
 
+@pytest.mark.slow
 def test_dampers_with_the_velocity_against_the_fixed_axes() -> None:
     verdict = turntable().check(f"{X} + c*(x' - Omega*y) = f\n{Y} + c*(y' + Omega*x) = 0")
     (mistake,) = verdict.mistakes
@@ -140,6 +141,7 @@ def test_a_wrong_number_is_shown_in_the_form_of_the_right_term() -> None:
     assert 2 * difference.written == difference.term
 
 
+@pytest.mark.slow
 def test_the_root_of_a_deflection_is_drawn() -> None:
     d = lg.loads("""
 name = "a mass on a spring that swings"

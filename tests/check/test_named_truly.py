@@ -73,6 +73,7 @@ def test_a_wrong_element_of_the_mass_matrix_in_solved_rows() -> None:
     assert kind == "child_mass_forgotten" and element == "rigid body 'pole'"
 
 
+@pytest.mark.slow
 def test_a_wrong_denominator_of_solved_rows() -> None:
     M, h, p, _ = cart_pole()
     numerators, det = M.adjugate() * h, M.det()

@@ -62,6 +62,7 @@ def check_quotes(name: str, count: int) -> int:
     return quotes
 
 
+@pytest.mark.slow
 def test_no_sentence_quotes_what_was_not_written() -> None:
     assert check_quotes("two-disk-shaft", 20) > 0
 

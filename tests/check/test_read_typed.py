@@ -127,6 +127,7 @@ def test_a_number_amid_an_equation_is_no_label_and_a_name_no_word(written: str, 
         derivation("cart-pole").check(written)
 
 
+@pytest.mark.slow
 def test_a_number_in_brackets_is_a_factor() -> None:
     assert not derivation("cart-pole").check(f"{CART}\n{POLE.replace('m g l', 'm g l (0.5)')}").right
     assert derivation("cart-pole").check(f"{CART}\n{POLE.replace('m g l', 'm g l (0.5) (2)')}").right
@@ -214,6 +215,7 @@ def test_customs_of_notebooks(name: str, written: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
+@pytest.mark.slow
 def test_sums_of_angles_without_brackets() -> None:
     rows = "(m1+m2)L1θ1'' + m2L2θ2''cosθ1{s}θ2 + m2L2θ2'²sinθ1-θ2 + (m1+m2)g sinθ1 = 0\n"
     rows += "L2θ2'' + L1θ1''cosθ1-θ2 - L1θ1'²sinθ1-θ2 + g sinθ2 = 0"

@@ -98,7 +98,7 @@ def points(draw_q, draw_p, t):
     return {"q": draw_q, "p": draw_p, "t": [t]}
 
 
-@sized(60, 12, suppress_health_check=list(HealthCheck))
+@sized(60, 5, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_machine_code_of_random_programs(made, q, p, t):
     pairs = bounded(made, points(q, p, t))

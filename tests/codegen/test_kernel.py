@@ -200,6 +200,7 @@ def test_a_prepared_call_reads_its_arrays_anew(kernel):
     assert own() is own() or np.shares_memory(own(), own())
 
 
+@pytest.mark.slow
 def test_a_prepared_call_keeps_its_code():
     q, v = states(30)
     batch = compile(PENDULUM, optional=OPTIONAL, keep=False).prepared(q, v)

@@ -97,6 +97,7 @@ def test_a_change_that_loses_a_way_to_move_is_not_taken():
     assert not found.same and "same ways" in str(found.why)
 
 
+@pytest.mark.slow
 def test_velocity_rows_are_compared_too():
     def sleigh(row):
         s = lg.System("sleigh")

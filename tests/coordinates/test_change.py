@@ -138,7 +138,7 @@ CHANGES: dict[str, dict[str, str]] = {
 }
 
 
-@pytest.mark.parametrize("name", rest_slow(CHANGES, {"moving"}))
+@pytest.mark.parametrize("name", rest_slow(CHANGES, {"linear"}))
 def test_every_kind_of_element_is_carried_over(name: str) -> None:
     system = _everything()
     change = read_change(system.model, CHANGES[name])

@@ -271,7 +271,7 @@ def test_every_term_is_known_by_its_constraint() -> None:
     assert [row.column for row in d.ledger if row.element == "pin 'loop'"] == ["λ"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
     """The equations, the rows, the multipliers and the equations without them, against what is compiled."""
@@ -412,6 +412,7 @@ def test_energies_alone_do_not_tell_a_constrained_motion(verb: str) -> None:
         getattr(sleigh(), verb)()
 
 
+@pytest.mark.slow
 def test_a_rope_along_lines_is_an_atwood_machine() -> None:
     """The length of each part is |x|, whose rate has no curvature. T = 2 m₁ m₂ g/(m₁ + m₂), a textbook's."""
     s = lg.System("Atwood's machine with a rope")

@@ -318,6 +318,7 @@ def test_nothing_is_decided_where_the_first_brackets_are_too_long() -> None:
     assert not verdict.complete
 
 
+@pytest.mark.slow
 def test_many_rows_of_positions_need_no_brackets() -> None:
     names = functions(" ".join(f"q{k}" for k in range(40)))
     rows = positions(*(names[k] ** 2 + names[k + 1] ** 2 - ell**2 for k in range(39)))

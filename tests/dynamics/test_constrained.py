@@ -112,6 +112,7 @@ def standing(model):
     return m
 
 
+@pytest.mark.slow
 def test_a_quadruped_stands_as_in_pinocchio():
     pin = pytest.importorskip("pinocchio")
     there, tree = pinocchio_model(pin, QUADRUPED, 3), system(QUADRUPED, 3)
@@ -141,7 +142,7 @@ def test_a_quadruped_stands_as_in_pinocchio():
                 assert np.abs(got[name] - found).max() < 1e-11 * np.abs(found).max(), name
 
 
-@sized(200, 15)
+@sized(200, 6)
 @given(st.data())
 def test_random_rows_on_random_trees(data):
     n = data.draw(st.integers(3, 6))

@@ -89,7 +89,8 @@ def held_against_pinocchio(pin, reference, model, q, v, u):
     return count
 
 
-@pytest.mark.parametrize(("name", "most"), [("arm", 7653), pytest.param("quadruped", 24572, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "most"), [("arm", 7653), ("quadruped", 24572)])
 def test_robots_against_pinocchio_and_their_operations(name, most, monkeypatch):
     pin = pytest.importorskip("pinocchio")
     monkeypatch.syspath_prepend(BENCH)
@@ -133,6 +134,7 @@ def test_the_slope_in_the_forces_is_the_inverse_of_the_mass_matrix(name):
     close(np.array(Minv, float) @ np.array(M, float), np.eye(len(model.velocities)), 1e-11)
 
 
+@pytest.mark.slow
 def test_accelerations_must_be_inputs_while_they_are_held():
     """If r is built with the nodes of a, the graph simplifies with them, and what is held constant is bypassed."""
     model = system([-1, 0, 1], 3).model

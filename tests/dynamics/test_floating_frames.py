@@ -51,7 +51,7 @@ def test_against_pinocchio(name):
     assert potential == pytest.approx([pin.computePotentialEnergy(reference, data, x) for x in q], rel=1e-9)
 
 
-@pytest.mark.parametrize("name", rest_slow(TREES, {"body", "quadruped"}))
+@pytest.mark.parametrize("name", rest_slow(TREES, {"body"}))
 def test_against_mujoco(name):
     mujoco = pytest.importorskip("mujoco")
     parents = TREES[name]

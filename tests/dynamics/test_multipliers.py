@@ -197,6 +197,7 @@ def test_examples_take_as_many_operations_as_the_prototype_within_five_percent(n
     assert operations(describe(model, graph, Inputs.of(graph, model))) <= 1.05 * prototype
 
 
+@pytest.mark.slow
 def test_a_long_ladder_is_built_in_proportion_to_its_length():
     efforts = []
     for count in (25, 50):

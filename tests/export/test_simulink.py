@@ -79,6 +79,7 @@ def test_s_functions_of_all_examples_do(name: str, tmp_path: pathlib.Path) -> No
     check(name, tmp_path, FAST.get(name, 1e-4))
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_parameters_of_the_dialog_and_the_projection(tmp_path: pathlib.Path) -> None:
     s = built_in.system("four-bar")

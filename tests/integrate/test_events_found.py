@@ -7,6 +7,7 @@ import pytest
 from simulate_problems import accuracy, chain, events, problem
 
 from lagrangian.integrate import METHODS, Signals, Solver
+from size import rest_slow
 
 FAST = np.sqrt(2.0)
 END = 12.0
@@ -65,7 +66,7 @@ def in_numpy(function: str, x: np.ndarray) -> np.ndarray:
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", [0, *[pytest.param(k, marks=pytest.mark.slow) for k in range(1, 9)]])
-@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("name", rest_slow(METHODS, {"dop853", "taylor"}))
 def test_every_crossing_of_random_conditions_is_found(name: str, seed: int) -> None:
     rng = np.random.default_rng([seed, list(METHODS).index(name)])
     conditions = [condition(rng) for _ in range(8)]

@@ -22,6 +22,7 @@ def test_a_rod_takes_the_momenta_and_leaves_the_energy() -> None:
     assert any("x, but its momentum changes as the constraint 'rod' pushes along it" in why for why in said)
 
 
+@pytest.mark.slow
 def test_a_ball_in_a_bowl_keeps_its_angular_momentum() -> None:
     s = lg.System("bowl")
     m, l = s.parameter("m", 1.5), s.parameter("l", 0.8)

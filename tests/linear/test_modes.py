@@ -381,6 +381,7 @@ def test_a_missing_python_control_is_answered_with_the_line_that_installs_it(mon
         built_in("cart-pole").linearize().to_control()
 
 
+@pytest.mark.slow
 def test_the_regulators_law_balances_the_pole_in_a_run() -> None:
     system = built_in("cart-pole")
     regulator = system.linearize().lqr({"x": 10, "theta": 100}, 0.5)

@@ -93,7 +93,7 @@ def expressions(model: Model, q: Any, v: Any, t: float) -> tuple[np.ndarray, lis
     return np.array([value(r.rate) for r in found], float), [value(r.position) for r in found]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_rows_are_the_same_in_both_languages(make: Callable[[], lg.System]) -> None:
     """f everywhere; c where the row is on velocities, or is f's derivative in axes that both languages share."""

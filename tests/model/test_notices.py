@@ -69,6 +69,7 @@ def test_the_command_shows_it_too(plate: lg.System, tmp_path) -> None:  # type: 
     assert "violate 1 + 1 ≥ 5" in " ".join(answer.output.split())
 
 
+@pytest.mark.slow
 def test_a_floating_body_shows_it_in_verify(tmp_path) -> None:  # type: ignore[no-untyped-def]
     path = tmp_path / "hull.toml"
     s = lg.System("hull")

@@ -1,4 +1,4 @@
-"""Random systems in the plane, in space and from energies: every product against an oracle of difference quotients."""
+"""Random systems in the plane, in space, from energies, floating, with circuits: all against difference quotients."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from answers import FAMILIES, SEEDS, Answers, State, computed, is_further, state_of, stored
+from random_circuits import circuits
 from random_systems import Case
 
 from lagrangian.export import sources
@@ -106,3 +107,10 @@ def test_the_stored_answers_are_the_oracle_s(family: str, seed: int) -> None:
     now, kept = computed(case, seed, is_further(seed)), stored(family, case, seed)
     for name, value in vars(now).items():
         assert getattr(kept, name) == pytest.approx(value, rel=1e-13, abs=1e-15), name
+
+
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 40))])
+def test_random_circuits_agree_with_the_oracle(seed: int) -> None:
+    """Their energies are quadratic in the rates, so the same oracle answers; its answers take tenths of seconds."""
+    case, further = circuits(seed), is_further(seed)
+    check(case, state_of(case, seed), computed(case, seed, further), derived=True, further=further)

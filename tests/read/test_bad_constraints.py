@@ -116,6 +116,7 @@ def test_a_system_that_cannot_move_is_solved_all_the_same() -> None:
     assert run.success and run["x"][-1] == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_a_prescribed_motion_is_no_mistake() -> None:
     s = lg.loads(HEAD + '[[constraint]]\nname="drive"\nexpression="x - l*sin(3*t)"\n')
     assert s.simulate(0.5).success

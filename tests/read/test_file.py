@@ -193,6 +193,7 @@ def everything() -> Builder:
     return b
 
 
+@pytest.mark.slow
 def test_everything_python_can_describe_a_file_can() -> None:
     model = everything().model()
     text = dumps(model)

@@ -147,6 +147,7 @@ def test_a_floating_robot_falls_freely():
     assert found == pytest.approx([0, 0, -9.81] + [0] * 15, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_the_papers_robot_runs_as_it_stands(tmp_path, monkeypatch):
     """The file and the script of ``docs/robots.md``."""
     text = (Path(__file__).parents[2] / "docs" / "robots.md").read_text(encoding="utf-8")

@@ -158,6 +158,7 @@ def test_a_gif_has_the_frames_and_the_duration(tmp_path: pathlib.Path) -> None:
     assert counted == [(k, 121) for k in range(1, 122)]
 
 
+@pytest.mark.slow
 def test_a_gif_shows_the_mass_where_it_is(tmp_path: pathlib.Path) -> None:
     image = pytest.importorskip("PIL.Image")
     system, animation = animated("pendulum")

@@ -84,6 +84,7 @@ class _Quiet(SimpleHTTPRequestHandler):
         pass
 
 
+@pytest.mark.slow
 def test_the_page_of_the_manual_moves(browser: Any, tmp_path: Path) -> None:
     manual = (Path(__file__).parents[2] / "docs" / "browser.md").read_text(encoding="utf-8")
     (html,) = re.findall(r"```html\n(.*?)```", manual, re.DOTALL)
