@@ -85,7 +85,7 @@ def _subtitle(scene: Scene) -> str:
     """What is seen, without the name, which stands above it, and the coordinates, which have sliders."""
     words = scene.description.removeprefix(f"{scene.name}: ").partition(" Coordinates: ")[0]
     if len(words) > LONGEST_SUBTITLE:  # the picture's own description has all of it
-        words = re.sub(r"[;.,]?[^;.]*\Z", " …", words[:LONGEST_SUBTITLE])
+        words = re.sub(r"[;.,]?[^;.]*\Z", " …", words[:LONGEST_SUBTITLE], count=1)
     return words[:1].upper() + words[1:]
 
 
