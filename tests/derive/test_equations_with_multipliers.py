@@ -429,3 +429,21 @@ def test_a_rope_along_lines_is_an_atwood_machine() -> None:
     run = s.simulate(0.5, x1=-1.0, x2=-2.0)
     assert np.allclose(run["rope"], -2 * 3 * 2 * 9.81 / 5, rtol=1e-12)
     assert np.allclose(run["x1"], -1.0 - 9.81 / 5 * run.t**2 / 2, rtol=1e-10)
+
+
+def test_a_planetary_gear_has_the_ratios_of_its_wheels() -> None:
+    """With the ring at rest the carrier turns by R_s/(2 (R_s + R_p)) of the sun, a planet by −R_s/(2 R_p): Willis."""
+    s = lg.System("planetary gear")
+    sun, planet, carrier = s.coordinates("sun planet carrier")
+    Rs, Rp, Js, Jp, Jc = s.parameters("R_s R_p J_s J_p J_c")
+    s.kinetic((Js * sun.diff(t) ** 2 + Jp * planet.diff(t) ** 2 + Jc * carrier.diff(t) ** 2) / 2)
+    s.torque(s.input("M"), on=sun)
+    s.velocity_constraint(Rs * sun.diff(t) + Rp * planet.diff(t) - (Rs + Rp) * carrier.diff(t), name="sun and planet")
+    s.velocity_constraint((Rs + Rp) * carrier.diff(t) + Rp * planet.diff(t), name="planet and ring")
+    minimal = s.derive().minimal
+    assert minimal is not None
+    ratios = zip((planet, carrier), (-Rs / (2 * Rp), Rs / (2 * (Rp + Rs))), strict=True)
+    assert all(sp.cancel(minimal.rates[q.diff(t)] / sun.diff(t) - ratio) == 0 for q, ratio in ratios)
+    (inertia,) = (sp.factor(sp.diff(e.lhs, sun.diff(t, 2))) for e in minimal.equations)
+    assert sp.simplify(inertia - (Js + Jp * (Rs / (2 * Rp)) ** 2 + Jc * (Rs / (2 * (Rp + Rs))) ** 2)) == 0
+    assert sp.count_ops(minimal.equations[0].lhs) < 25

@@ -21,6 +21,7 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.derive.multiplier import SpeedLine
@@ -44,7 +45,7 @@ class Linear:
         slopes = {s: f for s, f in self.slopes.items() if s != speed}
         for s, f in value.slopes.items():
             added = f * factor
-            slopes[s] = slopes[s] + added if s in slopes else added
+            slopes[s] = reduced(slopes[s] + added if s in slopes else added)
         return Linear({s: f for s, f in slopes.items() if not f.is_zero}, self.rest + value.rest * factor)
 
     def expr(self, context: Context) -> sp.Expr:
@@ -199,7 +200,7 @@ class _Elimination:
     def _value(self, row: Linear, speed: sp.Expr) -> Linear:
         """What a row says of one of its speeds."""
         inverse = -self.algebra.form(1 / row.slopes[speed].expr())
-        return Linear({s: f * inverse for s, f in row.slopes.items() if s != speed}, row.rest * inverse)
+        return Linear({s: reduced(f * inverse) for s, f in row.slopes.items() if s != speed}, row.rest * inverse)
 
     def _use(self, k: int, speed: sp.Expr, value: Linear, line: SpeedLine) -> None:
         del self.rows[k]
@@ -223,6 +224,14 @@ class _Elimination:
         """v for the first new speed, then u1, u2, …; names that the system has are passed over."""
         taken = {*self.context.model.symbols, *(str(s.func) for s in self.found.meanings)}
         return moving_symbol(next(name for name in _names() if name not in taken))
+
+
+def reduced(form: Form) -> Form:
+    """A quotient of parameters after common factors are cancelled; anything else as it is."""
+    algebra = form.algebra
+    if form.moves or form.turns or not algebra.generators.denominators(form):
+        return form
+    return algebra.form(bounded.cancel(bounded.together(form.expr())))
 
 
 def _scaled(row: Linear, by: Form, speed: sp.Expr, value: Linear) -> Linear:
