@@ -17,6 +17,7 @@ import sympy as sp
 
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio
+from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
 
 CONSTANT = 1e-7
@@ -169,6 +170,35 @@ def agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, flo
             spread = np.ptp(middle) <= CONSTANT * np.abs(middle).max()
             found.append((np.repeat(middle[:, 0], size // blocks), 1.0 + (0.2 if spread else 0.0)))
     return sorted(found, key=lambda x: -x[1])[:MOST_FACTORS]
+
+
+def agreeing(mine: Array, right: Array) -> tuple[float, int | None]:
+    """How many slopes (m, S) are the same multiple of the right ones, and the place of one; ±1 counts a bit more."""
+    held = (np.abs(right).max(axis=1) > 1e-9) & (np.abs(mine).max(axis=1) > 1e-9)
+    places = np.flatnonzero(held)
+    with np.errstate(all="ignore"):
+        ratios = mine[places] / right[places]
+    best: tuple[float, int | None] = (0.0, None)
+    for k, own in zip(places, ratios, strict=True):
+        if not np.isfinite(own).all():
+            continue
+        same = (np.abs(ratios - own) <= 1e-8 * np.abs(own)).all(axis=1)
+        count = float(same.sum()) + (0.5 if np.ptp(np.abs(own)) == 0 and abs(own[0]) == 1 else 0.0)
+        if count > best[0]:
+            best = count, int(k)
+    return best
+
+
+def agreement(truth: Reference, lines: Sequence[AnsweredLine]) -> float:
+    """In how many slopes the lines of an answer agree with the right ones that they resemble most."""
+    rights = {"T": [truth.T], "V": [truth.V], "L": [truth.L], "equation": list(truth.rows)}
+    total = 0.0
+    for kind, exprs in rights.items():
+        mine = [line.expr for line in lines if line.kind == kind]
+        if mine:
+            right = slopes_of(truth) if kind == "equation" else slopes_of_equations(truth, exprs)
+            total += sum(max(agreeing(m, r)[0] for r in right) for m in slopes_of_equations(truth, mine))
+    return total
 
 
 def solved(truth: Reference, exprs: Sequence[sp.Expr]) -> bool:

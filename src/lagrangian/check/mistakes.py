@@ -33,6 +33,8 @@ from lagrangian.page.formula import text
 
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
+LIKELY = 2.4
+"""A mistake that costs less is likelier than coordinates that nobody spoke of."""
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 
@@ -41,7 +43,7 @@ ALIKE = 0.05
 class NamedMistakes:
     """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
-    ``certain``: a single specific mistake explains everything. ``left`` are the wrong equations that they leave open.
+    ``certain``: a single likely mistake explains everything. ``left`` are the wrong equations that they leave open.
     """
 
     told: tuple[Mistake, ...] = ()
@@ -240,7 +242,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open
     elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
     more = _once([*elsewhere, *listed], told)
-    return NamedMistakes(told, more[:5], len(chosen) == 1 and chosen[0][0].mistake.wrong is not None)
+    single = len(chosen) == 1 and (chosen[0][0].mistake.wrong is not None or chosen[0][0].cost <= LIKELY)
+    return NamedMistakes(told, more[:5], single)
 
 
 def _of_either(

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from itertools import islice, permutations, product
 from typing import Any, cast
 
-import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -147,7 +147,7 @@ def _matched(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, own:
     by = _by(truth, own)
     mine, right = _slopes(truth, read, by), _slopes(truth, truth.rows, by)
     cells = sorted(
-        ((count, -j, -i, k) for j, m in enumerate(mine) for i, r in enumerate(right) for count, k in [_agreeing(m, r)]),
+        ((count, -j, -i, k) for j, m in enumerate(mine) for i, r in enumerate(right) for count, k in [agreeing(m, r)]),
         reverse=True,
     )
     found: dict[int, _Match] = {}
@@ -164,23 +164,6 @@ def _by(truth: Reference, own: Sequence[Any]) -> list[Any]:
     model = truth.model
     by = [x for c in model.coordinates for x in (c.acceleration, c.rate)]
     return [*by, *(x.symbol for x in (*model.inputs, *model.parameters)), *own]
-
-
-def _agreeing(mine: Array, right: Array) -> tuple[float, int | None]:
-    """How many slopes are the same multiple of the right ones, and the place of one of them; ±1 counts a bit more."""
-    held = (np.abs(right).max(axis=1) > 1e-9) & (np.abs(mine).max(axis=1) > 1e-9)
-    places = np.flatnonzero(held)
-    with np.errstate(all="ignore"):
-        ratios = mine[places] / right[places]
-    best: tuple[float, int | None] = (0.0, None)
-    for k, ratio in zip(places, ratios, strict=True):
-        if not np.isfinite(ratio).all():
-            continue
-        same = (np.abs(ratios - ratio) <= 1e-8 * np.abs(ratio)).all(axis=1)
-        count = float(same.sum()) + (0.5 if np.ptp(np.abs(ratio)) == 0 and abs(ratio[0]) == 1 else 0.0)
-        if count > best[0]:
-            best = count, int(k)
-    return best
 
 
 def _slopes(truth: Reference, exprs: Sequence[sp.Expr], by: Sequence[Any]) -> Array:

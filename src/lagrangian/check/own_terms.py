@@ -27,6 +27,8 @@ from lagrangian.page.formula import Text, text
 
 MOST_OWN_TERMS = 250
 """The largest number of terms of an expanded line that are examined."""
+SUM = 0.8
+"""What it costs more to take a whole sum for another."""
 WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
 WHY_IDLE = text(
     "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
@@ -67,7 +69,8 @@ class OwnTerm:
         if self.instead is not None:
             if self.term in (0, -self.instead[0]):
                 return 2.2
-            return 3.0 if _factors(self.term, self.instead[0]) is not None else 3.3
+            sums = sum(terms(x) > 1 for x in (self.term, self.instead[0]))  # then two slips are likelier
+            return (3.0 if _factors(self.term, self.instead[0]) is not None else 3.3) + SUM * sums
         return 2.6 if self.forgotten or self.times in (1, 2) else 3.2
 
     def mistake(self, truth: Reference) -> Mistake:

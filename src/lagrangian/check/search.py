@@ -25,6 +25,8 @@ MOST_FOR_PAIRS = 6
 """The number of correspondences of rows for which pairs are tried."""
 PAIR = 1.0
 """What a pair costs besides its two mistakes."""
+KIN = 0.4
+"""What a pair of the same kind spares: whoever does not know something makes the mistake everywhere."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +143,8 @@ class Vectors:
                 if (left <= 1e-7 * (np.abs(target) + size)).all():
                     found.append((cost, int(a), int(b)))
         doubt = under.doubt if under is not None else 0.0
-        return [Explanation(t, c + doubt, under) for c, t in self._sure(sorted(found)[:60], r, size)]
+        sure = [(c - _kinship(*t), t) for c, t in self._sure(sorted(found)[:60], r, size)]
+        return [Explanation(t, c + doubt, under) for c, t in sorted(sure, key=lambda x: x[0])]
 
     def _sure(
         self, found: Sequence[tuple[float, int, int]], r: Array, size: float
@@ -154,6 +157,16 @@ class Vectors:
     def _told(self, a: int) -> Told:
         number = Fraction(float(self.times[a])).limit_denominator(LARGEST_DENOMINATOR)
         return Told(self.pool.all[self.index[a]], number, float(self.cost[a]))
+
+
+def _kinship(one: Told, other: Told) -> float:
+    """What it spares if the same mistake was made twice, as in the heights of two bodies."""
+    kinds = [t.mistake.change.kind if t.mistake.change is not None else _name(t.mistake) for t in (one, other)]
+    return KIN if kinds[0] == kinds[1] and one.times == other.times else 0.0
+
+
+def _name(possible: Possible) -> str:
+    return possible.wrong.name if possible.wrong is not None else ""
 
 
 def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:

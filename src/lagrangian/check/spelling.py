@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.align import agreement
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
@@ -22,6 +23,8 @@ from lagrangian.page.plain import plain
 
 MAX_READINGS = 120
 """The largest number of interpretations of unknown names that are tried."""
+MAX_WRONG_READINGS = 24
+"""The same for an answer that is wrong with all of them."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +52,7 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
         put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(reading))) for line in lines)
         if may_be_right(truth, put):
             return Spelling(put, (*notes, *(_read(a, b) for a, b in reading.items())))
-    close = _closest(unknown, [*free, *inputs])
+    close = _likeliest(truth, lines, unknown, free) or _closest(unknown, [*free, *inputs])
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
     left = [s for s in unknown if s not in close]
     told = [_read(a, b) for a, b in close.items()]
@@ -80,6 +83,22 @@ def _readings(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> list[dict
         return []
     picked = islice(permutations(free, len(unknown)), MAX_READINGS)
     return [dict(zip(unknown, p, strict=True)) for p in picked]
+
+
+def _likeliest(
+    truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]
+) -> dict[sp.Basic, sp.Expr]:
+    """The reading of a wrong answer in which most of its terms agree with right ones; empty if none stands out."""
+    near = _closest(unknown, free)
+    first = sorted(free, key=lambda p: p not in near.values())
+    scored = [
+        (agreement(truth, [replace(x, expr=cast("sp.Expr", x.expr.xreplace(table))) for x in lines]), table)
+        for table in _readings(unknown, first)[:MAX_WRONG_READINGS]
+    ]
+    scored.sort(key=lambda x: -x[0])
+    if not scored or scored[0][0] <= agreement(truth, lines):
+        return {}
+    return scored[0][1] if len(scored) == 1 or scored[0][0] > scored[1][0] + 0.5 else {}
 
 
 def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Basic, sp.Expr]:
