@@ -120,7 +120,7 @@ class Picture(Brief):
         )
 
     def _repr_html_(self) -> str:
-        return scene_svg(self.scene, embedded=True)
+        return scene_svg(self.scene, embedded=True, notebook=True)
 
     def _repr_svg_(self) -> str:
         return self.to_svg()

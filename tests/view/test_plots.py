@@ -103,6 +103,25 @@ def test_a_notebook_shows_a_plot_once(run: lg.Trajectory, monkeypatch: pytest.Mo
     assert figure.number not in plt.get_fignums()  # and the end of the cell not again
 
 
+def test_the_first_figure_of_a_notebook_leaves_pyplot_interactive(
+    run: lg.Trajectory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """IPython's backend turns it on while it makes its first figure, and shows none that is made while it is off."""
+    made, limit = plt.figure, plt.rcParams["figure.max_open_warning"]
+
+    def first(*given: Any, **named: Any) -> Any:
+        plt.ion()
+        return made(*given, **named)
+
+    monkeypatch.setattr(plt, "figure", first)
+    try:
+        plt.close(run.plot())
+        assert plt.isinteractive()
+        assert plt.rcParams["figure.max_open_warning"] == limit
+    finally:
+        plt.ioff()
+
+
 def test_plots_in_another_thread_are_not_pyplots(run: lg.Trajectory) -> None:
     before = plt.get_fignums()
     made: list[Any] = []

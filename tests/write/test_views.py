@@ -81,3 +81,21 @@ def test_a_view_follows_the_theme_of_its_notebook() -> None:
         rule = html.partition(f'[data-jp-theme-light="{theme}"]')[2].partition("}")[0]
         assert f"--paper: {paper};" in rule
         assert ") & {" in rule
+
+
+def test_pictures_follow_the_theme_of_their_notebook() -> None:
+    system = lg.example("pendulum")
+    pair = lg.compare(system, lg.example("double-pendulum")).look()
+    for view in (system.look()._repr_html_(), system.derive()._repr_html_(), pair._repr_html_()):
+        for theme, paper in (("true", "#fdfdfb"), ("false", "#16191c")):
+            after = view.split(f'[data-jp-theme-light="{theme}"]')[1:]
+            rules = [x.partition("}")[0] for x in after if ".lagrangian-scene{" in x.partition("}")[0]]
+            assert len(rules) == 1 and f"--paper:{paper};" in rules[0]
+    assert "data-jp-theme" not in system.look().to_svg()
+
+
+def test_a_view_without_its_style_says_what_is_missing() -> None:
+    """JupyterLab removes styles and MathML from what a notebook that is not trusted holds; then ½ becomes 12."""
+    view = lg.example("pendulum").linearize()._repr_html_()
+    assert "& .stripped { display: none; }" in view.partition("</style>")[0]
+    assert '<p class="stripped">This notebook is not trusted' in view

@@ -153,13 +153,21 @@ def _safe(text: str) -> str:
 
 
 def new_figure(size: tuple[float, float], *, shown: bool) -> Figure:
-    """Make an empty figure; if it is to be ``shown``, and in the main thread, it belongs to pyplot."""
+    """Make an empty figure; if it is to be ``shown``, and in the main thread, it belongs to pyplot.
+
+    Only one setting is changed and put back: ``plt.rc_context`` would also put back that the first figure in a notebook
+    makes pyplot interactive, and no later figure would be shown.
+    """
     figure_class = _figure_class()
     if not shown or threading.current_thread() is not threading.main_thread():
         return figure_class(figsize=size, layout="constrained")
     plt = importlib.import_module("matplotlib.pyplot")
-    with plt.rc_context({"figure.max_open_warning": 0}):
+    settings, key = plt.rcParams, "figure.max_open_warning"
+    limit, settings[key] = settings[key], 0
+    try:
         return plt.figure(figsize=size, layout="constrained", FigureClass=figure_class)
+    finally:
+        settings[key] = limit
 
 
 def _figure_class() -> type[Figure]:

@@ -29,6 +29,7 @@ from lagrangian.write.lines import lines, set_columns
 from lagrangian.write.mathml import displayed, row, wide
 from lagrangian.write.text import clean
 from lagrangian.write.text import display as text_lines
+from lagrangian.write.themes import DARK_NOTEBOOK, LIGHT_NOTEBOOK, themed_scenes
 
 WIDTH = 96
 """The width of the page in columns of Unicode text."""
@@ -37,6 +38,12 @@ UNBROKEN_COLUMNS = 24
 """A formula of up to this many columns within a text is kept in one piece."""
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
+
+STRIPPED = (
+    "This notebook is not trusted, so that powers, fractions and pictures are missing here. Run its cells, or choose "
+    "Trust Notebook in JupyterLab's command palette."
+)
+"""What a view says where its style, and so its mathematics, was removed."""
 
 KINDS: Mapping[TermKind, str] = {
     "inertia": "inertia: with an acceleration",
@@ -71,8 +78,10 @@ def fragment(document: Document) -> str:
     body = "\n".join(section_html(section, brief=document.brief, anchors=False) for section in document.sections)
     rules = style_sheet() + _pointing(document)
     nested = rules.replace(":root", "&").replace("body {", "& {")  # restricted to this piece
-    style = f"<style>\n.lagrangian {{\n{nested}{_themes()}}}\n</style>"
-    head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
+    themes = f"{_themes()}}}\n" + ("" if document.picture is None else themed_scenes())
+    style = f"<style>\n.lagrangian {{\n& .stripped {{ display: none; }}\n{nested}{themes}</style>"
+    said = f'<p class="stripped">{STRIPPED}</p>\n'
+    head = f'<div class="lagrangian" lang="en">{style}\n{said}<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{_picture(document)}{body}\n</div></div>"
 
 
@@ -81,12 +90,7 @@ def _themes() -> str:
     JupyterLab, VS Code, Colab and marimo."""
     light, _, rest = style_sheet().partition(":root {")[2].partition("}")
     dark = rest.partition(":root {")[2].partition("}")[0]
-    return (
-        f':is([data-jp-theme-light="true"], body.vscode-light, html[theme="light"], body.light) & {{{light}'
-        "color-scheme: light; }\n"
-        f':is([data-jp-theme-light="false"], body.vscode-dark, html[theme="dark"], body.dark) & {{{dark}'
-        "color-scheme: dark; }\n"
-    )
+    return f"{LIGHT_NOTEBOOK} & {{{light}color-scheme: light; }}\n{DARK_NOTEBOOK} & {{{dark}color-scheme: dark; }}\n"
 
 
 def pieces(document: Document) -> list[dict[str, str]]:

@@ -8,6 +8,7 @@ from lagrangian.page.palette import LIGHT
 from lagrangian.page.scene import Scene
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_svg import document, number, scene_body
+from lagrangian.write.themes import themed_scenes
 
 GAP, CAPTION, LETTER = 24.0, 34.0, 15.0
 """Between the pictures; the height of the captions; the size of their letters [px]."""
@@ -34,5 +35,6 @@ def pair_svg(left: Scene, right: Scene, captions: tuple[str, str], *, embedded: 
         )
         x += width + GAP
     said = f"{captions[0]}: {left.description} {captions[1]}: {right.description}"
+    style = themed_scenes() if embedded else ""
     both = replace(left, name=" and ".join(captions), description=said)
-    return document(both, body, size=(x - GAP, CAPTION + height), embedded=embedded)
+    return document(both, body, size=(x - GAP, CAPTION + height), embedded=embedded, style=style)

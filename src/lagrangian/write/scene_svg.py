@@ -10,12 +10,13 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
-from lagrangian.page.palette import DARK, LIGHT, Palette
+from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.page.placing import Array, Drawn, on_bodies, placed, places
 from lagrangian.page.scene import Label, Scene, ScenePart, drawing_order
 from lagrangian.write.expression_tree import Letter
 from lagrangian.write.html_page import data_element, escape
 from lagrangian.write.scene_letters import SMALLER, LetterPiece, pieces, scene_letters
+from lagrangian.write.themes import scene_variables, themed_scenes
 
 FONTS = "'Latin Modern Roman','CMU Serif','STIX Two Text',Cambria,'Times New Roman','Liberation Serif',serif"
 
@@ -27,13 +28,16 @@ HALO = 4.0
 """The width of the line around letters in the colour of the paper [px]."""
 
 
-def scene_svg(scene: Scene, *, embedded: bool = False) -> str:
+def scene_svg(scene: Scene, *, embedded: bool = False, notebook: bool = False) -> str:
     """Return a scene in its pose at rest as SVG; ``embedded`` for use within HTML, otherwise a document of its own.
+
+    ``notebook``: its colours follow the theme of the notebook around it.
 
     Every part is in a group ``<g class="glyph kind-… role-…" data-element="…">``; `data_element` says how the names of
     elements are written there.
     """
-    return document(scene, scene_body(scene), size=scene.size, embedded=embedded)
+    style = themed_scenes() if notebook else ""
+    return document(scene, scene_body(scene), size=scene.size, embedded=embedded, style=style)
 
 
 def scene_body(scene: Scene) -> list[str]:
@@ -76,8 +80,8 @@ def document(
 def _style(embedded: bool) -> str:
     """The rules of colours, all restricted to pictures of this kind."""
     rules = [
-        _variables(LIGHT),
-        f"@media (prefers-color-scheme:dark){{{_variables(DARK)}}}",
+        scene_variables(LIGHT),
+        f"@media (prefers-color-scheme:dark){{{scene_variables(DARK)}}}",
         ".lagrangian-scene .line{stroke:var(--line)}",
         ".lagrangian-scene .inside{fill:var(--inside)}",
         ".lagrangian-scene .inner{stroke:var(--inside)}",
@@ -91,12 +95,6 @@ def _style(embedded: bool) -> str:
     if embedded:
         rules.append(".lagrangian-scene{max-width:100%;height:auto;background:var(--paper)}")
     return "".join(rules)
-
-
-def _variables(palette: Palette) -> str:
-    roles = "".join(f"--scene-{role}:{colour};" for role, colour in palette.lines.items())
-    paper = f"--paper:{palette.paper};--inside:var(--paper);--scene-inside:{palette.body}"
-    return f".lagrangian-scene{{{roles}{paper}}}"
 
 
 def labels(scene: Scene, at: Array) -> Iterator[str]:
