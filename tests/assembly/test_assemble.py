@@ -77,6 +77,16 @@ def test_what_cannot_close_is_named_with_its_gap() -> None:
     assert "look at the lengths" in str(caught.value)
 
 
+def test_a_constraint_without_a_value_at_the_guess_is_named() -> None:
+    s = lg.System("root")
+    x = s.coordinate("x")
+    s.particle(1.0, at=s.point("P", (x, 0)))
+    s.constraint(sp.sqrt(x) - 1, name="root")
+    with pytest.raises(lg.RunError, match="'root' has no finite value near the guess"):
+        s.simulate(0.1, x=-1.0)
+    assert s.simulate(0.1, x=0.5)["x"][-1] == pytest.approx(1.0, abs=1e-12)
+
+
 def test_the_coordinate_that_keeps_a_loop_open_is_named() -> None:
     dyn = four_bar().compile()
     b, c = by_triangles(1.0)[0]

@@ -89,7 +89,8 @@ class Assembler:
         """The length of the system, estimated from the gaps and the guess."""
         assert self.search is not None
         lengths = np.abs(np.where(angles, 0.0, q)).max(initial=0.0)
-        return float(max(lengths, np.abs(self.search.gaps(q[None, :], p, t)).max(initial=0.0), 1e-3))
+        gaps = np.abs(self.search.gaps(q[None, :], p, t))
+        return float(max(lengths, gaps[np.isfinite(gaps)].max(initial=0.0), 1e-3))
 
     @staticmethod
     def _different(found: Array, q: Array, angles: Flags) -> Array:
@@ -110,6 +111,13 @@ class Assembler:
         named: dict[str, float] = {}
         for row, gap in zip([r for r in self.rows if r.condition.on_positions], gaps, strict=True):
             named[row.element.name] = max(named.get(row.element.name, 0.0), abs(float(gap)))
+            if not np.isfinite(gap):
+                return RunError(
+                    f"no position was found that satisfies the constraints: '{row.name}' has no finite value near the "
+                    "guess",
+                    fix="a guess at which every constraint can be evaluated",
+                    code="E304",
+                )
         worst = sorted(named.items(), key=lambda item: -item[1])
         shown = ", ".join(f"'{name}' by {gap:.3g}" for name, gap in worst[:4] if gap > 0)
         freed = [name for name in self.fixed if self._closes_without(name, guess, p, t)]
