@@ -300,3 +300,13 @@ def test_what_falls_far_is_followed_and_keeps_its_size() -> None:
 
 def test_a_pendulum_is_not_followed() -> None:
     assert not lg.example("double-pendulum").simulate(5.0).animate().motion.followed
+
+
+def test_a_circuit_alone_has_nothing_that_moves() -> None:
+    system = lg.System("oscillator")
+    q = system.coordinate("q", unit="C")
+    system.inductor(system.parameter("L", "1 mH"), q)
+    system.capacitor(system.parameter("C", "1 uF"), q)
+    run = system.simulate(1e-3, initial={"q": 1e-6})
+    with pytest.raises(lg.RunError, match="nothing moves in the picture of 'oscillator'"):
+        run.animate()
