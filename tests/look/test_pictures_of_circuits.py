@@ -115,14 +115,27 @@ def test_loops_that_do_not_lie_in_a_row_are_told() -> None:
     assert not any(part.kind == "wire" for part in found.scene.parts)
 
 
-def test_a_charge_that_is_counted_twice_or_prescribed_is_told() -> None:
-    for factor, prescribed in ((2, False), (1, True)):
-        system, (q,), (L, R) = _circuit(1, letters="L R")
-        supplied = system.parameter("I", "1 A") * system.t
-        system.inductor(L, q)
-        system.resistor(R, factor * q + (supplied if prescribed else 0))
-        (told,) = system.look().missing
-        assert told.startswith("the circuit of charge q1 is not drawn")
+def test_a_charge_that_is_counted_twice_is_told() -> None:
+    system, (q,), (L, R) = _circuit(1, letters="L R")
+    system.inductor(L, q)
+    system.resistor(R, 2 * q)
+    (told,) = system.look().missing
+    assert told.startswith("the circuit of charge q1 is not drawn")
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_charge_that_is_given_has_a_source_of_current(sign: int) -> None:
+    """q − I t flows through the resistor between two loops: clockwise, I t goes down on the right."""
+    system, (q,), (L, R) = _circuit(1, letters="L R")
+    current = system.parameter("I", "1 A")
+    system.inductor(L, q)
+    system.resistor(R, q - sign * current * system.t)
+    found = system.look()
+    assert not found.missing and "I" in {x for label in found.scene.labels for x in label.names}
+    arrow = next(p for p in found.scene.parts if p.kind == "current_source" and p.solid)
+    tip, *base = _points(arrow)
+    assert (tip[1] - np.mean(base, axis=0)[1]) * sign > 0
+    assert _middle(found.scene, "L")[0] < _middle(found.scene, "R")[0] < tip[0]
 
 
 def test_a_winding_pulls_what_it_moves_in_the_sense_of_its_constant() -> None:

@@ -84,7 +84,9 @@ def _draw_row(board: Board, row: list[CircuitLoop], x: float, y: float, height: 
 
 
 def _mesh(board: Board, loop: CircuitLoop, centre: Pair) -> None:
-    """The charge of a loop, with an arrow in its sense."""
+    """The charge of a loop, with an arrow in its sense; a charge that is given has its source instead."""
+    if loop.coordinate is None:
+        return
     start, end = (0.85 * pi, 2.4 * pi) if loop.sense > 0 else (0.15 * pi, -1.4 * pi)
     name = (loop.coordinate.name,)
     board.bow(centre, MESH, start, end, "coordinate", of=name, kind="coordinate")
@@ -112,6 +114,9 @@ def _wire(board: Board, a: Array, b: Array) -> None:
 
 def _branch(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pair) -> None:
     """One glyph, along a direction."""
+    if x.element is None:
+        _supply(board, x, middle, angle, out)
+        return
     element, of = x.element, (x.element.name,)
     role = ROLES.get(element.kind, "rod")
     moving = isinstance(element, Transducer)
@@ -133,9 +138,32 @@ def _branch(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pai
     board.wish(_names(element), middle, out, role, of, distance=thick + 4.0)
 
 
+def _supply(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pair) -> None:
+    """A source of current: a circle with an arrow along it."""
+    leads = lines(((-HALF, 0.0), (-ROUND, 0.0)), ((ROUND, 0.0), (HALF, 0.0)))
+    arrow = line((-8.0 * x.sense, 0.0), (3.0 * x.sense, 0.0))
+    tip = head((9.0 * x.sense, 0.0), (x.sense, 0.0))
+    for shape, filled, solid in (
+        (leads, False, False),
+        (_circle(), True, False),
+        (arrow, False, False),
+        (tip, False, True),
+    ):
+        board.put(
+            turned(shape, angle, float(middle[0]), float(middle[1])),
+            "input", kind="current_source", filled=filled, solid=solid, width=0.0 if solid else 1.6, layer=TIE,
+            moves=False,
+        )  # fmt: skip
+    board.block(middle, 2 * ROUND, 2 * ROUND)
+    assert x.supplied is not None
+    names = sorted({str(s) for s in x.supplied.free_symbols} - {*LOCAL})[:2]
+    board.wish(names, middle, out, "input", distance=ROUND + 4.0)
+
+
 def _glyph(board: Board, x: PlacedBranch) -> list[tuple[Path, bool, bool]]:
     """The shapes of a branch along x from −17 to 17, each with whether it is filled with paper or with its colour."""
     element = x.element
+    assert element is not None
     leads = lines(((-HALF, 0.0), (-ROUND, 0.0)), ((ROUND, 0.0), (HALF, 0.0)))
     match element.kind:
         case "resistor":

@@ -25,6 +25,7 @@ from lagrangian.model import (
     Transducer,
     VoltageSource,
 )
+from lagrangian.page.plain import plain
 
 LAWS = ("L", "C", "R", "M", "k", "value", "law", "coenergy", "energy")
 """The fields of which one says what a branch is."""
@@ -35,21 +36,29 @@ WIDE = 3
 
 @dataclass(frozen=True)
 class PlacedBranch:
-    """A branch on a side of a loop, and whether its charge flows clockwise around that loop (1) or not (−1)."""
+    """A branch on a side of a loop, and whether its charge flows clockwise around that loop (1) or not (−1).
 
-    element: CircuitBranch
+    A source of current is no element of the model, but the reason why a charge is given: ``supplied``, as a function of
+    time.
+    """
+
+    element: CircuitBranch | None
     sense: float
+    supplied: sp.Expr | None = None
 
 
 @dataclass
 class CircuitLoop:
     """A loop: its charge, the sense of that (1 is clockwise), and the branches on its sides, each in clockwise order.
 
+    The charge is a coordinate, or given: ``supplied``, as a function of time.
+
     ``shared`` are those on the wire to the next loop, from top to bottom. ``coupled`` is the flux that is shared with
     the next loop, if the two have no common wire.
     """
 
-    coordinate: Coordinate
+    coordinate: Coordinate | None
+    supplied: sp.Expr | None = None
     sense: float = 1.0
     left: list[PlacedBranch] = field(default_factory=list[PlacedBranch])
     top: list[PlacedBranch] = field(default_factory=list[PlacedBranch])
@@ -59,6 +68,11 @@ class CircuitLoop:
     coupled: MutualInductance | None = None
     follows: bool = False
     """Whether the loop before it shares flux with it."""
+
+    @property
+    def name(self) -> str:
+        """Its charge in words."""
+        return plain(self.supplied) if self.supplied is not None else getattr(self.coordinate, "name", "")
 
     @property
     def labelled_inside(self) -> bool:
@@ -87,14 +101,16 @@ def rows_of_loops(board: Board) -> list[list[CircuitLoop]]:
     """The circuits, each as its loops from left to right; circuits that cannot be drawn so are told."""
     model = board.stage.model
     charges = [c for c in model.charges if c.name not in board.hidden]
-    branches = [_factored(board, e, charges) for e in model.branches if e.name not in board.hidden]
+    supplied: list[sp.Expr] = []
+    branches = [_factored(board, e, charges, supplied) for e in model.branches if e.name not in board.hidden]
+    known = [*(CircuitLoop(c) for c in charges), *(CircuitLoop(None, x) for x in supplied)]
     rows: list[list[CircuitLoop]] = []
-    for group in _connected(len(charges), branches):
+    for group in _connected(len(known), branches):
         mine = [b for b in branches if b.loops & set(group)]
         order = _row(group, mine) if all(b.in_a_row() for b in mine) else None
-        loops = None if order is None else _filled(board, order, charges, mine)
+        loops = None if order is None else _filled(board, order, [known[i] for i in order], mine)
         if loops is None:
-            names = ", ".join(charges[i].name for i in group)
+            names = ", ".join(known[i].name for i in group)
             board.lacks(
                 f"the circuit of {'charges' if len(group) > 1 else 'charge'} {names} is not drawn",
                 "its loops do not lie in a row, each branch in one of them or between two",
@@ -104,15 +120,21 @@ def rows_of_loops(board: Board) -> list[list[CircuitLoop]]:
     return rows
 
 
-def _factored(board: Board, element: CircuitBranch, charges: list[Coordinate]) -> _Branch:
-    """A branch with ∂charge/∂qᵢ; what is prescribed in its charge has no loop, and the factor 0 says so."""
+def _factored(board: Board, element: CircuitBranch, charges: list[Coordinate], supplied: list[sp.Expr]) -> _Branch:
+    """A branch with the factors ∂charge/∂qᵢ; what is given of its charge is that of a loop, too, and joins the list."""
     model, found = board.stage.model, list[dict[int, float]]()
     for charge in element.charges:
         expr: Any = model.expand(charge)
         slopes = board.stage.slopes(charge, board.q, board.p)
         factors = {i: float(slopes[model.coordinates.index(c)]) for i, c in enumerate(charges) if expr.has(c.symbol)}
-        prescribed = expr.xreplace({c.symbol: sp.S.Zero for c in model.coordinates}) != 0
-        found.append(dict.fromkeys(factors, 0.0) if prescribed else factors)
+        given = sp.expand(expr.xreplace({c.symbol: sp.S.Zero for c in model.coordinates}))
+        if given != 0:
+            known = next((k for k, x in enumerate(supplied) if given in (x, sp.expand(-x))), None)
+            if known is None:
+                known = len(supplied)
+                supplied.append(-given if given.could_extract_minus_sign() else given)
+            factors[len(charges) + known] = 1.0 if given == supplied[known] else -1.0
+        found.append(factors)
     return _Branch(element, tuple(found))
 
 
@@ -140,10 +162,9 @@ def _row(group: list[int], branches: list[_Branch]) -> list[int] | None:
 
 
 def _filled(
-    board: Board, order: list[int], charges: list[Coordinate], branches: list[_Branch]
+    board: Board, order: list[int], loops: list[CircuitLoop], branches: list[_Branch]
 ) -> list[CircuitLoop] | None:
     """The loops with their branches; None if no senses of the loops agree with all of them."""
-    loops = [CircuitLoop(charges[i]) for i in order]
     coils: set[CircuitBranch] = set()
     for n, (one, two) in enumerate(pairwise(loops)):
         pair = {order[n], order[n + 1]}
@@ -181,10 +202,13 @@ def _coil(branches: list[_Branch], loop: int, taken: set[CircuitBranch]) -> _Bra
 def _lay(board: Board, loop: CircuitLoop, placed: list[PlacedBranch], *, first: bool, last: bool) -> None:
     """Branches of one loop alone: sources on the left, what moves on the right, then a capacitor, others above."""
     rest: list[PlacedBranch] = []
+    if loop.supplied is not None:
+        side = loop.left if first else loop.right if last else loop.top
+        side.append(PlacedBranch(None, loop.sense, loop.supplied))
     for x in placed:
         if first and isinstance(x.element, VoltageSource):
             loop.left.append(x)
-        elif last and (isinstance(x.element, Transducer) or moved_by(board, x.element)):
+        elif last and (isinstance(x.element, Transducer) or (x.element is not None and moved_by(board, x.element))):
             loop.right.append(x)
         else:
             rest.append(x)
