@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 
 from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.prose import CHANGING, LINKING
 from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.units import lookup
 
@@ -34,9 +35,21 @@ _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\
 """A name with a bracket that nothing opens: x), θ)."""
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
+_ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
 _COORDINATE = re.compile(r"\s*\(\s*([^\W\d]\w{0,12})\s*\)[.:]?\s+(?=[^\s*/^=+])")
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
+_NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
+_QUANTITY = rf"(?:[∂d][²2]?\s?/\s?(?:[∂d]\w{{1,12}}[²2]?|\([∂d]\w{{1,12}}\))|{_NAMED})"
+_OF_QUANTITY = re.compile(rf"\s*+[(\[]?{_QUANTITY}[)\]]?\s*+:(?!=)")
+"""A quantity alone: T*: …, θ'': …, ∂/∂x: …"""
+_HEAD = re.compile(r"\s*+(?P<said>[^\W\d_](?:[^=:()]|\([^=:()]*+(?:\([^=:()]*+\)[^=:()]*+)*+\)){2,100}?):(?![=\w])")
+_IN_BRACKETS = re.compile(r"\([^()]*+(?:\([^()]*+\)[^()]*+)*+\)")
+_SPOKEN_SIGNS = re.compile(r"[\w\s.,#'’&+/*-]*")
+_DIRECTION = "eqn?|equation|gl|gln|gleichung|dir|direction|axis|richtung|achse|coordinate|komponente|component"
+_OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{_DIRECTION})\b\.?[ \t]++(?=[^\s=+*/^-])", re.IGNORECASE)
+_FAR = re.compile(r"\s*+(?P<said>[^\W\d_][\w.#’-]{1,24}(?:[ ][\w.#’-]{1,24}){0,3}+)(?:[ \t]{2,}|\t)(?=[^\s=+*/^])")
+"""Words or a word with a number, far from the equation behind them: load1  m1*x1'' = …"""
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
 _TRAIL = re.compile(rf"(?<=[\w\u0307\u0308)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
 _LEADERS = r"\s*+(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]{0,300}+"
@@ -91,11 +104,45 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
             labelled = form is _NUMBERED and numbers.named and (match := _COORDINATE.match(line) or match) is not None
+            if form is _LABEL and (match is None or match.group().count("(") != match.group().count(")")):
+                match = _label(line, words)
             if match is not None and (labelled or not _is_factor(match, words)):
                 line = blank(line, 0, match.end())
         if line == above:
             break
     return line
+
+
+def _label(line: str, words: Words) -> re.Match[str] | None:
+    """What only says of which quantity or part an equation is: T*: …, weight + springs: …, theta-eq  …, load1  …"""
+    if (match := _OF_QUANTITY.match(line) or _OF_NAME.match(line)) is not None:
+        return match
+    head, far = _HEAD.match(line), _FAR.match(line)
+    if (
+        head is not None
+        and _SPOKEN_SIGNS.fullmatch(bare := _IN_BRACKETS.sub(" ", head["said"]))
+        and _told(bare, words, sure=True)
+    ):
+        return head
+    return far if far is not None and "=" in line and _told(far["said"], words, sure=False) else None
+
+
+def _told(said: str, words: Words, *, sure: bool) -> bool:
+    """Whether a text consists of words and of energies' letters, and of no names; unless it is ``sure`` that it is a
+    label, of no products of names either."""
+    listed = re.findall(r"[^\W\d_]+\d?", said)
+    if any(x.lower() in CHANGING for x in listed):
+        return False
+    spoken = [
+        len(x.rstrip("0123456789")) > 2 and not words.readable(x) and (sure or not words.is_product(x)) for x in listed
+    ]
+    fitting = (a or x in _ENERGIES or x.lower() in LINKING for a, x in zip(spoken, listed, strict=True))
+    return any(spoken) and all(fitting) and not any(map(words.is_name, listed))
+
+
+def is_label(head: str, words: Words, numbers: Numbering) -> bool:
+    """Whether a text that ends with a colon only marks the statement behind it."""
+    return not before(f"{head} x = 0", words, numbers)[: len(head)].strip()
 
 
 def is_mark(text: str) -> bool:

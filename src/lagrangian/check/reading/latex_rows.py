@@ -82,6 +82,25 @@ def latex_rows(text: str) -> list[AnswerRow]:
     return rows
 
 
+def beside_mathematics(text: str) -> str:
+    """Return a text with mathematics between delimiters in which only those lines are left that contain neither
+    mathematics nor commands; everything else is blank."""
+    text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
+    kept: list[str] = []
+    at = 0  # up to which the text is kept or blank
+    for start, inside in _mathematics(text):
+        if start + len(inside) < at:
+            continue
+        first, last = text.rfind("\n", at, start) + 1, text.find("\n", start + len(inside))
+        last = last if last >= 0 else len(text)
+        kept += [text[at : max(at, first)], re.sub(r"[^\n]", " ", text[max(at, first) : last])]
+        at = last
+    if not at:
+        return ""
+    lines = "".join([*kept, text[at:]]).split("\n")
+    return "\n".join(" " * len(line) if "\\" in line or "$" in line else line for line in lines)
+
+
 def _mathematics(text: str) -> Iterator[tuple[int, str]]:
     """The pieces of mathematics between delimiters, with the place where each begins."""
     at, missing = 0, set[str]()

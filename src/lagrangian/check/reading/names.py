@@ -206,6 +206,8 @@ class Names:
         names, _ = self.scope.meanings(stem)
         if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
             return names[0], self.scope[names[0]]
+        if key(stem) not in self.own and key(stem) in self._moving:
+            self.later(key(stem))  # bdd = beta'', bd = beta'
         if (mine := self.mine(key(stem))) is not None:
             return mine
         if not names and key(stem) in self._seen and key(stem) in self._moving:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.words import Words, function_of
@@ -18,14 +19,34 @@ _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
+_EQUAL = re.compile(r"=(?![=>])")
+_BEHIND = re.compile(r"[ \t]*(?:[.,;:!)]|\n|\Z)")
+"""What stands behind a bracket that is no factor."""
 _ONE = rf"{_LETTER}+(?:['’-]{_LETTER}+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
+_NAMED = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞](?>[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*)['’′″]{0,3}(?:\^2|²)?"
+_DEFINES = re.compile(
+    rf"\s*+(?P<words>(?:(?:[^\W_]|(?<=\w)[’'-](?=\w)){{1,20}}+[.,]?[ \t]++(?!=)){{1,16}}+)(?P<name>{_NAMED})"
+    r"\s*+=(?![=>])"
+)
+"""A name that is given a value behind words alone."""
+_ARTICLES = frozenset(["I", "a"])
+"""Letters that are words between words."""
+CHANGING = frozenset(
+    ["twice", "half", "double", "triple", "minus", "negative", "times", "halb", "halbe", "doppelt", "doppelte", "mal"]
+)
+"""Words that change the value of what stands behind them, and are not left out in silence."""
 _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
 """What a definition means: ψ = θ − β : angle between pendulum and normal."""
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
+_SIGNS = re.compile(r"[-=+*/^()\[\]{}'’′″²³·×−\u0307\u0308\u20db]")
+_LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
+_PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
+_RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
+_OPENS = re.compile(r"[(\[]")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
 _LISTED = (
     "the is are of for we with that this these as get gets gives obtain find finds have has so and then "
@@ -58,11 +79,18 @@ def stated_remarks(text: str) -> str:
             opened.clear()
         elif opened and mark == ")":
             start = opened.pop()
-            if not opened and _INSIDE.search(text, start, at) and (start == 0 or text[start - 1].isspace()):
+            if not opened and (start == 0 or text[start - 1].isspace()) and _states(text, start, at):
                 letters[start] = letters[at] = ";"
                 if text[at + 1 : at + 2] == ":":  # drum (psi = phi/n): J psi'' = …
                     letters[at + 1] = " "
     return "".join(letters)
+
+
+def _states(text: str, start: int, end: int) -> bool:
+    """Whether a bracket says something: it has an equals sign, and is neither a factor nor a side."""
+    if _INSIDE.search(text, start, end):
+        return True
+    return _EQUAL.search(text, start, end) is not None and _BEHIND.match(text, end + 1) is not None
 
 
 def without_remarks(text: str, words: Words) -> str:
@@ -79,6 +107,8 @@ def without_remarks(text: str, words: Words) -> str:
 def without_lead(text: str, words: Words) -> str:
     """Return a statement without the words in front of it: absolute displacements x1 = w1 + s."""
     match = _LEADING.match(text)
+    if (said := _DEFINES.match(text)) is not None and _introduces(said, words):
+        return blank(text, 0, said.start("name"))
     if match is None:
         return text
     stated = "=" in text
@@ -86,9 +116,29 @@ def without_lead(text: str, words: Words) -> str:
     for word in re.finditer(r"\S+\s+", match[1]):
         written = word.group().strip(" \t,:.")
         first = stated and end == match.start(1) + word.start()
-        if _links(written, words) or (first and _is_word(written, words)):
+        said = first and written == "I" and _spoken(match[1][word.end() :].split(maxsplit=1)[:1], words)
+        if _links(written, words) or said or (first and _is_word(written, words)):
             end = match.start(1) + word.end()
-    return blank(text, 0, end) if end > match.start(1) else text
+    changed = stated and any(x.strip(",:.").lower() in CHANGING for x in text[:end].split())
+    return blank(text, 0, end) if end > match.start(1) and not changed else text
+
+
+def _spoken(listed: Sequence[str], words: Words) -> bool:
+    """Whether what stands behind I is a word: I used …"""
+    return any(_is_word(x.strip(",:."), words) or _links(x, words) for x in listed)
+
+
+def _introduces(said: re.Match[str], words: Words) -> bool:
+    """Whether what stands in front of a name that is given a value is a sentence: I prefer the distance X = a + x."""
+    name = said["name"].rstrip("'’′″²^2")
+    if _is_word(name, words) and words.count(name) == 1:
+        return False  # one side consists of words
+    listed = [x.strip(".,") for x in said["words"].split()]
+    if any(x.lower() in CHANGING for x in listed):
+        return False
+    plain = [x.isdigit() or _links(x, words) or _is_word(x, words) for x in listed]
+    between = [x in _ARTICLES and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(listed)]
+    return any(_is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
 
 
 def without_tail(text: str, words: Words, *, led: bool = False) -> str:
@@ -103,13 +153,26 @@ def without_tail(text: str, words: Words, *, led: bool = False) -> str:
     end, count, linked = len(text), 0, False
     while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
         links = _links(match[1], words)
-        if not links and not _is_word(match[1], words):
+        if (
+            not links
+            and not _is_word(match[1], words)
+            and not _is_letter(text[:end], match[1], words, inside=count > 0)
+        ):
             break
         end, count, linked = match.start(1), count + 1, linked or links
     apart = count == 1 and text[max(0, end - 2) : end].isspace()  # D = …   Rayleigh
     if count < (1 if linked or apart or led else 2) or not _ENDS.search(text[:end]):
         return text
     return blank(text, end, len(text))
+
+
+def _is_letter(text: str, last: str, words: Words, *, inside: bool) -> bool:
+    """Whether the letter that ends a text is no name: a point behind a word, about A, or an article between words."""
+    point = len(last) == 1 and last.isupper() and not words.known(last)
+    if not point and not (inside and last in _ARTICLES):
+        return False
+    found = _LAST.search(text[-80:].rstrip(" .,;:!")[: -len(last)])
+    return found is not None and (_links(found[1], words) or _is_word(found[1], words))
 
 
 def _explains(said: str, words: Words) -> bool:
@@ -129,7 +192,43 @@ def is_prose(text: str, words: Words) -> bool:
         return False
     if _NUMBER_ALONE.match(text) or _SINGLE.match(text) or _TITLE.match(text):
         return True
-    return any(_is_word(x, words) for x in _WORD.findall(text)) or not any(map(words.known, _IDENTIFIER.findall(text)))
+    named = [m.group() for m in _WORD.finditer(text) if not _OPENS.match(text, m.end())]
+    return any(_is_word(x, words) for x in named) or not any(map(words.known, _IDENTIFIER.findall(text)))
+
+
+def is_level(text: str, own: str, words: Words) -> bool:
+    """Whether a statement with words behind it only says where something is counted from, which a note tells: V = 0 at
+    the pivot, θ = 0 is downwards."""
+    match = _LEVEL.fullmatch(text)
+    if match is None or _PLACED.search(own) is None:
+        return False
+    moving = words.names.changes(match["name"])
+    if moving or match["name"].rstrip("*") in ("V", "U", "Epot", "E_pot", "Ep", "E_p"):
+        words.names.notes.setdefault(f"'{' '.join(own.split())}' was not judged: it says where {match['name']} is 0.")
+        return True
+    return False
+
+
+def moves(text: str) -> bool:
+    """Whether a rate or an acceleration stands in a text."""
+    return _RATE.search(text) is not None
+
+
+def is_statement(text: str, words: Words) -> bool:
+    """Whether a row has two sides, which consist of names and numbers."""
+    named = _IDENTIFIER.findall(text)
+    both = all(side.strip() for side in text.split("=")) and "=" in text
+    return both and bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
+
+
+def says_nothing(text: str, words: Words) -> bool:
+    """Whether a part of a line consists of words; a note tells one with names or numbers: multiplier lambda."""
+    listed = _WORD.findall(text)
+    if _SIGNS.search(text) or not any(_is_word(x, words) for x in listed):
+        return False
+    if re.search(r"\d", text) or any(map(words.is_name, listed)):
+        words.names.notes.setdefault(f"'{' '.join(text.split())}' was not judged: it has no equals sign.")
+    return True
 
 
 def has_words(text: str, words: Words) -> bool:

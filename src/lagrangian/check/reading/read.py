@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer
@@ -13,7 +13,7 @@ from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
-from lagrangian.check.reading.latex_rows import latex_rows
+from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
 from lagrangian.check.reading.listed_values import without_values
@@ -23,8 +23,8 @@ from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.programs import without_programs
-from lagrangian.check.reading.prose import LINKING, has_words, in_words
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
@@ -72,16 +72,31 @@ LIKELIEST = Choices()
 """The reading that is tried first."""
 
 
-def parse_answer(text: str, model: Model, *, name: str | None = None, reading: Choices = LIKELIEST) -> Answer:
+def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """Return the content of an answer to ``model``, line by line.
 
     ``text`` is LaTeX, or plain text in the grammar of model files; ``name`` is the name of its file, for messages.
     Names that the model does not have are listed in ``unknown`` of the answer; they are not errors. Nothing in the text
-    is executed; sizes, depths and exponents are bounded. Raises `ParseError` with line, column, caret and what was
-    expected there; if several statements cannot be read, the error lists all of them.
+    is executed; sizes, depths and exponents are bounded. If it cannot be read as it is most likely meant, it is read in
+    another way that is possible. Raises `ParseError` with line, column, caret and what was expected there; if several
+    statements cannot be read, the error lists all of them.
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
+    others: list[Choices] = []
+    try:
+        return _answer(text, model, place, LIKELIEST, others)
+    except ParseError as error:
+        for reading in others if error.code != "E703" else ():
+            try:
+                return _answer(text, model, place, reading, [])
+            except ParseError:
+                continue
+        raise
+
+
+def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
+    """The answer in one reading; those that are less likely are added to ``others``."""
     given = text
     lines = Lines(model)
     typed = Source(plainer(text), "the answer", place)
@@ -100,8 +115,11 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows = plain_rows(text, words) if written is None else latex_rows(written.text)
+    outside: list[AnswerRow] = []
     if written is not None:
         rows = [row for row in (without_sums(x, lines.names) for x in rows) if row.text.strip()] or rows[:1]
+        outside = _beside(written, words)
+        rows = sorted([*rows, *outside], key=lambda row: row.start)
     if not rows:
         raise source.error(
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
@@ -111,19 +129,19 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
         at = rows[MAX_STATEMENTS].start
         at = at if written is None else written.origin(at)
         raise source.error(what, at, fix="give the answer in several parts", code="E703")
-    parser: Callable[[Source], Parser] = partial(PlainParser, words=words)
-    if latex:
-        parser = partial(LatexParser, names=lines.names)
-    statements, errors, aside = _parsed(source, rows, parser, written, words, lines)
-    made = lines.read(statements, errors)
+    in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
+    in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
+    parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
+    statements, errors, aside = _parsed(source, parsers, written, words, lines)
     less_likely = [
         (Choices(units=True), words.doubtful),
         (Choices(summed=True), words.summed_asked),
         (Choices(flipped=True), words.asked),
         (Choices(listed=not listed), choice),
     ]
-    others = [x for x, asked in less_likely if asked]
-    again = [partial(parse_answer, given, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
+    others += [x for x, asked in less_likely if asked and reading == LIKELIEST]
+    again = [partial(_answer, given, model, place, x, []) for x in others]
+    made = lines.read(statements, errors)
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes)
     notation = "latex" if latex else "text"
     return Answer(made, notation, tuple(lines.names.unknown.values()), notes, tuple(again))
@@ -142,6 +160,14 @@ def _value(lines: Lines, written: str) -> float | None:
     names, _ = lines.names.scope.meanings(written)
     found = [p for p in lines.model.parameters if p.name in names]
     return None if len(found) != 1 else float("nan") if found[0].value is None else float(found[0].value)
+
+
+def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
+    """The statements in plain text on lines of their own beside LaTeX's mathematics: M = m_1 + m_2."""
+    text = beside_mathematics(written.text)
+    if "=" not in text:
+        return []
+    return [row for row in plain_rows(text, words) if is_statement(row.text, words)]
 
 
 def _chosen(reading: Choices) -> Iterator[str]:
@@ -170,8 +196,7 @@ def _words(lines: Lines, text: str) -> Words:
 
 def _parsed(
     source: Source,
-    rows: Sequence[AnswerRow],
-    parser: Callable[[Source], Parser],
+    rows: Sequence[tuple[AnswerRow, Callable[[Source], Parser]]],
     latex: ExpandedLatex | None,
     words_of: Words,
     lines: Lines,
@@ -181,12 +206,12 @@ def _parsed(
     found: list[Statement] = []
     errors: list[ParseError] = []
     words: list[ParseError] = []
-    for row in rows:
+    for row, parser in rows:
         start = row.start + len(row.text) - len(row.text.lstrip())
         written = row.text.strip() if latex is not None else with_points(row.text.strip())
         own = Source(written, source.what, source.place, partial(_place, source, latex, start))
         try:
-            found.append(Statement(tuple(parser(own).sides()), own))
+            found.append(_statement(own, parser, lines))
         except ParseError as error:
             whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
             stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
@@ -196,6 +221,22 @@ def _parsed(
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MAX_ERRORS]]
     return found, errors if found or errors else words[:1], notes
+
+
+def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:
+    """The statement of a row; a bracket that is missing at its end alone is closed there, which a note tells."""
+    try:
+        return Statement(tuple(parser(own).sides()), own)
+    except ParseError as error:
+        if error.code == "E703" or len(end := missing_brackets(own.text)) != 1 or end == "?" or "=" not in own.text:
+            raise
+        try:
+            sides = tuple(parser(replace(own, text=own.text + end)).sides())
+        except ParseError:
+            raise error from None
+        at = error.place.line if error.place is not None and error.place.line else 1
+        lines.names.notes.setdefault(f"Line {at} lacks a bracket, which was closed at its end.")
+        return Statement(sides, own)
 
 
 def _is_vector(row: str, lines: Lines) -> bool:

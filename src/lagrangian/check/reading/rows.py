@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
-from lagrangian.check.reading.labels import before, behind, is_mark, numbering
+from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose import (
     LINKING,
+    is_level,
     is_prose,
+    moves,
+    says_nothing,
     stated_remarks,
     without_lead,
     without_remarks,
@@ -32,6 +37,10 @@ class AnswerRow:
     text: str
 
 
+LONGEST_LABEL = 140
+"""The most characters of a label in front of an equation, with its number."""
+
+_CLOSED = {"(": ")", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
@@ -52,9 +61,13 @@ _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
+_RATES = re.compile(
+    r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
+)
+"""A rate behind its name, where the name of another follows: xd = x' xdd = x''."""
 _NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\w{0,8}['′*]?[ \t]*=(?!=))"
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
-_STOP = r"(?P<stop>(?<=[\w)\]'’′″²³])\.(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2}))"
+_STOP = r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2})"
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
@@ -63,8 +76,10 @@ _BETWEEN = re.compile(
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_remarks(stated_remarks(text), words)
+    text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
-    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text)
+    labelled = partial(is_label, words=words, numbers=numbers)
+    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled)
     text = "\n".join(
         opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in text.split("\n")
     )
@@ -86,18 +101,24 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             open_row = AnswerRow(offset, behind(stripped, words, numbers))
             rows.append(open_row)
         offset += len(line)
-    split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
+    split = [
+        piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",", words=words)
+    ]
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
     found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
     if len(found) > 1:
-        found = [row for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
-    stated = [row for row in found if not is_prose(row.text, words)]
+        told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
+        found, split = [row for row, _ in told], [own for _, own in told]
+    levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
+    stated = [row for row, level in zip(found, levels, strict=True) if not level and not is_prose(row.text, words)]
     return stated or found[:1]
 
 
 def _bare(text: str, words: Words) -> str:
     """A statement without the words in front of it and behind it."""
     bare = without_lead(text, words)
+    if "=" not in text and bare != text and not moves(bare):
+        return text  # I divided the second by m*l^2
     return without_tail(bare, words, led=bare != text and "=" in text)
 
 
@@ -109,8 +130,11 @@ def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:
     return empty
 
 
-def _separated(text: str) -> str:
-    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d."""
+def _separated(text: str, labelled: Callable[[str], bool]) -> str:
+    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d.
+
+    ``labelled`` says whether what stands before a colon is a label.
+    """
     depth = 0
     letters = list(text)
     for match in _BETWEEN.finditer(text):
@@ -124,11 +148,12 @@ def _separated(text: str) -> str:
         elif depth <= 0 and match["arrow"] and is_mark(text[text.rfind("\n", 0, match.start()) + 1 : match.start()]):
             continue
         elif depth <= 0 and match["colon"]:
-            if _states(text, match.start()):
+            head = text[text.rfind("\n", 0, match.start()) + 1 : match.start() + 1]
+            if _states(text, match.start()) and not (len(head) < LONGEST_LABEL and labelled(head)):
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
             if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
-                letters[match.start()] = ";"
+                letters[match.start("stop")] = ";"
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
@@ -161,11 +186,32 @@ def _remark(part: str) -> bool:
 
 
 def _continues(above: str, line: str) -> bool:
+    if _ends_open(above, line):
+        return False
     if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
         return True
     if not _MINUS_START.match(line):
         return False
     return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+
+
+def _ends_open(above: str, line: str) -> bool:
+    """Whether an equation only lacks a bracket at its end, because the next line is another equation."""
+    if "=" not in above or "=" not in line or _OPEN_END.search(above) or _OPEN_START.match(line):
+        return False
+    return len(missing_brackets(above)) == 1 and not missing_brackets(line)
+
+
+def missing_brackets(text: str) -> str:
+    """The brackets that are missing at the end of a statement, or "?" for one that is closed wrongly or nowhere on its
+    side."""
+    stack: list[str] = []
+    for c in text:
+        if c in _CLOSED:
+            stack.append(_CLOSED[c])
+        elif (c in ")]" and (not stack or stack.pop() != c)) or (c == "=" and stack):
+            return "?"
+    return "".join(reversed(stack))
 
 
 def incomplete(text: str) -> bool:
@@ -202,17 +248,19 @@ def _stated(part: str) -> bool:
     return "=" in part or bool(re.match(r"\s*Eq\w*\s*[(\[]", part))
 
 
-def pieces(row: AnswerRow, separators: str, *, always: bool = False) -> list[AnswerRow]:
-    """Split a row at separators outside brackets; unless ``always``, only if every piece contains an =."""
+def pieces(row: AnswerRow, separators: str, *, always: bool = False, words: Words | None = None) -> list[AnswerRow]:
+    """Split a row at separators outside brackets; unless ``always``, only if every piece contains an = or, with the
+    ``words`` of the answer, consists of words."""
     cuts, depth = [-1], 0
     for i, c in enumerate(row.text):
         depth += (c in "([{") - (c in ")]}")
-        if depth == 0 and c in separators:
+        if depth == 0 and c in separators and not (row.text[i + 1 : i + 2].isdigit() and row.text[i - 1].isdigit()):
             cuts.append(i)
     cuts.append(len(row.text))
     parts = [(a + 1, row.text[a + 1 : b]) for a, b in pairwise(cuts)]
     if any(_stated(part) for _, part in parts):
-        parts = [(at, part) for at, part in parts if not _remark(part)]
+        said = partial(says_nothing, words=words) if words is not None else _remark
+        parts = [(at, part) for at, part in parts if not _remark(part) and not said(part)]
     if (
         len(parts) > 1
         and not always

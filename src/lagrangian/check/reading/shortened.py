@@ -1,4 +1,4 @@
-"""Names of Greek letters that are written out, as a letter, or shortened: ε = epsilon = eps, θ₁ = theta1 = th1."""
+"""Names of Greek letters that are written out, as a letter, or shortened: ε = epsilon = eps, θ₁ = th1, ℓ = l = ell."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ _SHORT = {
 """How people shorten the names of Greek letters."""
 
 _WHOLE = {short: word for word, listed in _SHORT.items() for short in listed} | {word: word for word in GREEK.values()}
+_WHOLE |= {"l": "ell", "ell": "ell"}
 _INDEXED = re.compile(r"([A-Za-z]+)(\d*)")
 
 
@@ -30,7 +31,8 @@ class AnswerScope(Scope):
     """The names of a system, which an answer may shorten.
 
     A shortened name is read if one name of the system alone can be meant, and if the answer does not define it:
-    ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``.
+    ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``. ℓ, which is the
+    letter l to Unicode, is ``ell`` where the system has no l.
     """
 
     def __init__(self, symbols: Scope) -> None:
@@ -54,7 +56,7 @@ class AnswerScope(Scope):
         if letter is None or key(base) in self.taken or self._is_product(key(base)):
             return []
         same = self._letters.get(letter, [])
-        if same or letter[1] not in ("", "0"):
+        if same or letter[1] not in ("", "0") or letter[0] == "ell":
             return same if len(same) == 1 else []
         near = self._letters.get((letter[0], "" if letter[1] else "0"), [])
         return near if len(near) == 1 else []

@@ -9,6 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cache
+from unicodedata import normalize
 
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.splits import LONGEST, splits
@@ -16,7 +17,7 @@ from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
 from lagrangian.read.functions import ALIASES
-from lagrangian.read.letters import SPELLED, key, undotted
+from lagrangian.read.letters import DOTS, SPELLED, key, undotted
 
 RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
 """Functions of answers that are 1 over another."""
@@ -44,6 +45,10 @@ _WHOLE = frozenset(
     ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot"]
 )
 _NUMBER = re.compile(r"\d+")
+_GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
+"""A Greek letter, which is no word with the Latin letters beside it."""
+_INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
+"""A letter with an index, which is a name and no word: N_r; e_r is a unit vector."""
 
 
 def function_of(word: str) -> str | None:
@@ -55,6 +60,11 @@ def function_of(word: str) -> str | None:
         if other in FUNCTIONS or other in RECIPROCALS:
             return other
     return None
+
+
+def _is_moving_product(word: str) -> bool:
+    """Whether dots stand in the middle of a word, so that it is no name but a product: m₁ẍ₁."""
+    return bool(DOTS.keys() & set(normalize("NFD", undotted(word)[0])))
 
 
 _SPELLED = frozenset(SPELLED.values())
@@ -70,7 +80,7 @@ class Words:
     def __init__(self, names: Names, own: Iterable[str], alone: Iterable[str], used: Iterable[str]) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
-        self._own = {key(x) for x in own if function_of(x) is None}
+        self._own = {key(x) for x in own if function_of(x) is None and not _is_moving_product(x)}
         self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
         self._split: dict[str, str] = {}
@@ -90,19 +100,19 @@ class Words:
 
     def known(self, word: str) -> bool:
         """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
-        if self.names.known(word) or key(word) in self._own:
+        if self.names.known(word) or key(undotted(word)[0]) in self._own:
             return True
         return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
 
     def is_name(self, word: str) -> bool:
         """Whether the system or the answer has this name; energies do not count."""
-        return bool(self.names.scope.meanings(word)[0]) or key(word) in self._own
+        return bool(self.names.scope.meanings(word)[0]) or key(undotted(word)[0]) in self._own
 
     def readable(self, word: str) -> bool:
         """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
         be a spelled Greek one."""
-        bare = re.sub(r"[\W\d_]", "", word)
-        if word in ("dot", "ddot"):
+        bare = re.sub(r"[\W\d_]", "", undotted(word)[0])
+        if word in ("dot", "ddot") or _INDEXED.fullmatch(word):
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
@@ -173,6 +183,8 @@ class Words:
             return True
         if not extra or part in ("t", "pi"):
             return extra
+        if _GREEK_LETTER.fullmatch(part):
+            return True  # 2λx
         return key(part) in self._alone and key(part) != key(word) and not self.is_product(part)
 
     def notes(self) -> Iterator[str]:
