@@ -62,7 +62,7 @@ FIRST: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a parameter of a sweep": (lambda k: k["s"].sweep(1, m=[1, 2]), "params={'m': …}"),
     "a point's name for a point": (lambda k: k["s"].point("A", k["s"]["P"]), "relative_to=P"),
     "a file's name for its text": (lambda k: lg.loads("arm.toml"), "load('arm.toml')"),
-    "a typed expression": (lambda k: k["run"]["x + thet"], "[E402] what is asked of the run, column 5: unknown"),
+    "a typed expression": (lambda k: k["run"]["x + thet"], "[E402] quantity asked of the run, column 5: unknown"),
     "a typed value": (lambda k: k["s"].simulate("10 ss"), "[E408] duration, column 4: unknown unit"),
     "a typed answer": (lambda k: k["d"].check("V = 0\nT = )"), "[E701] the answer, line 2, column 5: this ')' has no"),
     "constraint in a file": (

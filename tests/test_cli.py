@@ -94,7 +94,12 @@ def test_verify_says_ok_line_by_line(capsys: pytest.CaptureFixture[str], cart: s
 
 MISTAKES = {
     "no such file": (["derive", "nowhere.toml"], ["nowhere.toml"]),
+    "an example without its option": (["derive", "pendulum"], ["no such file", "--example pendulum"]),
     "a folder": (["derive", "."], ["."]),
+    "a sheet's file for its folder": (
+        ["worksheet", "-e", "pendulum", "-o", "a.html"],
+        ["folder of the sheets", "a.html"],
+    ),
     "neither file nor example": (["derive"], ["--example"]),
     "no such example": (["new", "lecture1"], ["lecture1", "Did you mean 'lecture-1'"]),
     "no such format": (["derive", "x.toml", "--format", "pdf"], ["pdf"]),

@@ -88,7 +88,7 @@ def _misfit(
         return CallError(
             f"{called} takes {len(positional)} argument{'s' if len(positional) != 1 else ''} by position "
             f"(got {len(given) - 1})",
-            fix=f"{usage}; what stands behind * is given by name",
+            fix=f"{usage}; give what follows * by name",
             code="E501",
         )
     passed = {p.name for p in positional[: len(given) - 1]} | set(named)

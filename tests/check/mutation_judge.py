@@ -13,18 +13,18 @@ from mutations import Mutation, Mutator
 
 UNDONE = {
     r"^ (is|are) missing": 1,
-    r"^ (is|are) too much": -1,
+    r"^ (is|are) too much|^ does not belong there": -1,
     r"^ counts? twice": -1,
     r"^ counts? half": sp.S.Half,
 }
 """What is said of a term of the right equation, and how much of it brings a wrong row back to the right one."""
 
 AGAINST = {
-    "drop": r"wrong sign|twice|too much",
+    "drop": r"wrong sign|twice|too much|not belong",
     "sign": r"twice|half",
     "double": r"left out|wrong sign|half",
-    "half": r"wrong sign|(?<!½ counts )twice|too much",
-    "not squared": r"wrong sign|too much|twice",
+    "half": r"wrong sign|(?<!½ counts )twice|too much|not belong",
+    "not squared": r"wrong sign|too much|not belong|twice",
     "squared": r"wrong sign|twice",
 }
 """What would be false to say after an operation, if nothing more can be computed from the words."""
@@ -111,7 +111,8 @@ def _corrections(mutator: Mutator, parts: list[Any]) -> Iterator[sp.Expr]:
     words = "".join(x if isinstance(x, str) else "§" for x in rest)
     named = [x for x in rest if not isinstance(x, str)]
     others = [x for x in named if x not in mutator.q] or named  # a factor may be a coordinate
-    words = re.sub(r"^ of (the equation of §|[^.,]*?)(?= (is|are|has|have|counts?|stands?|should|there) )", "", words)
+    verbs = "is|are|has|have|counts?|stands?|should|there|does"
+    words = re.sub(rf"^ of (the equation of §|[^.,]*?)(?= ({verbs}) )", "", words)
     for pattern, number in UNDONE.items():
         if re.search(pattern, words):
             yield number * t

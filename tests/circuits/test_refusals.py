@@ -72,7 +72,7 @@ def test_charges_without_a_coil_are_told_by_every_verb() -> None:
     s.resistor(1, q)
     s.capacitor(1, q)
     for verb in (s.derive, s.compile, s.linearize, s.equilibria, lambda: s.simulate(1)):
-        with pytest.raises(lg.Error, match="no inductance is in the circuit of charge 'q'") as found:
+        with pytest.raises(lg.Error, match="the circuit of charge 'q' has no inductance") as found:
             verb()
         assert found.value.code == "E201" and "add an inductor that 'q' flows through" in str(found.value)
     bare = lg.System("RC")

@@ -67,7 +67,8 @@ def test_a_rolling_disc_is_nonholonomic_by_two() -> None:
     assert "2. Eliminate: the rows are linear in the 4 rates. Solved for 2 of them they leave 2 free" in words
     assert "The rows must not be put into ℒ before it is differentiated" in words
     assert (
-        "3. Use the rows as they are: all 4 coordinates stay" in words and "2 unknowns more, and 2 equations" in words
+        "3. Use the rows as they are: all 4 coordinates stay" in words
+        and "2 more unknowns and 2 more equations" in words
     )
     assert derivation.constraints is not None
     assert derivation.constraints.verdict == "nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)"

@@ -202,7 +202,7 @@ def test_energies_alone_have_no_masses() -> None:
     d = s.derive()
     with pytest.raises(lg.ModelError, match="no F = ma"):
         _ = d.why
-    assert d.reasoning is None and "more with --why" not in d.to_text()
+    assert d.reasoning is None and "--why shows the reason" not in d.to_text()
 
 
 def test_a_motor_in_space_turns_one_body_and_pushes_back_on_the_other() -> None:
@@ -244,5 +244,5 @@ def test_every_step_leads_to_the_page() -> None:
         step = html.split(f'id="step-{number}"')[1].split("</section>")[0]
         anchor = step.split('class="see"><a href="#')[1].split('"')[0]
         assert f'id="{anchor}"' in html
-    assert d.to_text().count("more with --why") == 7
+    assert d.to_text().count("--why shows the reason") == 7
     assert "--why" not in d.to_text(brief=True)

@@ -48,7 +48,7 @@ def test_rows_on_velocities_hold_forces_in_families() -> None:
     assert [e["theta"] for e in found] == pytest.approx([-np.pi / 2, np.pi / 2])
     assert [e.multipliers["edge"] for e in found] == pytest.approx([-3.0, 3.0])
     assert {name for direction in found.free for name in direction} == {"x", "y"}
-    assert any("rests form families" in note for note in found.notes)
+    assert any("equilibria form families" in note for note in found.notes)
     rolling = disc()[0].equilibria()
     assert [e["theta"] for e in rolling] == pytest.approx([0.0, np.pi])
     assert {name for direction in rolling.free for name in direction} == {"x", "y", "psi", "phi"}
@@ -74,4 +74,4 @@ def test_where_nothing_balances_it_is_said() -> None:
     s.gravity((0, -1))
     s.constraint(y - x / 2, name="slope")
     found = s.equilibria()
-    assert not found and "no rest in the box that satisfies the constraints" in found.notes[-1]
+    assert not found and "no equilibrium in the box that satisfies the constraints" in found.notes[-1]

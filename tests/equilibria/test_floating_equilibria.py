@@ -66,7 +66,7 @@ def test_a_plate_on_springs_rests_level_and_turned_over_about_each_axis() -> Non
 def test_a_body_that_falls_has_no_equilibrium() -> None:
     found = hovering(thrust=1.0).equilibria(starts=64)
     assert len(found) == 0
-    assert any("no rest" in note for note in found.notes)
+    assert any("no equilibrium" in note for note in found.notes)
 
 
 def test_floating_frames_under_constraints_are_refused() -> None:

@@ -37,7 +37,8 @@ def body(inertia: object, mass: object = 1) -> lg.System:
 
 
 CASES = {
-    "duplicate coordinate": (lambda b: b.s.coordinates("x"), ["'x' is defined twice", "coordinate"]),
+    "duplicate coordinate": (lambda b: b.s.coordinates("x"), ["coordinate 'x' is defined twice"]),
+    "input named as a coordinate": (lambda b: b.s.input("x"), ["as a coordinate and as an input"]),
     "parameter named as a coordinate": (lambda b: b.s.parameters("x"), ["'x' is defined twice", "parameter"]),
     "reserved t": (lambda b: b.s.parameters("t"), ["'t' is reserved", "time"]),
     "reserved pi": (lambda b: b.s.parameters("pi"), ["'pi' is reserved", "3.14"]),

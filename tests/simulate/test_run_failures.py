@@ -97,7 +97,7 @@ def test_rates_that_together_move_no_mass_are_named_with_their_ratio() -> None:
         s.linearize()
     assert refused.value.code == "E203" and "division" not in str(refused.value)
     text = " ".join(str(s.equilibria()).split())
-    assert "moving α and θ together, 1 : -1.667, moves no mass" in text and "no other rest in the box" in text
+    assert "moving α and θ together, 1 : -1.667, moves no mass" in text and "no other equilibrium in the box" in text
     still = s.simulate(0.1)
     assert upright in str(still.notices[0]) and not s.simulate(0.1, theta=1.0).notices
     run = s.simulate(1.0, theta=1.0)

@@ -26,9 +26,9 @@ HESSIAN = "the compiled M is the Hessian of T* in the rates"
 PYTHON, C = "the exported Python gives the same numbers", "the exported C gives the same numbers"
 JAVASCRIPT = "the exported JavaScript gives the same numbers"
 SLOPES = "the linearization's A and B equal difference quotients of these rates"
-DERIVED_FORWARD = "the accelerations that are compiled solve the equations"
-DERIVED_MASS = "the M that is compiled is the one above, and the Hessian of T* in the rates"
-DERIVED_ENERGIES = "the energies that are compiled are T* and V"
+DERIVED_FORWARD = "the compiled accelerations solve the equations"
+DERIVED_MASS = "the compiled M is the one above, and the Hessian of T* in the rates"
+DERIVED_ENERGIES = "the compiled energies are T* and V"
 
 
 def crane(name: str = "crane") -> lg.System:

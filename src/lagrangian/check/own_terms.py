@@ -106,7 +106,7 @@ class OwnTerm:
                 why = (f": {self.idle.title} adds nothing to this equation",)
             elif self.effort is not None and self.effort.rate is not None and self.effort.element is not None:
                 why = (f": {self.effort.element.title} feels ", self.effort.rate, " alone")
-            return "term_too_much", text("The term ", t, " is too much", *why, ".")
+            return "term_too_much", text("The term ", t, " does not belong there", *why, ".")
         number = 1 - sp.Rational(self.times.numerator, self.times.denominator)
         return "factor_of_a_term", text("The term ", t, " should be ", number * t, ".")
 

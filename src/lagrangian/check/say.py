@@ -28,6 +28,9 @@ class KindWords:
     why: str
 
 
+PLURALS = ("the terms", "the weights", "the energies", "the kinetic energy and the weight")
+"""How the words of a site begin that ask for a verb in the plural."""
+
 LETTERS = "Keep to the letters of the sketch: every element has its own length, mass, stiffness and damping."
 UNITS = "Compare the units of this term with those of its neighbours in the same equation."
 ANGLES = "Look where the angle is measured from, and try a special position, such as an angle of zero."
@@ -181,7 +184,9 @@ KINDS: Mapping[str, KindWords] = {
         "∂/∂ξ of ½kδ² is kδ·∂δ/∂ξ.",
     ),
     "share_repeated": KindWords(
-        "{Site} is too much: that share belongs to the equation of {right}.", "{Brief} is not right.", WHY_PART[6]
+        "{Site} does not belong there: that share belongs to the equation of {right}.",
+        "{Brief} is not right.",
+        WHY_PART[6],
     ),
     "share_moved": KindWords("{Site} belongs to the equation of {right}.", "{Brief} is not right.", WHY_PART[6]),
     "no_arm": KindWords("In {site}, the factor {right} is missing.", "{Brief} comes with a wrong factor.", WHY_PART[6]),
@@ -247,7 +252,7 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     where = _only(site)
     whole = _capital(site.words)
     brief = _capital(site.brief)
-    be, have, count, stand = _verbs(site)
+    be, have, count = _verbs(site)
     if times == -1:
         name = "term_forgotten" if site.single else "left_out"
         return (
@@ -265,15 +270,15 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     if number in (2, Fraction(1, 2)):
         return name, _text(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
     said = sp.Rational(number.numerator, number.denominator)
-    return name, _text(*whole, f" {stand} there ", said, " times", *where, "."), hint
+    return name, _text(*whole, f" {count} ", said, " times", *where, "."), hint
 
 
-def _verbs(site: Site) -> tuple[str, str, str, str]:
-    """is, has, counts and stands, or their plurals, as the words of a site ask for."""
+def _verbs(site: Site) -> tuple[str, str, str]:
+    """is, has and counts, or their plurals, as the words of a site ask for."""
     first = site.words[0] if site.words else ""
-    if isinstance(first, str) and first.startswith(("the terms", "the weights", "the energies")):
-        return "are", "have", "count", "stand"
-    return "is", "has", "counts", "stands"
+    if isinstance(first, str) and first.startswith(PLURALS):
+        return "are", "have", "count"
+    return "is", "has", "counts"
 
 
 def _only(site: Site) -> Words:

@@ -100,14 +100,14 @@ def _word(finding: Finding) -> str:
 def _why(verdict: Verdict) -> Iterator[Item]:
     """The mistakes or, if none was found, what is right in the wrong lines and where they differ.
 
-    Below hint level 3 a mistake is told by its kind and place, never by its terms.
+    Below hint level 3 a mistake is described by its kind and place, never by its terms.
     """
     for k, mistake in enumerate(verdict.mistakes):
         if verdict.hint >= 3:
             yield text(*(("And: ",) if k else ()), *mistake.what.parts)
         elif mistake.brief is not None:
             yield text(*(("And: ",) if k else ()), *mistake.brief.parts)
-        yield text("Why that is not so: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
+        yield text("To put it right: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
         yield text(*_where(mistake, verdict))
     if verdict.mistakes:
         first = verdict.first_wrong
@@ -123,7 +123,7 @@ def _why(verdict: Verdict) -> Iterator[Item]:
 
 
 def _repeats(mistake: Mistake, told: Mistake, row: bool) -> bool:
-    """Whether a mistake says nothing beside one that is told: of the same element, and in words that the other has too.
+    """Whether a mistake adds nothing to one that is reported: same element, and words that the other has too.
 
     Of an equation (``row``), neither does a number or a power that nobody wrote: "ẋ stands once, and belongs squared".
     """
@@ -191,7 +191,7 @@ def _said(finding: Finding, d: TermDifference) -> tuple[str | Left, ...]:
         case "missing":
             words = (where, "the term ", d.term, " is missing")
         case "extra":
-            words = (where, "the term ", d.term, " is too much")
+            words = (where, "the term ", d.term, " does not belong there")
         case "sign":
             words = (where, d.written, " has the wrong sign")
         case _:

@@ -58,12 +58,14 @@ Speed = Annotated[
         show_default=False,
     ),
 ]
-Fps = Annotated[float, typer.Option(metavar="NUMBER", help="Frames a second.", rich_help_panel=OUTPUT)]
+Fps = Annotated[float, typer.Option(metavar="NUMBER", help="Frames per second.", rich_help_panel=OUTPUT)]
 PictureWidth = Annotated[
     float | None,
     typer.Option(metavar="PIXELS", help="Width of the picture.", show_default=False, rich_help_panel=OUTPUT),
 ]
-Dark = Annotated[bool, typer.Option("--dark", help="Light on dark, in .gif, .mp4 and .webm.", rich_help_panel=OUTPUT)]
+Dark = Annotated[
+    bool, typer.Option("--dark", help="Draw light on dark; for .gif, .mp4 and .webm.", rich_help_panel=OUTPUT)
+]
 Samples = Annotated[int, typer.Option(metavar="N", help="Number of evenly spaced times at which the run is stored.")]
 
 

@@ -43,6 +43,7 @@ AnswerPath = Annotated[
 Hint = Annotated[
     int,
     typer.Option(
+        metavar="LEVEL",
         help="How much to reveal: 0 only whether it is right, 1 also the wrong line, 2 also the element and "
         "the step, 3 also the term.",
         min=0,
@@ -75,7 +76,9 @@ Roster = Annotated[
 Store = Annotated[
     Path | None, _of_class("PATH", "Keep the verdicts in this file, and judge only answers that are new or changed.")
 ]
-Processes = Annotated[int | None, _of_class("N", "Processes that judge answers; by default as many as help.", min=1)]
+Processes = Annotated[
+    int | None, _of_class("N", "Processes that judge answers; by default as many as speed it up.", min=1)
+]
 
 
 def check(

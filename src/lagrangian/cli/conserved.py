@@ -18,9 +18,10 @@ def conserved(
         list[str] | None,
         typer.Option(
             "--set",
+            "-s",
             metavar="NAME=VALUE",
-            help='The value of a parameter in the simulated run: k=80, "m1=2 kg"; one set to 0 vanishes from the '
-            "formulas too. Repeatable.",
+            help='Value of a parameter in the simulated run: k=80, "m1=2 kg"; one that is set to 0 vanishes '
+            "from the formulas too. Repeatable.",
         ),
     ] = None,
     format: FormatOption = None,
@@ -34,7 +35,7 @@ def conserved(
     \b
     Examples:
       lagrangian conserved --example spherical-pendulum
-      lagrangian conserved carts.toml --set k=80 -o kept.html
+      lagrangian conserved carts.toml --set k=80 -o conserved.html
     """
     wanted = chosen(format, json, output, force)
     found = open_system(file, example).conserved_quantities(params=assignments(values, "--set"))

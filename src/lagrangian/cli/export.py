@@ -48,7 +48,7 @@ def export(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the dynamics for other programs: source code, functions of MATLAB, runs in a browser.
+    """Write the dynamics for other programs: source code, MATLAB functions, FMUs, pages.
 
     The files run without this package.
 

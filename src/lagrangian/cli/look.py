@@ -64,7 +64,7 @@ def look(
         if not no_browser and webbrowser.open(path.as_uri()):
             say(f"opened {path}")
     for words in picture.missing:
-        say(f"not drawn: {words}")
+        say(f"note: {words}")
     if json:
         found = {"file": str(path), "description": picture.description, "missing": list(picture.missing)}
         put(as_json(found))

@@ -81,11 +81,11 @@ Method = Annotated[
     ),
 ]
 MaxEvents = Annotated[
-    int, typer.Option(metavar="N", help="Stop the run after so many events.", rich_help_panel=COMPUTING)
+    int, typer.Option(metavar="N", help="Stop the run after this many events.", rich_help_panel=COMPUTING)
 ]
 Timeout = Annotated[
     float | None,
-    typer.Option(metavar="SECONDS", help="Stop the run after so much computing time.", rich_help_panel=COMPUTING),
+    typer.Option(metavar="SECONDS", help="Stop the run after this much computing time.", rich_help_panel=COMPUTING),
 ]
 
 

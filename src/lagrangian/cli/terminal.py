@@ -131,7 +131,9 @@ Atol = Annotated[float, typer.Option(metavar="NUMBER", help="Absolute tolerance.
 MaxStep = Annotated[
     str | None, typer.Option(metavar="TIME", help='Longest step: 0.01, "10 ms".', rich_help_panel=INTEGRATION)
 ]
-MaxSteps = Annotated[int, typer.Option(metavar="N", help="Stop a run after so many steps.", rich_help_panel=COMPUTING)]
+MaxSteps = Annotated[
+    int, typer.Option(metavar="N", help="Stop a run after this many steps.", rich_help_panel=COMPUTING)
+]
 
 
 def open_system(file: str | None, example: str | None = None) -> System:
@@ -148,6 +150,9 @@ def open_system(file: str | None, example: str | None = None) -> System:
     assert file is not None
     if file == "-":
         return loads(standard_input(), name="<standard input>")
+    if file in example_names("") and not Path(file).exists():
+        fix = f"--example {file} for the built-in example, or `lagrangian new {file} > {file}.toml` for a file of it"
+        raise Error(f"{file}: there is no such file", fix=fix, code="E702")
     return load(file)
 
 

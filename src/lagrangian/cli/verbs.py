@@ -30,7 +30,7 @@ VERBS = {
     "export": (
         "export",
         "export",
-        "Write the dynamics for other programs: source code, functions of MATLAB, runs in a browser.",
+        "Write the dynamics for other programs: source code, MATLAB functions, FMUs, pages.",
     ),
     "compare": (
         "compare",

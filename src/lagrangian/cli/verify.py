@@ -14,8 +14,10 @@ from lagrangian.verify.report import verification_report
 def verify(
     file: OptionalFile = None,
     example: Example = None,
-    states: Annotated[int, typer.Option(help="Number of random states at which to compare.", min=1, max=100_000)] = 100,
-    seed: Annotated[int, typer.Option(help="Seed of the random states.")] = 1,
+    states: Annotated[
+        int, typer.Option(metavar="N", help="Number of random states at which to compare.", min=1, max=100_000)
+    ] = 100,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the random states.")] = 1,
     exports: Annotated[
         bool, typer.Option("--exports", help="Also run exports in Octave and other programs that are installed.")
     ] = False,

@@ -10,9 +10,9 @@ from typing import Annotated, Any
 import typer
 
 from lagrangian.cli.door import put, say
-from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, as_json
+from lagrangian.cli.formats import ENDINGS, Format, Notation, NotationOption, as_json
 from lagrangian.cli.progress import status
-from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system, output_option
+from lagrangian.cli.terminal import OUTPUT, Example, Force, Json, OptionalFile, open_system, output_option
 from lagrangian.errors import Error
 from lagrangian.worksheet import Worksheet, sheet_files
 from lagrangian.write import check_free
@@ -30,10 +30,23 @@ class SolutionLength(StrEnum):
 
 Variants = Annotated[
     int,
-    typer.Option(metavar="N", help="Write so many variants of the system instead of itself.", min=0, max=MAX_VARIANTS),
+    typer.Option(metavar="N", help="Write this many variants instead of the system itself.", min=0, max=MAX_VARIANTS),
 ]
-Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the first variant; the next has the next.", min=0)]
+Seed = Annotated[
+    int,
+    typer.Option(metavar="N", help="Seed of the first variant; each further variant has the next number.", min=0),
+]
 SolutionOption = Annotated[SolutionLength, typer.Option(help="The whole derivation, or the checklist.")]
+SheetFormat = Annotated[
+    Format | None,
+    typer.Option(
+        "--format",
+        "-f",
+        help="Format of the sheets. By default, text on standard output and html in a folder.",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
 Folder = Annotated[
     Path | None,
     output_option("Write question sheets, solutions and model files into this folder.", metavar="DIR"),
@@ -46,7 +59,7 @@ def worksheet(
     variants: Variants = 0,
     seed: Seed = 1,
     solution: SolutionOption = SolutionLength.FULL,
-    format: FormatOption = None,
+    format: SheetFormat = None,
     notation: NotationOption = Notation.LECTURE,
     folder: Folder = None,
     json: Json = False,
@@ -64,6 +77,9 @@ def worksheet(
     """
     if format is Format.JSON:
         raise Error("a sheet is not written as JSON", fix="--format html", code="E402")
+    if folder is not None and folder.suffix.lower() in ENDINGS and not folder.is_dir():
+        what = f"-o names the folder of the sheets, and '{folder}' has the name of a file"
+        raise Error(what, fix="-o sheets/, with the format in -f", code="E402")
     if folder is None and variants:
         raise Error("variants are written into a folder", fix="-o sheets/", code="E401")
     system = open_system(file, example)

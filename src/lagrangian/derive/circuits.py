@@ -137,7 +137,7 @@ def nothing_acts(model: Model) -> str:
 
 def step_six(model: Model) -> tuple[Text, Text]:
     """What step 6 does, and why."""
-    no_potential = ("They have no potential, so ", Name("V"), " does not hold them; ")
+    no_potential = ("They have no potential, so ", Name("V"), " does not contain them; ")
     twice = "add to every equation, twice: by virtual work and by the box."
     alone = "what they do to a coordinate is the work they do when it wiggles alone."
     if not model.branches:

@@ -51,8 +51,9 @@ def coordinates(context: Context) -> Step:
     if tied := len(model.constraints):
         items.append(
             text(
-                f"Constraints tie them: {'one is' if tied == 1 else f'{tied} are'} described. What follows tells what "
-                "each coordinate would do without them; their forces come in after step 4, with multipliers."
+                f"{'One constraint ties' if tied == 1 else f'{tied} constraints tie'} the coordinates together. Step 1 "
+                + ("leaves it aside; its force comes" if tied == 1 else "leaves them aside; their forces come")
+                + " in after step 4, with multipliers."
             )
         )
     items.append(

@@ -26,8 +26,8 @@ def constrained(context: Context, found: Constraints) -> Step:
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
         text(
             "Lagrange's equations come one by one from wiggling a single coordinate while the others stay fixed. "
-            "Constraints forbid some of these wiggles: which of the three ways below leads on depends on whether they "
-            "can be integrated."
+            "Constraints forbid some of these wiggles: which of the three ways below is open depends on whether "
+            "they can be integrated."
         ),
         found.items,
         {

@@ -116,7 +116,7 @@ class _Layout(Items):
         """The line of a step that leads to the page on why the equations hold."""
         part, words = SEE[number]
         if self.reasoning is None:
-            return Paragraph((f"more with --why: {words}",), "see")
+            return Paragraph((f"--why shows the reason: {words}",), "see")
         return Paragraph((f"why: {words}, for this system",), "see", f"why-{part}")
 
     def reasons(self) -> Iterator[Section]:

@@ -142,7 +142,7 @@ def _family(e: Equilibrium) -> str:
     if not e.dimension:
         return ""
     what = "a curve" if e.dimension == 1 else f"a family of {e.dimension} dimensions"
-    return f" One of {what} of rests along which {', '.join(e.moves)} (*) change."
+    return f" One of {what} of equilibria along which {', '.join(e.moves)} (*) change."
 
 
 def data(found: Equilibria) -> dict[str, Any]:

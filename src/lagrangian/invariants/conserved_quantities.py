@@ -92,7 +92,7 @@ def conserved_report(found: ConservedQuantities) -> Report[Model]:
     """Return the report of conserved quantities."""
     parts = [_part(found, c) for c in found]
     items: list[Item] = [] if found else [text("No conserved quantity was found.")]
-    items += [Text(("Not kept: ", *why.parts, ".")) for why in found.missed]
+    items += [Text(("Not conserved: ", *why.parts, ".")) for why in found.missed]
     if items:
         parts.append(Part(text("Not conserved"), tuple(items)))
     where = f" where {' = '.join((*found.vanishing, '0'))}" if found.vanishing else ""
@@ -106,7 +106,7 @@ def _part(found: ConservedQuantities, c: Conserved) -> Part:
         drift = f"drift below {ROUNDING:.0e}" if c.drift < ROUNDING else f"drift {c.drift:.1e}"
         checks.append(Check(text(f"along a run of {found.run:.3g} s"), c.drift < KEPT, drift))
     title = c.name[0].upper() + c.name[1:]
-    items = (formula(c.expression, Name("constant")), Text(("Kept because ", *c.reason.parts, ".")))
+    items = (formula(c.expression, Name("constant")), Text(("Conserved because ", *c.reason.parts, ".")))
     return Part(text(title), items, tuple(checks))
 
 

@@ -78,7 +78,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
         Table((text("state, input"), text("value")), point),
     )
     poles = tuple((text(complex_figure(complex(pole))),) for pole in found.poles)
-    cost = text("From δ", x, " the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
+    cost = text("Starting from δ", x, ", the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
     parts = (
         Part(text("The law"), law),
         Part(text("The poles of the closed loop"), (Table((text("pole [1/s]"),), poles),)),

@@ -56,9 +56,9 @@ def _point(linear: LinearModel) -> Part:
     rows = [(text(symbol(model, name)), text(figure(value))) for name, value in linear.at.items()]
     rows += [(text(symbol(model, name)), text(figure(value))) for name, value in linear.inputs_at.items()]
     kind = {
-        "rest": "A rest: the largest acceleration there is ",
+        "rest": "An equilibrium: the largest acceleration there is ",
         "steady motion": "A steady motion: the largest acceleration is ",
-        "operating point": "Not a rest: the largest acceleration there is ",
+        "operating point": "Not an equilibrium: the largest acceleration there is ",
     }[linear.kind]
     items: list[Item] = [Table((text("state, input"), text("value")), tuple(rows))]
     small = linear.kind != "operating point" and linear.residual <= ROUNDING * float(np.abs(linear.A).max(initial=1.0))

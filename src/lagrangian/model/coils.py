@@ -46,7 +46,7 @@ def check_coils(model: Model) -> None:
     for c in model.charges:
         if not any(energy.has(c.rate) for energy in energies):
             raise ModelError(
-                f"no inductance is in the circuit of charge '{c.name}': nothing decides how fast its current changes",
+                f"the circuit of charge '{c.name}' has no inductance: nothing decides how fast its current changes",
                 place=c.place,
                 fix=f"add an inductor that '{c.name}' flows through (leads have some), or eliminate '{c.name}': "
                 "without a coil its equation gives the current, or the charge, from the other coordinates",

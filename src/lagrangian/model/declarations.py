@@ -20,6 +20,11 @@ from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 
+def _a(noun: str) -> str:
+    """``a coordinate``, ``an input``."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
 class Declarations:
     """The symbols of a description that is being built; an invalid declaration raises `ModelError`.
 
@@ -60,7 +65,9 @@ class Declarations:
                 before = table[name].place
                 also = f" (line {before.line})" if before is not None and before.line is not None else ""
                 raise ModelError(
-                    f"'{name}' is defined twice: as a {kind}{also} and as a {what}",
+                    f"'{name}' is defined twice: as {_a(kind)}{also} and as {_a(what)}"
+                    if kind != what
+                    else f"{kind} '{name}' is defined twice{also}",
                     place=place,
                     fix="give every coordinate, parameter, input and definition a name of its own",
                     code="E404",

@@ -139,7 +139,7 @@ class Recorded(Guided):
             if (joint := joint_force(self.model, asked)) is not None:
                 found = self.reaction(joint.joint)
                 return part_of(joint.part, found.force, found.torque.reshape(len(self.t), -1))
-            asked = quantity(self.model, asked, "what is asked of the run")
+            asked = quantity(self.model, asked, "quantity asked of the run")
         elif isinstance(asked, (int, slice)):
             raise ModelError(
                 f"run[…] takes a name or an expression (got {asked!r:.40})",

@@ -84,7 +84,7 @@ class Sensitivities(Guided):
         if isinstance(asked, str) and asked in states:
             return self.changes[states.index(asked)]
         if isinstance(asked, str):
-            asked = quantity(self._task.model, asked, "what is asked of the sensitivities")
+            asked = quantity(self._task.model, asked, "quantity asked of the sensitivities")
         elif not isinstance(asked, (sp.Expr, Point)):
             raise ModelError(
                 f"sensitivities[…] takes a name or an expression (got {asked!r:.40})",

@@ -128,14 +128,15 @@ def _closing(steps: ListedSteps, equations: Sequence[sp.Eq]) -> list[Item]:
         text(f"These hold while {friction.title} slips; step 6 says what takes its place while it sticks.")
         for friction in model.frictions
     ]
-    rates = "one ξ̈" if not model.floating else "the rate of one speed"
+    rate = "ξ̈ⱼ" if not model.floating else "the rate of speed j"
     return [
         Heading(text("Equations of motion")),
         *(formula(cast("sp.Expr", e.lhs), cast("sp.Expr", e.rhs), brief=True, boxed=True) for e in equations),
         *missing_equations(len(equations), changes),
         *slipping,
         text(
-            f"The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with {rates} at 1."
+            "The quantities in them are defined in steps 2 and 5. Column j of the mass matrix consists of the factors "
+            f"of {rate} in these lines."
         ),
     ]
 

@@ -157,9 +157,9 @@ def speeds(model: Model) -> Step:
         "Generalized coordinates and speeds",
         text("Chose coordinates that say where everything is, and independent speeds that say how it moves."),
         text(
-            "No three angles describe every turn: somewhere their rates lose a direction. A quaternion has no such "
-            "place, but its four rates depend on each other. So the speeds are the velocity and the angular velocity "
-            "themselves, in the frame's own axes, where inertias are constant."
+            "No three angles describe every orientation: somewhere their rates lose a direction. A quaternion has "
+            "no such place, but its four rates depend on each other. So the speeds are the velocity and the angular "
+            "velocity themselves, in the frame's own axes, where inertias are constant."
         ),
         tuple(items),
         {"coordinates": tuple(c.symbol for c in model.coordinates), "rates": shown},
@@ -224,9 +224,9 @@ def laws() -> Iterator[Item]:
     v, w, L = Name("v"), Name("omega"), Name("L")
     by_v, by_w = Partial(L, v), Partial(L, w)
     yield text(
-        "The six speeds of a floating frame are not the rates of coordinates: turned about x and then about y, a frame "
-        "stands otherwise than turned in the other order. So d/dt and δ cannot change places as they do for a "
-        "coordinate; the difference is a product with ",
+        "The six speeds of a floating frame are not the rates of coordinates: a frame that is turned about x and then "
+        "about y ends in another orientation than one that is turned in the other order. So d/dt and δ cannot be "
+        "interchanged as they can for a coordinate; the difference is a product with ",
         w,
         " or ",
         v,
@@ -311,8 +311,8 @@ def by_power(found: Listing, write: ListingWriter) -> Step:
         text(
             "They have no potential, so ",
             Name("V"),
-            " does not hold them. A generalized force is what its speed is multiplied by in the power: along a motion "
-            "with that speed alone, Ξ times the speed is the work done in a second.",
+            " does not contain them. A generalized force is what its speed is multiplied by in the power: along a "
+            "motion with that speed alone, Ξ times the speed is the work done in a second.",
         ),
         tuple(items),
         {"Xi": {x: write(force) for x, force in zip(symbols, found.forces, strict=True)}},

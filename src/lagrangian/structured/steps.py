@@ -50,7 +50,7 @@ ORDER: tuple[QuantityKind, ...] = (
 """The kinds of quantities in the order in which the steps introduce them."""
 
 HEADINGS = {
-    "turn": "Turns",
+    "turn": "Sines and cosines",
     "velocity": "Velocities",
     "vertical": "The upward direction in the axes of the frames",
     "height": "Heights",
@@ -186,7 +186,7 @@ class ListedSteps:
             "All vectors have their components in the fixed axes."
             if self.flat
             else "The components of a vector are along the axes of the frame that it belongs to: those of frame k turn "
-            "with it. A second index says that a vector is taken in the axes of another frame."
+            "with it. A second index names another frame along whose axes the vector is resolved."
         )
         items: list[Item] = [
             text(
@@ -334,12 +334,12 @@ class ListedSteps:
             f" is left: its force of inertia, along the velocity that the rate gives it.{turning}",
         )
         yield text(
-            "What a rate moves is everything that hangs on its joint. So momenta and forces are summed from the "
-            "outside inwards; a sum is marked with ⁺: it belongs to what is named and to all that hangs on it."
+            "A rate moves everything that hangs on its joint. So momenta and forces are summed from the outside "
+            "inwards; a sum is marked with ⁺: it belongs to what is named and to all that hangs on it."
         )
         if any(isinstance(e, Gravity) for e in self.model.elements):
             yield text(
-                "Accelerations are counted against free fall: the ground itself is accelerated upwards with g, and no "
+                "Accelerations are measured against free fall: the ground itself is accelerated upwards with g, and no "
                 "weight is left to be added (the same as −∂L/∂ξ of the potential energy of weights)."
             )
 

@@ -67,18 +67,18 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
             f"largest relative difference {work:.1e} at {n}",
         ),
         Check(
-            text("the equations agree with ", Name("L"), " differentiated by the machine"),
+            text("the equations agree with automatic differentiation of ", Name("L")),
             energy < TOLERANCE,
             f"largest relative difference {energy:.1e} at {n}",
         ),
         *(_accelerations(figures) if rows is None else rows.checks(TOLERANCE)),
         Check(
-            text("the ", M, " that is compiled is the one above, and the Hessian of ", Name("T*"), " in the rates"),
+            text("the compiled ", M, " is the one above, and the Hessian of ", Name("T*"), " in the rates"),
             figures.mass < TOLERANCE,
             f"largest relative difference {figures.mass:.1e}",
         ),
         Check(
-            text("the energies that are compiled are ", Name("T*"), " and ", Name("V")),
+            text("the compiled energies are ", Name("T*"), " and ", Name("V")),
             figures.energies < TOLERANCE,
             f"largest relative difference {figures.energies:.1e}",
         ),
@@ -109,7 +109,7 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
 def _accelerations(figures: _Figures) -> Iterator[Check]:
     """The accelerations of a system without constraints."""
     yield Check(
-        text("the accelerations that are compiled solve the equations"),
+        text("the compiled accelerations solve the equations"),
         figures.forward < TOLERANCE,
         f"largest relative residual {figures.forward:.1e}",
     )

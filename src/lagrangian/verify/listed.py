@@ -121,7 +121,7 @@ class _Reading:
         return [
             *self._kinematics(),
             _Claim(
-                text("the equations are Lagrange's equations of ", L, ", differentiated by the machine: identically"),
+                text("the equations are Lagrange's equations of ", L, " by automatic differentiation: identically"),
                 self.rows(),
                 self.pushed(m.inverse_from_lagrangian(self.a)),
             ),
@@ -160,9 +160,7 @@ class _Reading:
             if row.position is not None:
                 shown.append(self.node(row.position))
                 other.append(m.rows[k].residual or self.graph.zero)
-        return [
-            _Claim(text("the rows of the constraints shown are those that are compiled: identically"), shown, other)
-        ]
+        return [_Claim(text("the compiled rows of the constraints are those shown: identically"), shown, other)]
 
     def row_rates(self) -> _Claim:
         """f, c and ċ as shown against f as it was described, its rate and the rate of that: where f and c are zero."""

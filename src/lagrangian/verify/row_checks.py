@@ -126,14 +126,14 @@ class RowChecks:
                 what, None, "not checked: no random position could be moved to where it satisfies the constraints"
             )
             return
-        A, lam, S = Name("A"), Name("lambda"), Name("S")
+        A, lam = Name("A"), Name("lambda")
         yield Check(
-            text("the rows of the constraints are those that are compiled: ", A, ", what is at rest, and their rates"),
+            text("the compiled rows of the constraints are those above: ", A, ", the terms without rates, and γ"),
             found.rows < tolerance,
             f"largest relative difference {found.rows:.1e} at {count}",
         )
         yield Check(
-            text("accelerations and ", lam, " that are compiled solve the equations and the rows together"),
+            text("the compiled accelerations and ", lam, " solve the equations and the rows together"),
             found.accelerations < tolerance,
             f"largest relative difference {found.accelerations:.1e}",
         )
@@ -145,7 +145,7 @@ class RowChecks:
             )
         if self._minimal is not None:
             yield Check(
-                text("the equations without multipliers give the same accelerations, with rates by ", S),
+                text("the equations without multipliers give the same accelerations"),
                 found.minimal < tolerance,
                 f"largest relative difference {found.minimal:.1e}",
             )

@@ -21,7 +21,10 @@ def web(
         ),
     ] = None,
     port: Annotated[
-        int, typer.Option(metavar="N", help="The port of 127.0.0.1; a free one by default.", min=0, max=65535)
+        int,
+        typer.Option(
+            metavar="N", help="The port of 127.0.0.1; a free one by default.", min=0, max=65535, show_default=False
+        ),
     ] = 0,
     no_browser: Annotated[
         bool, typer.Option("--no-browser", help="Only print the address; do not open the browser.")

@@ -54,7 +54,7 @@ _SCRIPT = """
   function hold(wanted) {
     held = wanted;
     if (held) { svg.pauseAnimations(); } else { svg.classList.add("playing"); svg.unpauseAnimations(); }
-    button.textContent = held ? "Play" : "Hold";
+    button.textContent = held ? "Play" : "Pause";
     write();
   }
   button.addEventListener("click", function () { hold(!held); });
@@ -79,7 +79,7 @@ def player_page(
     title = escape(motion.scene.name)
     controls = (
         f'<div class="controls" hidden data-duration="{number(motion.duration, 3)}" data-first="{motion.times[0]:.9g}" '
-        f'data-last="{motion.times[-1]:.9g}"><button type="button">Hold</button>'
+        f'data-last="{motion.times[-1]:.9g}"><button type="button">Pause</button>'
         '<input type="range" min="0" max="1000" value="0" aria-label="time"><output></output></div>'
         f"<script>{_SCRIPT}</script>"
     )

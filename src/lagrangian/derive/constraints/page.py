@@ -169,7 +169,7 @@ def _items(found: Constraints, readable: Callable[[sp.Expr], Left]) -> Iterator[
         yield from _surfaces(found, readable)
     for note in found.holonomy.notes:
         yield text(note[0].upper() + note[1:] + ".")
-    yield Heading(text("Three ways on"))
+    yield Heading(text("Three ways to go on"))
     yield from _routes(found)
 
 
@@ -203,8 +203,8 @@ def _verdict(found: Constraints) -> Iterator[Item]:
         yield formula(Name("#DDOF"), Name(str(h.DDOF)), brief=True)
         depths = ", ".join(map(str, h.growth))
         yield text(
-            "Two allowed motions, one after the other, then both backwards in the same order: such a loop ends beside "
-            "its start, where no allowed motion leads to at once. With loops, and loops of loops, the number of "
+            "Make two allowed motions one after the other, then undo both in the same order: this loop ends beside its "
+            "start, in a direction that no single allowed motion has. With loops, and loops of loops, the number of "
             f"directions grows: {depths}. So #GC = {h.growth[-1]} coordinates are needed in the long run and #DDOF = "
             f"{h.DDOF} rates at an instant: #GC > #DDOF, and the system is nonholonomic by {least}{h.degree}."
         )
@@ -239,8 +239,8 @@ def _routes(found: Constraints) -> Iterator[Item]:
         yield text("1. Integrate: no elementary integral was found.")
     else:
         yield text(
-            "1. Integrate: impossible. No function of the coordinates stays constant because of the rows, so that no "
-            "coordinate can be left out."
+            "1. Integrate: impossible. The rows keep no function of the coordinates constant, so no coordinate can be "
+            "left out."
         )
     solved = (
         f"2. Eliminate: the rows are linear in the {_count(n, 'rate')}. Solved for {m} of them they leave {h.DDOF} free"
@@ -252,7 +252,8 @@ def _routes(found: Constraints) -> Iterator[Item]:
         else f"{solved}."
     )
     yield text(
-        f"3. Use the rows as they are: all {_count(n, 'coordinate')} stay, and every row adds its force to Lagrange's "
-        f"equations with a multiplier λ. That is {_count(m, 'unknown')} more, and {_count(m, 'equation')} more: the "
-        "rows, differentiated until they hold accelerations."
+        f"3. Use the rows as they are: {'both' if n == 2 else f'all {n}'} coordinates stay, and every row adds its "
+        f"force to Lagrange's equations with a multiplier λ. That makes {_count(m, 'more unknown')} and "
+        f"{_count(m, 'more equation')}: {'the row' if m == 1 else 'the rows'}, differentiated until "
+        "accelerations appear."
     )

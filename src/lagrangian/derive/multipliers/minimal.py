@@ -185,9 +185,9 @@ def _shown(context: Context, minimal: Minimal) -> Iterator[Item]:
     yield Heading(text(TITLE))
     yield text(
         "The rows are solved for rates, so that the speeds that are left can be chosen freely. Along them the "
-        "constraints do no work and the multipliers drop out. The rates are put in after ",
+        "constraints do no work and the multipliers drop out. The rates are substituted after ",
         Name("L"),
-        " was differentiated, never before.",
+        " has been differentiated, never before.",
     )
     last = {line.rate: line.value for line in minimal.lines}
     changed = {v: x for v, x in minimal.rates.items() if v in last and last[v] != x}

@@ -150,9 +150,9 @@ def missing_equations(count: int, changes: Sequence[tuple[str, Left]]) -> Iterat
     if not changes:
         return
     yield text(
-        f"These are {count} equations with as many accelerations and {len(changes)} "
-        f"multiplier{'s' if len(changes) > 1 else ''} more. The rows, differentiated until accelerations stand in "
-        "them, are the missing equations:"
+        f"These are {count} equations for as many accelerations and {len(changes)} "
+        f"multiplier{'s' if len(changes) > 1 else ''}. The rows, differentiated until accelerations appear, are the "
+        "missing equations:"
     )
     for name, change in changes:
         yield formula(Name("c", "", 1), change, sp.S.Zero, note=text(name))

@@ -124,8 +124,8 @@ def _forces(d: Derived, context: Context) -> Part:
     model = d.model
     items: list[Item] = [
         text(
-            "What a circuit gives to a coil or a capacitor, voltage times current, is stored in it or does work on "
-            "what moves. That work, an energy balance, gives the force on every position:"
+            "The power that a circuit supplies to a coil or a capacitor, voltage times current, is stored in it or "
+            "does work on what moves. This energy balance gives the force on every position:"
         )
     ]
     checks: list[Check] = []
@@ -153,15 +153,16 @@ def _forces(d: Derived, context: Context) -> Part:
         name = "co-energy" if element.ledger == "T*" else "energy"
         checks.append(
             Check(
-                text(f"{element.title}: what is given and not stored is the work of the slopes of its {name}"),
+                text(f"{element.title}: the power supplied and not stored is the work of the slopes of its {name}"),
                 holds,
                 EXACT,
             )
         )
     if idle:
         listed = idle[0] if len(idle) == 1 else ", ".join(idle[:-1]) + " and " + idle[-1]
-        it = "it" if len(idle) == 1 else "them"
-        items.append(text(f"No position is in {listed}: all that is given to {it} is stored."))
+        do, it = ("does", "it") if len(idle) == 1 else ("do", "them")
+        words = f"{listed} {do} not depend on a position: all the energy supplied to {it} is stored."
+        items.append(text(words[0].upper() + words[1:]))
     if any(isinstance(e, Transducer) for e in model.branches):
         items.append(
             text(
@@ -169,7 +170,7 @@ def _forces(d: Derived, context: Context) -> Part:
                 "k ẋ takes from the current."
             )
         )
-    return Part(text("What is given and not stored does work"), tuple(items), tuple(checks))
+    return Part(text("Power that is not stored does work"), tuple(items), tuple(checks))
 
 
 def _by_time(energy: sp.Expr) -> sp.Expr:
@@ -197,7 +198,7 @@ def _balance(
     left: Left = Product((current, Total(Name("psi", element.name)))) if coil else Product((voltage, current))
     yield Heading(text(element.title[:1].upper() + element.title[1:]))
     if not isinstance(element, MutualInductance):
-        yield formula(left, fit(context.readable(given)), note=text("given by the circuit"))
+        yield formula(left, fit(context.readable(given)), note=text("supplied by the circuit"))
         yield formula(Total(store), fit(context.readable(stored)), note=text("stored"))
     for c, slope, _ in _pulls(context.model, energy):
         by = Partial(Name("T*" if coil else "V", element.name), c.symbol)
@@ -217,7 +218,7 @@ def _together(d: Derived, context: Context) -> Part:
     model = d.model
     places = [(i, c) for i, c in enumerate(model.coordinates) if c not in model.charges]
     if not places:
-        words = "So all equations of this circuit are Kirchhoff's. Lagrange's way spares the signs of the voltages."
+        words = "So all equations of this circuit are Kirchhoff's. With Lagrange you need no signs of voltages."
         return Part(text("Together"), (text(words),))
     items: list[Item] = [
         text(

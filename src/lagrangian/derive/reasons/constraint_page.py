@@ -116,8 +116,8 @@ def _reasons(why: Reasoning) -> Iterator[Item]:
     yield Table(header, tuple(rows))
     if titles := list(dict.fromkeys(item.element.title for item in why.applied.passed)):
         yield text(
-            f"What is only passed on, of {and_(titles)}, is no constraint force: it is taken out of the sum here and "
-            "counted below."
+            f"What is only passed on from {and_(titles)} is not a constraint force: it is taken out of the sum here "
+            "and counted below."
         )
 
 

@@ -188,7 +188,7 @@ def _passed_on(why: Reasoning) -> Iterator[Item]:
         f"{capital(and_(titles))} act{'s' if one else ''} on no mass but on a part without mass (a lever, a rod, a "
         "shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
         Name("R"),
-        " holds that, too.",
+        " contains that, too.",
     )
 
 

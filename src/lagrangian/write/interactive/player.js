@@ -89,7 +89,7 @@ class Player {
 
   button() {
     const { playing } = this.state, knob = element("play");
-    knob.querySelector("span").textContent = playing ? "Hold" : "Play";
+    knob.querySelector("span").textContent = playing ? "Pause" : "Play";
     knob.classList.toggle("on", playing);
     this.state.stale = true;
   }
