@@ -1,4 +1,4 @@
-"""Measure a sweep of a million runs: time, memory, an end by kill -9 in the middle, two Dask workers with one killed.
+"""Measure a sweep of a million runs: time, memory, an end by kill -9 in the middle, Dask workers with faults.
 
     python bench/sweep.py                  print a Markdown table
     python bench/sweep.py --runs 20000     a smaller one
@@ -22,6 +22,7 @@ import tempfile
 import time
 from importlib.metadata import version
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -115,26 +116,47 @@ def killed(folder: Path, given: argparse.Namespace) -> list[str]:
     return [f"killed at {at}", f"{took:.1f}", f"{given.runs / took:.0f}", f"{max(peaks):.0f}", how]
 
 
-def workers(folder: Path, given: argparse.Namespace) -> list[str]:
+def slowed() -> None:
+    """Make this worker slow: every chunk takes 0.2 s more."""
+    from lagrangian.integrate import remote
+
+    quick = remote.work
+
+    def slow(*given: Any) -> Any:
+        time.sleep(0.2)
+        return quick(*given)
+
+    remote.work = slow
+
+
+def workers(folder: Path, given: argparse.Namespace, count: int, *, faults: bool = False) -> list[str]:
+    """A sweep on so many Dask workers; with ``faults`` one is slow, one joins late, and one is killed."""
     from distributed import Client, LocalCluster
 
-    path = folder / "workers.zarr"
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", memory_limit=None) as cluster:
+    path = folder / f"workers{count}{faults}.zarr"
+    first = count - 1 if faults else count
+    what = f"{count} Dask worker{'s' if count > 1 else ''}"
+    with (
+        LocalCluster(n_workers=first, threads_per_worker=1, dashboard_address=":0", memory_limit=None) as cluster,
+        Client(cluster, set_as_default=False) as client,
+    ):
+        processes = client.run(os.getpid)
+        names = sorted(processes)
+        slow, doomed = names[0], names[-1]
+        if faults:
+            client.run(slowed, workers=[slow])
         begin = time.perf_counter()
         process = started(path, given, cluster.scheduler_address)
-        share = until(path, 0.4, process)
-        with Client(cluster, set_as_default=False) as client:
-            os.kill(next(iter(client.run(os.getpid).values())), signal.SIGKILL)
+        if faults:
+            joined = until(path, 0.1, process)
+            cluster.scale(count)
+            share = until(path, 0.4, process)
+            os.kill(processes[doomed], signal.SIGKILL)
+            what += f", one slow, one joining at {joined:.0%}, one killed at {share:.0%}"
         peak = waited(process)
         took = time.perf_counter() - begin
     how = same(path, folder / "whole.zarr")
-    return [
-        f"two Dask workers, one killed at {share:.0%}",
-        f"{took:.1f}",
-        f"{given.runs / took:.0f}",
-        f"{peak:.0f}",
-        how,
-    ]
+    return [what, f"{took:.1f}", f"{given.runs / took:.0f}", f"{peak:.0f}", how]
 
 
 def this_machine() -> str:
@@ -162,7 +184,9 @@ def report(given: argparse.Namespace) -> list[str]:
     ]
     lines += ["| " + given.method + " | s | runs a second | peak MiB | |", "| --- | ---: | ---: | ---: | --- |"]
     with tempfile.TemporaryDirectory() as name:
-        rows = [part(Path(name), given) for part in (alone, killed, workers)]
+        folder = Path(name)
+        rows = [alone(folder, given), killed(folder, given), workers(folder, given, 1), workers(folder, given, 3)]
+        rows.append(workers(folder, given, 3, faults=True))
     return [*lines, *("| " + " | ".join(row) + " |" for row in rows)]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .expressions import SourceNotation, arguments_of, assignments
+from .expressions import COMPARISONS, PRODUCTS, SUMS, Infix, SourceNotation, arguments_of, assignments
 from .labels import WORD, comment, identifier
 from .numpy_source import POWER
 
@@ -13,17 +13,7 @@ if TYPE_CHECKING:
 
     from lagrangian.graph import Program
 
-INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "add": ("{0} + {1}", 4, (4, 5)),
-    "sub": ("{0} - {1}", 4, (4, 5)),
-    "mul": ("{0}*{1}", 5, (5, 6)),
-    "div": ("{0}/{1}", 5, (5, 6)),
-    "neg": ("-{0}", 6, (6,)),
-    "pow": ("{0}**{1}", 7, (8, 8)),
-    "lt": ("{0} < {1}", 1, (2, 2)),
-    "le": ("{0} <= {1}", 1, (2, 2)),
-    "eq": ("{0} == {1}", 1, (2, 2)),
-}
+INFIX: Infix = SUMS | PRODUCTS | COMPARISONS | {"neg": ("-{0}", 6, (6,)), "pow": ("{0}**{1}", 7, (8, 8))}
 CALLS = {
     kind: f"ca.{kind}"
     for kind in (

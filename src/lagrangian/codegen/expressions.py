@@ -28,17 +28,29 @@ ATOM = 9
 Written = tuple[str, int]
 """The text of a node, and its precedence."""
 
+Infix = dict[str, tuple[str, int, tuple[int, ...]]]
+"""Operation → its text, its precedence, and the precedence that each operand needs."""
+
+SUMS: Infix = {"add": ("{0} + {1}", 4, (4, 5)), "sub": ("{0} - {1}", 4, (4, 5))}
+PRODUCTS: Infix = {"mul": ("{0}*{1}", 5, (5, 6)), "div": ("{0}/{1}", 5, (5, 6))}
+COMPARISONS: Infix = {
+    "lt": ("{0} < {1}", 1, (2, 2)),
+    "le": ("{0} <= {1}", 1, (2, 2)),
+    "eq": ("{0} == {1}", 1, (2, 2)),
+}
+BOTH_OR_EITHER: Infix = {"and": ("{0} & {1}", 2, (3, 3)), "or": ("{0} | {1}", 2, (3, 3))}
+"""What several languages write alike."""
+
 
 @dataclass(frozen=True)
 class SourceNotation:
     """How a language writes expressions.
 
-    ``infix``: operation → (text, its precedence, the precedence that each operand needs). ``calls``: operation → the
-    name of a function. ``power``: a whole power, with its precedence and that of the base. ``element`` is the text of
-    an input, of the group's identifier and the entry's number, which counts from ``first``.
+    ``calls``: operation → the name of a function. ``power``: a whole power, with its precedence and that of the base.
+    ``element`` is the text of an input, of the group's identifier and the entry's number, which counts from ``first``.
     """
 
-    infix: Mapping[str, tuple[str, int, tuple[int, ...]]]
+    infix: Infix
     calls: Mapping[str, str]
     power: tuple[str, int, int]
     element: str

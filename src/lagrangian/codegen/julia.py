@@ -9,7 +9,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .arguments import is_scalar
-from .expressions import SourceNotation, arguments_of, assignments, signature
+from .expressions import (
+    BOTH_OR_EITHER,
+    COMPARISONS,
+    PRODUCTS,
+    SUMS,
+    Infix,
+    SourceNotation,
+    arguments_of,
+    assignments,
+    signature,
+)
 from .labels import comment
 
 if TYPE_CHECKING:
@@ -17,19 +27,7 @@ if TYPE_CHECKING:
 
     from lagrangian.graph import Program
 
-INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "add": ("{0} + {1}", 4, (4, 5)),
-    "sub": ("{0} - {1}", 4, (4, 5)),
-    "mul": ("{0}*{1}", 5, (5, 6)),
-    "div": ("{0}/{1}", 5, (5, 6)),
-    "neg": ("-{0}", 6, (7,)),
-    "lt": ("{0} < {1}", 1, (2, 2)),
-    "le": ("{0} <= {1}", 1, (2, 2)),
-    "eq": ("{0} == {1}", 1, (2, 2)),
-    "and": ("{0} & {1}", 2, (3, 3)),
-    "or": ("{0} | {1}", 2, (3, 3)),
-    "not": ("!{0}", 6, (8,)),
-}
+INFIX: Infix = SUMS | PRODUCTS | COMPARISONS | BOTH_OR_EITHER | {"neg": ("-{0}", 6, (7,)), "not": ("!{0}", 6, (8,))}
 LIMITED = {"sqrt": "x < 0", "log": "x < 0", "asin": "abs(x) > 1", "acos": "abs(x) > 1", "acosh": "x < 1",
            "atanh": "abs(x) > 1"}  # fmt: skip
 """Functions that end, and where."""

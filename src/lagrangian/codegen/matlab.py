@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from .expressions import SourceNotation, assignments
+from .expressions import BOTH_OR_EITHER, COMPARISONS, SUMS, Infix, SourceNotation, assignments
 from .labels import comment, identifier, quoted, unit, word
 
 if TYPE_CHECKING:
@@ -18,19 +18,17 @@ if TYPE_CHECKING:
 LONGEST_NAME = 63
 """The number of characters of a name that MATLAB reads; it ignores the others."""
 
-INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "add": ("{0} + {1}", 4, (4, 5)),
-    "sub": ("{0} - {1}", 4, (4, 5)),
-    "mul": ("{0}.*{1}", 5, (5, 6)),
-    "div": ("{0}./{1}", 5, (5, 6)),
-    "neg": ("-{0}", 6, (7,)),
-    "lt": ("{0} < {1}", 1, (2, 2)),
-    "le": ("{0} <= {1}", 1, (2, 2)),
-    "eq": ("{0} == {1}", 1, (2, 2)),
-    "and": ("{0} & {1}", 2, (3, 3)),
-    "or": ("{0} | {1}", 2, (3, 3)),
-    "not": ("~{0}", 6, (8,)),
-}
+INFIX: Infix = (
+    SUMS
+    | COMPARISONS
+    | BOTH_OR_EITHER
+    | {
+        "mul": ("{0}.*{1}", 5, (5, 6)),
+        "div": ("{0}./{1}", 5, (5, 6)),
+        "neg": ("-{0}", 6, (7,)),
+        "not": ("~{0}", 6, (8,)),
+    }
+)
 OWN = {
     "sqrt": "real_sqrt", "log": "real_log", "asin": "real_asin", "acos": "real_acos", "acosh": "real_acosh",
     "atanh": "real_atanh", "pow": "real_power", "min": "smaller", "max": "larger", "select": "pick",

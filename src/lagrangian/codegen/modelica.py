@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from .expressions import SourceNotation, assignments
+from .expressions import COMPARISONS, PRODUCTS, SUMS, Infix, SourceNotation, assignments
 from .tape import FLAGS
 
 if TYPE_CHECKING:
@@ -17,23 +17,22 @@ if TYPE_CHECKING:
 
 LARGEST = "1.7976931348623157e308"
 
-INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "add": ("{0} + {1}", 4, (4, 5)),
-    "sub": ("{0} - {1}", 4, (4, 5)),
-    "mul": ("{0}*{1}", 5, (5, 6)),
-    "div": ("{0}/{1}", 5, (5, 6)),
-    "neg": ("-{0}", 3, (5,)),
-    "pow": ("{0}^{1}", 7, (8, 8)),
-    "lt": ("{0} < {1}", 1, (2, 2)),
-    "le": ("{0} <= {1}", 1, (2, 2)),
-    "eq": ("{0} <= {1} and {0} >= {1}", 0, (2, 2)),  # reals cannot be compared by ==
-    "and": ("{0} and {1}", 0, (1, 1)),
-    "or": ("{0} or {1}", 0, (1, 1)),
-    "not": ("not {0}", 0, (9,)),
-    "select": ("if noEvent({0}) then {1} else {2}", -1, (-1, 0, 0)),
-    "abs": ("noEvent(abs({0}))", 9, (-1,)),
-    "sign": ("noEvent(sign({0}))", 9, (-1,)),
-}
+INFIX: Infix = (
+    SUMS
+    | PRODUCTS
+    | COMPARISONS
+    | {
+        "neg": ("-{0}", 3, (5,)),
+        "pow": ("{0}^{1}", 7, (8, 8)),
+        "eq": ("{0} <= {1} and {0} >= {1}", 0, (2, 2)),  # reals cannot be compared by ==
+        "and": ("{0} and {1}", 0, (1, 1)),
+        "or": ("{0} or {1}", 0, (1, 1)),
+        "not": ("not {0}", 0, (9,)),
+        "select": ("if noEvent({0}) then {1} else {2}", -1, (-1, 0, 0)),
+        "abs": ("noEvent(abs({0}))", 9, (-1,)),
+        "sign": ("noEvent(sign({0}))", 9, (-1,)),
+    }
+)
 CALLS = {
     kind: kind
     for kind in ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "atan2",

@@ -6,27 +6,32 @@ import keyword
 from typing import TYPE_CHECKING
 
 from .arguments import is_scalar
-from .expressions import SourceNotation, assignments, declared_values
+from .expressions import (
+    BOTH_OR_EITHER,
+    COMPARISONS,
+    PRODUCTS,
+    SUMS,
+    Infix,
+    SourceNotation,
+    assignments,
+    declared_values,
+)
 from .labels import comment, identifier, word
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-# operation → (text, its precedence, the precedence that each operand needs)
-INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
-    "add": ("{0} + {1}", 4, (4, 5)),
-    "sub": ("{0} - {1}", 4, (4, 5)),
-    "mul": ("{0}*{1}", 5, (5, 6)),
-    "div": ("{0}/{1}", 5, (5, 6)),
-    "neg": ("-{0}", 6, (6,)),
-    "pow": ("{0}**{1}", 7, (8, 8)),
-    "lt": ("{0} < {1}", 1, (2, 2)),
-    "le": ("{0} <= {1}", 1, (2, 2)),
-    "eq": ("{0} == {1}", 1, (2, 2)),
-    "and": ("{0} & {1}", 2, (3, 3)),
-    "or": ("{0} | {1}", 2, (3, 3)),
-    "not": ("~{0}", 6, (8,)),
-}
+INFIX: Infix = (
+    SUMS
+    | PRODUCTS
+    | COMPARISONS
+    | BOTH_OR_EITHER
+    | {
+        "neg": ("-{0}", 6, (6,)),
+        "pow": ("{0}**{1}", 7, (8, 8)),
+        "not": ("~{0}", 6, (8,)),
+    }
+)
 CALLS = {
     "sqrt": "sqrt", "sin": "sin", "cos": "cos", "tan": "tan", "asin": "arcsin", "acos": "arccos", "atan": "arctan",
     "sinh": "sinh", "cosh": "cosh", "tanh": "tanh", "asinh": "arcsinh", "acosh": "arccosh", "atanh": "arctanh",

@@ -50,7 +50,6 @@ RUNNERS: dict[str, tuple[str, Runner]] = {
 NOT_RUN: dict[str, str] = {
     "wasm": "it is an integrator for pages, which only a page runs",
     "simulink": "S-functions run in Simulink alone",
-    "modelica": "no Modelica tool is run from here",
 }
 """Targets that are run by nothing here, and why."""
 
