@@ -14,6 +14,7 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
 from lagrangian.web.app import PAGES
+from lagrangian.write.scene_svg import scene_svg
 
 sys.path.append(str(Path(__file__).parent.parent / "read"))  # where the collections of bad models are
 
@@ -239,7 +240,7 @@ def test_a_schematic_is_that_of_the_system(kind_app: Served, name: str) -> None:
     system = lg.example(name)
     whole = found["svg"].replace("</desc>\n", f"</desc>\n<style>{found['style']}</style>", 1)
     picture = system.look()
-    assert "".join(whole.split()) == "".join(picture._repr_html_().split())
+    assert "".join(whole.split()) == "".join(scene_svg(picture.scene, embedded=True).split())
     assert found["elements"].keys() == {element.name for element in system.model.elements}
     assert (found["description"], found["missing"]) == (picture.description, list(picture.missing))
 

@@ -35,6 +35,9 @@ THICK = {"resistor": 6.0, "inductor": 7.0, "transducer": 15.0}
 LONGEST = 12
 """A branch whose law is more than a letter is labelled by its own name, if that is not longer."""
 
+USUAL = {"inductor": "L", "capacitor": "C", "resistor": "R", "mutual_inductance": "M"}
+"""With which letter the constants of a branch begin: of a law with one of these, it is the label."""
+
 ROLES: dict[str, Role] = {
     "inductor": "body", "mutual_inductance": "body", "capacitor": "stiffness", "resistor": "damping",
     "voltage_source": "input", "transducer": "input",
@@ -230,4 +233,6 @@ def _names(element: CircuitBranch) -> tuple[str, ...]:
     if own and len(own) <= LONGEST and not own.startswith(element.kind.partition("_")[0]):
         return (own,)
     laws = [x for key in LAWS if isinstance(x := getattr(element, key, None), sp.Expr)]
-    return tuple(sorted({str(x) for law in laws[:1] for x in law.free_symbols} - {*LOCAL}))[:2]
+    names = sorted({str(x) for law in laws[:1] for x in law.free_symbols} - {*LOCAL})
+    usual = [name for name in names if name.startswith(USUAL.get(element.kind, " "))]
+    return tuple(usual[:1] or names[:2])
