@@ -126,6 +126,7 @@ def test_an_unknown_joint_in_a_file_is_told_with_its_place() -> None:
         lg.loads(FILE.replace('["loop", "A"]', '["loop", "KG"]')).simulate()
 
 
+@pytest.mark.slow
 def test_the_command_adds_reactions_to_the_table_and_the_summary(capsys: pytest.CaptureFixture[str], file: str) -> None:
     code, out, _ = said(capsys, "simulate", file, "--reactions", "B,rod 1", "--fixed", "crank", "-o", "-")
     assert code == 0

@@ -155,6 +155,7 @@ def test_a_store_keeps_the_drift(tmp_path):
     assert (lg.Ensemble.of_store(store).drift["left"] == kept.drift["left"]).all()
 
 
+@pytest.mark.slow
 def test_feedback_and_inputs_that_jump_keep_the_constraints():
     s = rod()
     F = s.input("F")

@@ -280,6 +280,7 @@ def test_two_blocks_one_on_the_other() -> None:
     assert float(run.audit) < 1e-10
 
 
+@pytest.mark.slow
 def test_a_bounce_and_a_step_of_an_input() -> None:
     """A block slides to a wall, comes back and stops; a force above the limit at rest moves it again at t = 3."""
     s = lg.System("wall")

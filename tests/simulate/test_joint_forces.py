@@ -22,6 +22,7 @@ def arm():
     return s
 
 
+@pytest.mark.slow
 def test_outputs_of_an_ensemble_are_the_reactions_of_its_runs():
     """|F| and components in a joint of the tree and of a constraint, reduced and as samples."""
     s, masses = arm(), [1.0, 2.0]

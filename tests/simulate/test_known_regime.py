@@ -77,6 +77,7 @@ def test_modes_that_make_no_sense_are_refused() -> None:
         pendulum().compile()
 
 
+@pytest.mark.slow
 def test_reactions_are_those_of_the_regime_at_each_time() -> None:
     """m a = R + m g with the accelerations of the run, while it swings and after it sticks."""
     run = pendulum(2.0).simulate(4.0, theta=1.0, rtol=1e-10, atol=1e-11)

@@ -219,6 +219,7 @@ def test_files_and_mistakes() -> None:
         assert caught.value.code == code and said in str(caught.value)
 
 
+@pytest.mark.slow
 def test_ensembles_observe_forces_in_the_regime_of_each_sample() -> None:
     """The bead goes up, stops and stays: λ of the rod, accelerations and their extremes are those of single runs."""
     s, up = bead(0.2), {"x'": 3 * np.cos(0.2), "y'": 3 * np.sin(0.2)}

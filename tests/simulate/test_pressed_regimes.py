@@ -79,6 +79,7 @@ def test_a_bead_that_slips_and_one_that_is_pushed_are_the_same_motion_and_one_th
     assert lg.compare(stuck, stuck).same
 
 
+@pytest.mark.slow
 def test_the_unit_of_mu_follows_from_the_row_that_presses() -> None:
     """mu λ is energy / δ: a number along a rod, a length for an angle."""
     bead("0.3", unit="m").simulate(0.01)

@@ -72,6 +72,7 @@ def angular(theta: float, rate: float, drag: float) -> float:
     return float((-half - sense * np.sqrt(half * half - second * rest)) / second)
 
 
+@pytest.mark.slow
 def test_a_pin_with_dry_friction_agrees_with_the_quadratic_equation_of_its_free_body() -> None:
     run = journal(0.15).simulate(0.6, initial={"y": -0.5, "theta'": 5.0, "x'": 2.5}, **TIGHT)
     assert run.success and float(run.audit) < 1e-11

@@ -99,3 +99,13 @@ def test_a_view_without_its_style_says_what_is_missing() -> None:
     view = lg.example("pendulum").linearize()._repr_html_()
     assert "& .stripped { display: none; }" in view.partition("</style>")[0]
     assert '<p class="stripped">This notebook is not trusted' in view
+
+
+def test_sensitivities_show_their_last_values() -> None:
+    found = lg.example("pendulum").simulate(1.0, theta=0.5).sensitivities(["L", "theta"])
+    html = found._repr_html_()
+    assert "by L" in html
+    assert "by theta" in html
+    assert f"{found['theta', 'L'][-1]:.6g}" in html
+    whole = lg.example("double-pendulum").simulate(1.0, theta1=0.5).sensitivities()
+    assert ("more columns" in whole._repr_html_()) == (len(whole.wrt) > 8)

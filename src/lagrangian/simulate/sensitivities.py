@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+SHOWN = 8
+"""The number of columns in a notebook's view."""
+
 ALSO: Mapping[str, str] = {
     **dict.fromkeys(("x", "y", "states", "values"), 'changes, (states, samples, names); sensitivities["theta"]'),
     **dict.fromkeys(("names", "parameters", "params", "columns"), "wrt"),
@@ -132,6 +135,18 @@ class Sensitivities(Guided):
         """Quantities are accessed as entries, not as attributes."""
         task = self.__dict__.get("_task")
         return f'sensitivities["{name}"]' if task is not None and name in task.model.symbols else None
+
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import table_view
+
+        names = self.wrt[:SHOWN]
+        words = [f"derivatives at the end, t = {self.t[-1]:g} s; {len(self.t)} samples"]
+        words += [f"and {len(self.wrt) - len(names)} more columns"] if len(self.wrt) > len(names) else []
+        rows = [
+            (state, *(f"{x:.6g}" for x in found[-1, : len(names)]))
+            for state, found in zip(self._task.states, self.changes, strict=True)
+        ]
+        return table_view(self._task.model.name, words, ("state", *(f"by {name}" for name in names)), rows)
 
     def __repr__(self) -> str:
         """Name what was differentiated by what."""
