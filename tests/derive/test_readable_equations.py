@@ -267,7 +267,7 @@ def number(name: object) -> sp.Float:
     return sp.Float(random.Random(str(name)).uniform(0.3, 1.7), 40)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_nothing_is_lost_between_the_form_and_the_page(n: int) -> None:
     q, T, V = chain(n, True)

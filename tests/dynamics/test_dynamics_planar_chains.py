@@ -41,6 +41,7 @@ def test_accelerations_against_the_closed_form(n, relative):
         assert run(programs.forward(model), at)["a"] == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(("relative", "limit"), [(False, 50), (True, 52)])
 def test_cost_a_link_is_constant(relative, limit):

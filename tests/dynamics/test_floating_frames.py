@@ -177,6 +177,7 @@ def on_a_base(floats):
     return s, base
 
 
+@pytest.mark.slow
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(3))
 def test_the_motion_is_that_of_a_base_described_by_angles(seed):

@@ -185,6 +185,7 @@ def test_a_body_that_rolls_costs_no_more_than_rows_written_by_hand():
         assert operations(describe(model, graph, Inputs.of(graph, model))) <= bound
 
 
+@pytest.mark.slow
 def test_a_ladder_of_loops_takes_operations_in_proportion_to_its_length():
     five, ten, twenty = (operations(mechanisms.ladder(count)[0]) for count in (5, 10, 20))
     assert twenty - ten == 2 * (ten - five) and ten <= 3581

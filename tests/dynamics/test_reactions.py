@@ -104,6 +104,7 @@ def free_bodies(sizes: Any, q: Any, v: Any, a: Any) -> np.ndarray:
     return found.reshape(-1, 2)
 
 
+@pytest.mark.slow
 def test_the_pins_of_a_four_bar_agree_with_its_free_bodies() -> None:
     s, sizes, _ = fourbar()
     dyn = s.compile()

@@ -35,6 +35,7 @@ def test_a_slider_crank_balances_a_weight_against_a_force() -> None:
         assert e.multipliers["loop.y"] == pytest.approx(-F * np.tan(e["psi"]))  # the rod carries a force along itself
 
 
+@pytest.mark.slow
 def test_redundant_coordinates_have_the_same_equilibria() -> None:
     found, plain = cart_pole(redundant=True).equilibria(), cart_pole(redundant=False).equilibria()
     assert [e["theta"] for e in found] == pytest.approx([e["theta"] for e in plain], abs=1e-12)

@@ -26,6 +26,7 @@ def test_a_rod_pendulum_swings_with_the_root_of_g_over_l() -> None:
     assert found.to_dict()["all_states"] == ["x", "y", "x'", "y'"]
 
 
+@pytest.mark.slow
 def test_redundant_coordinates_change_no_linearization() -> None:
     plain, found = cart_pole(redundant=False).linearize(), cart_pole(redundant=True).linearize({"Y": 0.7})
     assert found.states == plain.states

@@ -61,6 +61,7 @@ def test_a_broken_triangle_is_noted_wherever_the_system_is_shown(plate: lg.Syste
     assert d.to_dict()["notices"] == [{"code": "E105", "where": notice.where, "text": notice.text}]
 
 
+@pytest.mark.slow
 def test_the_command_shows_it_too(plate: lg.System, tmp_path) -> None:  # type: ignore[no-untyped-def]
     path = tmp_path / "plate.toml"
     path.write_text(FILE % "5", encoding="utf-8")

@@ -107,6 +107,7 @@ def test_what_is_wrong_is_said_with_its_place_and_a_cure(case: str) -> None:
         assert "<text>:" in str(error)
 
 
+@pytest.mark.slow
 def test_a_system_that_cannot_move_is_solved_all_the_same() -> None:
     s = lg.loads(HEAD + '[[pin]]\nname="p"\nbetween=["P","Q"]\n[[constraint]]\nname="c"\nexpression="theta"\n')
     d = s.derive()

@@ -244,8 +244,10 @@ def test_no_module_of_the_grammar_can_run_text() -> None:
         "sqrt(" * 49 + "x+1" + ")" * 49,
         "abs(" * 49 + "x+m" + ")" * 49,
         "max(" + ",".join(f"x*{i}+y" for i in range(32)) + ")",
-        "max(" * 45 + "x,y" + "".join(f",{i}*x)" for i in range(45)),
-        "piecewise(" + ",".join(f"x*m+{i} > y*{i},{i}" for i in range(300)) + ",0)",
+        pytest.param("max(" * 45 + "x,y" + "".join(f",{i}*x)" for i in range(45)), marks=pytest.mark.slow),
+        pytest.param(
+            "piecewise(" + ",".join(f"x*m+{i} > y*{i},{i}" for i in range(300)) + ",0)", marks=pytest.mark.slow
+        ),
         "piecewise(" + " and ".join(f"x > {i}*y" for i in range(500)) + ",1,0)",
         "abs(" + "+".join(f"{i}*m^{i % 9}*sin({i}*x)" for i in range(100)) + ")",
         pytest.param("abs(" + "+".join(f"{i}*m^{i % 9}*sin({i}*x)" for i in range(500)) + ")", marks=pytest.mark.slow),

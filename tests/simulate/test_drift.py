@@ -202,7 +202,7 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
     assert bool(told) == (run.drift.margin < 1e-6) and all("'coupler' comes within" in n.text for n in told)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("options", "within"),
     [
@@ -236,6 +236,7 @@ def test_a_plate_on_three_cranks_goes_on_turning():
     assert run.success and float(run.audit) < 1e-9 and run.drift.velocity_after < 1e-8
 
 
+@pytest.mark.slow
 def test_forces_of_a_plate_on_three_cranks_add_up_to_those_of_its_motion():
     """On the plate: Σ forces = m (r″ − g), and no torque about its centre, as it does not turn."""
     run = plate_on_cranks().simulate(1.0, initial=START, samples=41)

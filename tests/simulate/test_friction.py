@@ -118,6 +118,7 @@ def test_a_block_on_a_swinging_belt(start: tuple[float, float]) -> None:
     assert float(run.audit) < 1e-10
 
 
+@pytest.mark.slow
 def test_accelerations_and_modes_are_those_of_the_regime() -> None:
     run = on_belt().simulate(duration=6, initial={"x": 0.0, "x'": 0.5}, **TIGHT)
     b, modes = SwingingBelt, run.modes["belt"]
@@ -252,6 +253,7 @@ def test_a_block_on_an_incline_sticks_below_the_angle_of_friction() -> None:
         assert run["x"] == pytest.approx(slide * run.t**2 / 2, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_two_blocks_one_on_the_other() -> None:
     """A force r t pulls the lower one: both rest, then ride together, then the upper one is left behind."""
     s = lg.System("stack")

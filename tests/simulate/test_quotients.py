@@ -65,6 +65,7 @@ def test_an_optimum_is_held_against_ordinary_runs_and_quadrature() -> None:
     assert "What was checked" in str(found)
 
 
+@pytest.mark.slow
 def test_an_optimum_that_an_event_ends_is_held_too() -> None:
     system, bounce = ball()
     ground = lg.event(bounce.expression, direction=-1, terminal=True)

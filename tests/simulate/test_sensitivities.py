@@ -184,6 +184,7 @@ def test_what_has_no_derivative_is_refused() -> None:
     assert found.observe({"square": "x^2"})["square"].shape == (1001, 1)
 
 
+@pytest.mark.slow
 def test_constraints_and_dry_friction_are_refused() -> None:
     tied = cart()
     tied.constraint(tied["x"] - sp.sin(tied.t), name="tie")

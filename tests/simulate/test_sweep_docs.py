@@ -16,6 +16,7 @@ def blocks(language: str) -> list[str]:
     return [body.lstrip("\n") for opened, body in zip(parts[1::4], parts[2::4], strict=True) if opened == language]
 
 
+@pytest.mark.slow
 def test_the_python_runs_and_says_what_stands_there(
     capsys: pytest.CaptureFixture[str], tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

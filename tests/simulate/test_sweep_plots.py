@@ -57,6 +57,7 @@ def test_what_failed_is_left_out_and_said_where_nothing_is_left() -> None:
     assert figure.axes[1].texts[0].get_text() == "every run failed"
 
 
+@pytest.mark.slow
 def test_the_command_draws(tmp_path: pathlib.Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "a.png"
     given = ["sweep", "-e", "double-pendulum", "theta1=0.1:1:5", "--duration", "1", "--plot", str(path)]

@@ -60,6 +60,7 @@ def test_a_short_pulse_is_not_jumped_over(method: str, pulse: Any) -> None:
     np.testing.assert_allclose(run["x'"][-1], 30.0 * 0.01 / 2, rtol=1e-7)
 
 
+@pytest.mark.slow
 def test_a_pulse_of_a_period_and_one_of_a_sine() -> None:
     run = pushed().simulate(10.0, inputs={"F": "piecewise(sin(40*t) > 0, 1, -1)"})
     at = run.t % (2 * np.pi / 40)  # x' is a triangle of half a period up, half a period down

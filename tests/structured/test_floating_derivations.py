@@ -94,6 +94,7 @@ def test_the_page_says_what_the_speeds_are_and_shows_boltzmanns_and_hamels_terms
     assert "--why" not in text  # there is no such page for it
 
 
+@pytest.mark.slow
 def test_all_formats_and_notations() -> None:
     d = arm().derive()
     for notation in ("lecture", "physics", "robotics"):

@@ -80,6 +80,7 @@ def test_quantities_stand_before_what_needs_them_in_every_chain() -> None:
     assert proved(d)
 
 
+@pytest.mark.slow
 def test_numbers_that_are_rounded_differently_are_compared_as_numbers() -> None:
     d = derive_structured(robots.numeric_arm().model)
     checks = verify_lines(d, states=3, seed=1)
@@ -170,6 +171,7 @@ def test_cse_and_expanded_equations_are_the_compiled_ones(puma: lg.System, puma_
     assert abs(float((last.lhs - last.rhs).xreplace(values)) - wanted[5]) < 1e-11
 
 
+@pytest.mark.slow
 def test_shares_of_the_elements_add_up_to_the_rows(puma: lg.System) -> None:
     found = listing(puma.model)
     shares = ListedShares(found, ListingWriter(found))
