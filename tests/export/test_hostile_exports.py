@@ -106,7 +106,7 @@ def test_every_target_is_run_by_something_or_is_said_to_be_run_by_nothing() -> N
 
 @pytest.mark.parametrize(
     ("target", "said"),
-    [("c", "lagrangian verify runs"), ("jax", "lagrangian verify --exports runs"), ("modelica", "no Modelica tool")],
+    [("c", "lagrangian verify runs"), ("jax", "lagrangian verify --exports runs"), ("simulink", "in Simulink alone")],
 )
 def test_the_command_says_that_an_export_is_not_checked(target: str, said: str, tmp_path: pathlib.Path) -> None:
     made = CliRunner().invoke(app, ["export", "-e", "pendulum", "--to", target, "-o", str(tmp_path)])
