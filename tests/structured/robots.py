@@ -131,3 +131,23 @@ def two_gravities() -> lg.System:
     s.gravity(direction=(1, 0), g=h, name="wind")
     s.damper(law=lambda rate: 2 * rate * sp.Abs(rate), deflection=q2)
     return s
+
+
+def satellite() -> lg.System:
+    """A floating body with two arms of three joints."""
+    s = lg.System("satellite with two arms")
+    base = s.floating_frame("base")
+    m, A, B, C, w = s.parameters("m0 A B C w")
+    s.rigid_body(m, (A, B, C), base.origin, base)
+    for side, sign in (("l", 1), ("r", -1)):
+        parent, at = base, base.point(0, sign * w, 0)
+        for k, axis in enumerate("zyy", 1):
+            q, u = s.coordinate(f"q{side}{k}"), s.input(f"tau{side}{k}")
+            if k > 1:
+                at = parent.point(s.parameter(f"L{side}{k}"), 0, 0, at=at)
+            parent = s.frame(q, axis=AXES[axis], parent=parent, origin=at)
+            mass, c = s.parameters(f"m{side}{k} c{side}{k}")
+            inertia = [s.parameter(f"I{side}{k}{a}") for a in "xyz"]
+            s.rigid_body(mass, inertia, parent.point(c, 0, 0, at=at), parent)
+            s.torque(u, on=q)
+    return s

@@ -77,7 +77,7 @@ class _Truth:
     def __init__(self, derivation: Derived) -> None:
         self.derivation, self.model = derivation, derivation.model
         model = self.model
-        rates = {c.rate: c for c in model.coordinates}
+        rates: dict[sp.Expr, Any] = {c.rate: c for c in model.coordinates}
         self.names = [rates[v.symbol].name if v.symbol in rates else v.name for v in model.velocities]
         self.meanings: dict[sp.Basic, sp.Expr] = {d.symbol: d.expression for d in derivation.definitions}
         moving = (*model.coordinates, *model.velocities, *model.inputs, *model.parameters)
@@ -278,7 +278,7 @@ def _states(model: Model, count: int, *, given: bool, still: bool = False) -> It
     forward, source, found = dynamics.forward(model), np.random.default_rng(11), 0
     quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
     positive = np.array([c.positive for c in model.coordinates])
-    p = [0.0]
+    p, t = [0.0], 0.0
     for _ in range(DRAWS + count):
         if not (still and found):
             drawn = source.uniform(0.4, 1.6, len(model.parameters))

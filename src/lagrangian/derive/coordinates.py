@@ -127,7 +127,7 @@ def _wiggle_words(context: Context, index: int) -> list[str | Left]:
 def _listed(elements: Sequence[Element]) -> str:
     titles = [e.title for e in elements]
     if len(titles) > 6:
-        return f"{titles[0]}, …, {titles[-1]} ({len(titles)} bodies)"
+        return f"{titles[0]}, …, {titles[-1]}"
     return titles[0] if len(titles) == 1 else ", ".join(titles[:-1]) + " and " + titles[-1]
 
 

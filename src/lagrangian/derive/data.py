@@ -71,7 +71,8 @@ def to_dict(
 
 def named_symbols(derivation: Derived) -> list[NamedSymbol]:
     """The symbols that a derivation defines, turns first: m₁ c₂ v₃."""
-    return [NamedSymbol(d.symbol, 0 if d.kind == "turn" else 1, d.inward) for d in derivation.definitions]
+    named = (*derivation.definitions, *derivation.patterns)
+    return [NamedSymbol(d.symbol, 0 if d.kind == "turn" else 1, d.inward) for d in named]
 
 
 class _Data:

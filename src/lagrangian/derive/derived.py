@@ -147,7 +147,7 @@ class Derived(Brief):
 
     ``form`` is "expanded" or "structured". Structured equations, and T, V, L and Ξ with them, are written in named
     quantities, the ``definitions``, each in the coordinates and earlier quantities; of an expanded derivation there are
-    none.
+    none. ``patterns`` are the names that lines which stand for several have on a page, with k for a number.
 
     With constraints the equations are ``Eq(left-hand side, Ξ_i + Σ λ ∂c/∂ξ̇_i)``, and M ξ̈ + C ξ̇ + G = Ξ + Aᵀ λ.
     ``multipliers`` has a `Multiplier` for every row, by the row's name; ``constraint_equations`` are the conditions of
@@ -177,6 +177,7 @@ class Derived(Brief):
     constraints: Constraints | None = None
     form: WrittenForm = "expanded"
     definitions: tuple[NamedQuantity, ...] = ()
+    patterns: tuple[NamedQuantity, ...] = field(default=(), repr=False)
 
     @property
     def mass_matrix(self) -> sp.ImmutableMatrix:

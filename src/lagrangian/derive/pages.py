@@ -89,7 +89,7 @@ class _Layout(Items):
         if notes := self.notes():
             sections.append(Section("notes", ("Notes",), notes))
         kept = tuple(s for s in sections if s.blocks or s.number is not None)
-        return Document(d.model.name, kept, self.brief, picture if drawn else None)
+        return Document(d.model.name, kept, self.brief, picture if drawn else None, d.form == "structured")
 
     # -- sections ---------------------------------------------------------------------------------------------------
 

@@ -55,7 +55,7 @@ def derive_structured(model: Model) -> Derived:
     equations = equalities(found, write)
     return Derived(
         model=model,
-        steps=(step0, step1, step2, step3, step4, step5, step6),
+        steps=(step0, steps.families.step(step1), step2, step3, step4, step5, steps.families.step(step6)),
         T=step2.expressions["T"],
         V=step3.expressions["V"],
         L=step4.expressions["L"],
@@ -63,11 +63,12 @@ def derive_structured(model: Model) -> Derived:
         equations=equations,
         terms=tuple(_terms(found, equation) for equation in equations),
         matrices=ListedMatrices(found),
-        result=(*_closing(steps, equations), *ledger_items(book)),
+        result=(*_closing(steps, equations), *steps.families([item] for item in ledger_items(book))),
         ledger=book,
         shares=ListedShares(found, write),
         form="structured",
         definitions=steps.definitions(),
+        patterns=steps.families.patterns(steps.definitions()),
         multipliers=steps.multipliers,
         no_minimal=text("the equations are written in named quantities") if found.ties else None,
         constraint_step=steps.constraints(),

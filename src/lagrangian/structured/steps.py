@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 
 import sympy as sp
@@ -17,6 +17,7 @@ from lagrangian.derive.lagrange import SUMMED, left_hand_sides_step
 from lagrangian.derive.multipliers.step import by_multipliers, constraint_step
 from lagrangian.model import Element, Gravity
 from lagrangian.page.formula import (
+    Formula,
     Heading,
     Item,
     Left,
@@ -31,6 +32,7 @@ from lagrangian.page.formula import (
     formula,
     text,
 )
+from lagrangian.structured.families import Families
 from lagrangian.structured.floating import along, laws, left_side, moved_by, quasi_velocities
 from lagrangian.structured.listing import Listing
 from lagrangian.structured.predict import is_long
@@ -67,6 +69,7 @@ class ListedSteps:
 
     def __init__(self, found: Listing, write: ListingWriter) -> None:
         self.found, self.write, self.model = found, write, found.model
+        self.families = Families(found.model)
         self.flat = self.model.dimension == 2
         self.T = [self._kinetic(k) for k in range(len(found.bodies))]
         self.V = [(element, self._potential(element)) for element in self.model.elements if element.ledger == "V"]
@@ -84,12 +87,13 @@ class ListedSteps:
         kinds: dict[QuantityKind, list[NamedQuantity]] = {kind: [] for kind in ORDER}
         known: dict[sp.Basic, NamedQuantity] = {q.symbol: q for q in self.write.quantities.values()}
         needs = {x: sorted(q.expression.free_symbols & known.keys(), key=str) for x, q in known.items()}
-        used = self._first_used(known.keys())
-        where = self._section_of(needs, used)
-        done: set[sp.Basic] = set()
         first: dict[tuple[str, str, bool], int] = {}
         for node, q in sorted(self.write.quantities.items()):
             first.setdefault(_group(q), node)
+        ordered = sorted(known.values(), key=lambda q: (first[_group(q)], _alphabetic(q)))
+        used = self._first_used([q.symbol for q in ordered])
+        where = self._section_of(needs, used)
+        done: set[sp.Basic] = set()
 
         def put(symbol: sp.Basic) -> None:
             if symbol not in done:
@@ -101,14 +105,13 @@ class ListedSteps:
         for symbols in used.values():
             for symbol in symbols:
                 put(symbol)
-        ordered = sorted(known.values(), key=lambda q: (first[_group(q)], _alphabetic(q)))
         for kind in ORDER:
             for q in ordered:
                 if where[q.symbol] == kind:
                     put(q.symbol)
         return kinds
 
-    def _first_used(self, known: Collection[sp.Basic]) -> dict[QuantityKind, list[sp.Basic]]:
+    def _first_used(self, known: Sequence[sp.Basic]) -> dict[QuantityKind, list[sp.Basic]]:
         """What the energies and the rows of constraints need, by the section that precedes them."""
         rows = [x for row in self.multipliers.values() for x in (row.position, row.rate) if x is not None]
         values: dict[QuantityKind, list[sp.Expr]] = {
@@ -119,7 +122,7 @@ class ListedSteps:
         found: dict[QuantityKind, list[sp.Basic]] = {}
         for kind, exprs in values.items():
             symbols = set[sp.Basic]().union(*(x.free_symbols for x in exprs))
-            found[kind] = sorted((x for x in symbols if x in known), key=str)
+            found[kind] = [x for x in known if x in symbols]
         return found
 
     def _section_of(
@@ -148,15 +151,23 @@ class ListedSteps:
             return
         yield Heading(text(HEADINGS[kind]))
         if kind == "turn":
-            parts: list[str | Left] = []
-            for q in listed:
-                parts += [", " if parts else "", q.symbol, " = ", q.expression]
-            yield text(*parts, ".")
+            yield self._in_one_line(self.families([[formula(q.symbol, q.expression)] for q in listed]))
             return
+        blocks: list[list[Item]] = []
         for of, group in groupby(listed, key=lambda q: (q.of, q.inward)):
             for k, q in enumerate(group):
                 note = text(self._belongs(q)) if k == 0 and of[0] else None
-                yield formula(q.symbol, q.expression, note=note)
+                blocks.append([formula(q.symbol, q.expression, note=note)])
+        yield from self.families(blocks)
+
+    def _in_one_line(self, items: Iterable[Item]) -> Text:
+        """Short definitions one after the other."""
+        parts: list[str | Left] = []
+        for item in items:
+            assert isinstance(item, Formula)
+            told = () if item.note is None else (" (", *item.note.parts, ")")
+            parts += [", " if parts else "", item.sides[0], " = ", item.sides[1], *told]
+        return text(*parts, ".")
 
     def _belongs(self, q: NamedQuantity) -> str:
         return f"{q.of} and all that hangs on it" if q.inward else q.of
@@ -201,8 +212,8 @@ class ListedSteps:
             Heading(text("Energies")),
         ]
         names = [Name("T*", b.index) for b in self.found.bodies]
-        for name, b, (shown, _) in zip(names, self.found.bodies, self.T, strict=True):
-            items.append(formula(name, shown, note=text(b.body.title)))
+        lines = zip(names, self.found.bodies, self.T, strict=True)
+        items += self.families([formula(name, shown, note=text(b.body.title))] for name, b, (shown, _) in lines)
         reasons = [
             text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
         ]
@@ -210,7 +221,7 @@ class ListedSteps:
             names.append(Name("T*", element.name))
             items.append(formula(names[-1], self.given[element.title], note=text(element.title)))
             reasons.append(text(names[-1], f": {element.title} was given"))
-        items.append(formula(Name("T*"), Terms(tuple(names)), brief=True))
+        items.append(formula(Name("T*"), _summed(names), brief=True))
         return Step(
             2,
             "Kinetic co-energy",
@@ -243,21 +254,23 @@ class ListedSteps:
         ]
         names: list[Name] = []
         reasons: list[Text] = []
+        lines: list[list[Item]] = []
         for element, value in self.V:
             if isinstance(element, Gravity):
                 many = len(self.found.heights) > 1
                 for b, node in zip(self.found.bodies, self.found.heights[element.title], strict=True):
                     names.append(Name("V", f"{b.index} {element.name}" if many else b.index))
                     height = self.write(node)
-                    items.append(
-                        formula(names[-1], Product((b.body.mass * element.g, height)), note=text(b.body.title))
+                    lines.append(
+                        [formula(names[-1], Product((b.body.mass * element.g, height)), note=text(b.body.title))]
                     )
                     reasons.append(text(names[-1], f": {element.title} pulls on {b.body.title}: mgh"))
             else:
                 names.append(Name("V", element.name))
-                items.append(formula(names[-1], value, note=text(element.title)))
+                lines.append([formula(names[-1], value, note=text(element.title))])
                 reasons.append(text(names[-1], f": {element.title} {element.stored}"))
-        total: Left = Terms(tuple(names)) if names else sp.S.Zero
+        items += self.families(lines)
+        total: Left = _summed(names) if names else sp.S.Zero
         if not names:
             items = [nothing_stored(self.model)]
         items.append(formula(Name("V"), total, brief=True))
@@ -296,6 +309,7 @@ class ListedSteps:
         items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
         shown: dict[str, dict[sp.Expr, sp.Expr]] = {"momenta": {}, "gradients": {}, "left_hand_sides": {}}
         quasi, moved = quasi_velocities(self.model), moved_by(self.model)
+        blocks: list[list[Item]] = []
         for i, (speed, symbol) in enumerate(moved.items()):
             momentum, slope = self.write(self.found.momenta[i]), self.write(self.found.gradients[i])
             by_rate, by_place = Partial(Name("L"), speed.symbol), Partial(Name("T*"), symbol)
@@ -303,11 +317,12 @@ class ListedSteps:
             whole: Left = Terms((Total(by_rate), Minus(Partial(Name("L"), symbol))))
             if symbol in quasi:
                 by_place, whole = along(speed), left_side(symbol, *quasi[symbol])
-            items += [Heading(text(f"Equation {i + 1}: ", symbol)), formula(by_rate, momentum)]
-            items += [formula(by_place, slope)] if slope != 0 or symbol not in quasi else []
-            items.append(formula(whole, row, brief=True))
+            block: list[Item] = [Heading(text(f"Equation {i + 1}: ", symbol)), formula(by_rate, momentum)]
+            block += [formula(by_place, slope)] if slope != 0 or symbol not in quasi else []
+            blocks.append([*block, formula(whole, row, brief=True)])
             shown["momenta"][symbol], shown["gradients"][symbol] = momentum, slope
             shown["left_hand_sides"][symbol] = row
+        items += self.families(blocks)
         reasons = [
             text(f"equation {i + 1}: all that moves with ", symbol, ": its inertia, springs and weights")
             for i, symbol in enumerate(moved.values())
@@ -342,6 +357,15 @@ class ListedSteps:
                 "Accelerations are measured against free fall: the ground itself is accelerated upwards with g, and no "
                 "weight is left to be added (the same as −∂L/∂ξ of the potential energy of weights)."
             )
+
+
+def _summed(names: Sequence[Name]) -> Left:
+    """The sum of energies; of many the first and the last."""
+    return Terms(tuple(names) if len(names) <= MOST_SUMMED else (names[0], names[1], Name("…"), names[-1]))
+
+
+MOST_SUMMED = 9
+"""Energies that are written in their sum one by one."""
 
 
 def _alphabetic(q: NamedQuantity) -> tuple[str, str]:

@@ -81,11 +81,12 @@ class ListingWriter:
     # -- candidates ---------------------------------------------------------------------------------------------------
 
     def _angles(self) -> list[Candidate]:
-        """Sums of more than three angles, from which further ones are counted."""
+        """Sums of more than three angles, from which further ones are counted; all sums where names have two digits."""
+        most = MOST_ANGLES if len(self.model.coordinates) < 10 else 1
         nodes = self.graph.nodes
         found: list[Candidate] = []
         for frame, angle in self.found.description.angles.items():
-            if nodes[angle][0] in ("add", "sub") and len(sp.Add.make_args(self(angle))) > MOST_ANGLES:
+            if nodes[angle][0] in ("add", "sub") and len(sp.Add.make_args(self(angle))) > most:
                 index = self.found.indices.axes[self.found.description.axes[frame]]
                 self._sums[angle] = index
                 found.append(Candidate(angle, "turn", "phi", (index,), f"frame {index}"))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
+from typing import TypeAlias
 
 from lagrangian.model import Model
 from lagrangian.write.blocks import Items
@@ -21,7 +23,8 @@ def described(items: Items, model: Model) -> Section:
     """The symbols of a model with their meaning and values, and its definitions."""
     blocks: list[Block] = []
     if not items.brief:
-        rows = [tuple((cell,) if cell else () for cell in row) for row in _symbols(model, items.write)]
+        listed = _together(_symbols(model, items.write))
+        rows = [tuple(cell if isinstance(cell, tuple) else (cell,) if cell else () for cell in row) for row in listed]
         header: tuple[Inline, ...] = (("symbol",), ("what it is",), ("value",))
         kept = 3 if any(row[2] for row in rows) else 2
         blocks.append(TableBlock(header[:kept], tuple(row[:kept] for row in rows)))
@@ -32,14 +35,37 @@ def described(items: Items, model: Model) -> Section:
     return Section("system", ("The system",), tuple(blocks))
 
 
-def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str, str]]:
+LEAST = 5
+"""Symbols from which those that differ by a number alone share a row."""
+
+_Row: TypeAlias = "tuple[str, Math | str, str, str]"
+"""The name of a symbol, the symbol, what it is, and its value."""
+
+
+def _together(rows: Iterable[_Row]) -> Iterator[tuple[Inline | Math | str, str, str]]:
+    """The rows, where many symbols that differ by a number alone, m1 to m20, share the first one's row."""
+    listed = list(rows)
+    groups: dict[tuple[str, str, str], list[_Row]] = {}
+    for row in listed:
+        stem = re.sub(r"\d+", "#", row[0], count=1)
+        groups.setdefault((stem, *row[2:]), []).append(row)
+    shared = {row[0]: group for group in groups.values() if len(group) >= LEAST for row in group}
+    for name, symbol, words, value in listed:
+        group = shared.get(name)
+        if group is None:
+            yield symbol, words, value
+        elif group[0][0] == name:
+            yield (symbol, ", …, ", group[-1][1], f" ({len(group)})"), words, value
+
+
+def _symbols(model: Model, write: Quantities) -> Iterator[_Row]:
     """The symbols: coordinates, parameters with their values, inputs."""
     floating = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates}
     for c in model.coordinates:
         words = f"{c.name}: {c.description}" if c.name in floating else c.description or "coordinate"
-        yield write.expressions(c.symbol), words, f"[{unit(c.unit)}]" if c.unit else ""
+        yield c.name, write.expressions(c.symbol), words, f"[{unit(c.unit)}]" if c.unit else ""
     for p in model.parameters:
         value = "" if p.value is None else measured(p.value, p.unit)
-        yield write.expressions(p.symbol), p.description or "parameter", value
+        yield p.name, write.expressions(p.symbol), p.description or "parameter", value
     for i in model.inputs:
-        yield write.expressions(i.symbol), i.description or "input", f"[{unit(i.unit)}]" if i.unit else ""
+        yield i.name, write.expressions(i.symbol), i.description or "input", f"[{unit(i.unit)}]" if i.unit else ""

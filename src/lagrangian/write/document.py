@@ -126,10 +126,12 @@ class HeadPicture(Brief):
 class Document:
     """A title and sections; ``brief`` distinguishes the one-page checklist from the whole derivation.
 
-    ``picture`` stands before the sections where the format has pictures.
+    ``picture`` stands before the sections where the format has pictures. ``named``: many short definitions, several of
+    which may share a line in print.
     """
 
     title: str
     sections: tuple[Section, ...]
     brief: bool = False
     picture: HeadPicture | None = None
+    named: bool = False

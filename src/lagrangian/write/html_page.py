@@ -68,9 +68,13 @@ def page(document: Document, subject: str) -> str:
         '<meta name="color-scheme" content="light dark">\n'
         f"<title>{title}: {escape(subject)}</title>\n<style>\n{style_sheet()}{_pointing(document)}</style>\n"
         "</head>\n<body>\n"
-        f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
+        f'<main class="{_kind(document)}">\n<header><h1>{title}</h1></header>\n'
         f"{_picture(document)}{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
     )
+
+
+def _kind(document: Document) -> str:
+    return ("brief" if document.brief else "whole") + (" named" if document.named else "")
 
 
 def fragment(document: Document) -> str:
