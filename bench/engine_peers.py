@@ -207,19 +207,22 @@ class CasADi:
             return None
         with tempfile.TemporaryDirectory() as folder:
             library = ctypes.CDLL(str(self._compiled(compiler, Path(folder))))
-        arrays = (q, v, u, np.empty_like(v))  # kept by the callable
+        width = sum(self.function.numel_out(k) for k in range(self.function.n_out()))
+        arrays = (q, v, u, np.empty((len(q), width)))  # kept by the callable
         return lambda: library.many(ctypes.c_int64(len(q)), *[ctypes.c_void_p(address(x)) for x in arrays])
 
     def _compiled(self, compiler: str, folder: Path) -> Path:
         generator = self.casadi.CodeGenerator("fd.c")
         generator.add(self.function)
         f, n = self.function, self.tree.nv
+        sizes = [f.numel_out(k) for k in range(f.n_out())]
+        results = " ".join(f"res[{k}] = a + {sum(sizes[:k])};" for k in range(f.n_out()))
         source = generator.dump() + (
             "\nvoid many(long long count, const double *q, const double *v, const double *u, double *a) {\n"
             f"  casadi_int iw[{f.sz_iw() + 1}]; double w[{f.sz_w() + 1}];\n"
-            f"  const double *arg[{f.sz_arg() + 3}]; double *res[{f.sz_res() + 1}];\n"
-            f"  for (; count > 0; count--, q += {n}, v += {n}, u += {n}, a += {n}) {{\n"
-            "    arg[0] = q; arg[1] = v; arg[2] = u; res[0] = a;\n"
+            f"  const double *arg[{f.sz_arg() + 3}]; double *res[{f.sz_res() + f.n_out()}];\n"
+            f"  for (; count > 0; count--, q += {n}, v += {n}, u += {n}, a += {sum(sizes)}) {{\n"
+            f"    arg[0] = q; arg[1] = v; arg[2] = u; {results}\n"
             "    fd(arg, res, iw, w, 0);\n  }\n}\n"
         )
         (folder / "fd.c").write_text(source, encoding="utf-8")
@@ -235,8 +238,20 @@ class CasADi:
             "fd.so",
             "-lm",
         ]
-        subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120)
+        subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=600)
         return folder / "fd.so"
+
+
+class CasADiDerivatives(CasADi):
+    """The same with ∂a/∂q, ∂a/∂v and M⁻¹ = ∂a/∂u."""
+
+    def _derived(self) -> Any:
+        ca = self.casadi
+        plain, n = super()._derived(), self.tree.nv
+        q, v, u = (ca.SX.sym(name, n) for name in "qvu")
+        a = plain(q, v, u)
+        made = [a, *(ca.densify(ca.jacobian(a, x)) for x in (q, v, u))]
+        return ca.Function("fd", [q, v, u], made, {"cse": True})
 
 
 def quarter_turn(quarter: int) -> Array:
