@@ -1,8 +1,10 @@
 """Mistakes in answers with letters of their own are named, and those that explain a line fit the lines below it."""
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
+from lagrangian.model import time
 
 
 @pytest.fixture(scope="module")
@@ -87,3 +89,46 @@ def test_a_letter_by_which_an_equation_was_divided_names_no_element(drum: lg.Der
     answer = "m*x'' - m*g + k1*(x - R*phi) = 0\nJ*phi''/c - k1*R*(x - R*phi)/c + k2*r^2*phi/c + r^2*phi' - m*g*R/c = 0"
     (mistake,) = drum.check(answer).mistakes
     assert "brake" not in str(mistake.what) and mistake.element != "damper 'brake'"
+
+
+# -- lengths and angles that are sums, what rolls, what is carried -----------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def trough() -> lg.Derivation:
+    """A cylinder that rolls in a trough on a cart, which is shaken: ω = −(R − r) φ'/r."""
+    s = lg.System("trough")
+    x, phi = s.coordinates("x phi")
+    M, m, R, r, J, k, A, nu = s.parameters("M m R r J k A nu")
+    at = s.point("C", (x + A * sp.sin(nu * s.t), 0))
+    s.particle(M, at=at, name="cart")
+    turning = s.frame(-(R - r) / r * phi, name="cylinder")
+    s.rigid_body(m, J, at=at + ((R - r) * sp.sin(phi), -(R - r) * sp.cos(phi)), frame=turning, name="cylinder")
+    s.gravity()
+    s.spring(k, deflection=x, name="spring")
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    ("slip", "said"),
+    [
+        ("radius", "R stands in place of R - r"),
+        ("omega", "not phi'"),
+        ("rolling", "x'/r"),
+        ("spring", "The deflection of spring 'spring' is taken as -A*sin(nu*t) + x"),
+    ],
+)
+def test_sums_rolling_and_carried_ends(trough: lg.Derivation, slip: str, said: str) -> None:
+    """T* and V are written by hand with the slip, the equations by SymPy from them."""
+    (x, phi), model = trough.coordinates, trough.model
+    M, m, R, r, J, k, A, nu, g = (p.symbol for p in model.parameters)
+    a = R if slip == "radius" else R - r
+    carried, angle = x + A * sp.sin(nu * time), a * phi / r
+    angle = {"omega": phi, "rolling": angle + x / r}.get(slip, angle)
+    u, w = carried.diff(time), a * phi.diff(time)
+    T = M * u**2 / 2 + m * (u**2 + 2 * u * w * sp.cos(phi) + w**2) / 2 + J * angle.diff(time) ** 2 / 2
+    delta = x - A * sp.sin(nu * time) if slip == "spring" else x
+    V = k * delta**2 / 2 - m * g * (R - r) * sp.cos(phi)
+    rows = [sp.Eq((T.diff(q.diff(time)).diff(time) - T.diff(q) + V.diff(q)).doit(), 0) for q in (x, phi)]
+    (mistake,) = trough.check(rows).mistakes
+    assert said in str(mistake.what), str(mistake.what)

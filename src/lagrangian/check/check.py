@@ -384,4 +384,10 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
         every = "" if too_long(truth) else "all "
         said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
         notes = (*notes, text(said))
+    if named.told and named.left:
+        lines = [x for line in named.left for x in (line.title, ", ")][:-1]
+        notes = (
+            *notes,
+            text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
+        )
     return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes)

@@ -139,6 +139,12 @@ KINDS: Mapping[str, KindWords] = {
         "A sine or cosine in {brief} is not right.",
         ANGLES,
     ),
+    "segment_direction": KindWords(
+        "In {site}, what {right} contributes is at a right angle to where it points.",
+        "Something in {brief} points in another direction.",
+        WAY,
+    ),
+    "sum": KindWords("In {site}, {written} stands in place of {right}.", "A sum in {brief} is not right.", WAY),
     "segment_number": KindWords(
         "In {site}, {written} stands in place of {right}.",
         "A length in {brief} is not right.",
@@ -305,9 +311,10 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
 
 
 def _short(value: sp.Expr) -> sp.Expr:
-    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ)."""
+    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ), R + r sin θ for √((R + r sin θ)²)."""
     roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]
-    return cast("sp.Expr", value.xreplace({f: sp.sqrt(bounded.trigsimp(f.base)) for f in roots}))
+    drawn = {f: sp.powdenest(sp.sqrt(sp.factor(bounded.trigsimp(f.base))), force=True) for f in roots}
+    return cast("sp.Expr", value.xreplace(drawn))
 
 
 def _text(*parts: str | Left) -> Text:

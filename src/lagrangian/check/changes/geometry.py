@@ -10,6 +10,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site, Words
+from lagrangian.check.changes.pieces import instead_of_piece, instead_of_segment, segment
 from lagrangian.check.changes.ring import TooLong, minus
 from lagrangian.check.changes.sites import Sites
 from lagrangian.check.misconceptions.base import half_square, partner
@@ -53,16 +54,21 @@ class GeometryChanges:
             words: Words = (f"the position of {b.title}", *along)
             brief: Words = (f"the position of {b.title}",)
             first = 0.01 if any(k == c for k, _ in pieces[1:]) and (c, p) == pieces[0] else 0.0  # x − y: the sign of y
-            for instead, kind, cost in _instead_of_piece(p):
+            for instead, kind, cost in instead_of_piece(p):
                 moved = list(position)
                 moved[c] = cast("sp.Expr", position[c] - p + instead)
                 yield from self._moved(b, moved, kind, cost + first, words, brief, p, instead)
         groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
         for c, p in pieces:
-            groups.setdefault(_segment(p), []).append((c, p))
+            groups.setdefault(segment(p), []).append((c, p))
         for key, group in groups.items():
             words = (f"the position of {b.title}",)
-            for instead, kind, cost, right, written in _instead_of_segment(key, [p for _, p in group]):
+            every = [*instead_of_segment(key, [p for _, p in group])]
+            if len(position) == 2 and len(group) == 2:
+                (c, x), (_, y) = group
+                across = [(-y, x), (y, -x)] if c == 0 else [(y, -x), (-y, x)]
+                every += [([*pair], "segment_direction", 1.95, key, None) for pair in across]
+            for instead, kind, cost, right, written in every:
                 moved = list(position)
                 for (c, p), other in zip(group, instead, strict=True):
                     moved[c] = cast("sp.Expr", moved[c] - p + other)
@@ -162,18 +168,23 @@ class GeometryChanges:
         for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
             for sign in (1, -1):
                 table = {v: v + sign * w}
+                right, written = (v + w, v) if sign < 0 and self._turn_together(v, w) else (v, v + sign * w)
                 for b in self.s.bodies:
                     old = self.s.kinetic(b)
                     if old.has(v):
                         words = (f"the kinetic energy of {b.title}",)
                         yield from self._kinetic(
-                            b, replaced(old, table), old, "rate", 1.6, words, words, v, v + sign * w
+                            b, replaced(old, table), old, "rate", 1.6, words, words, right, written
                         )
                 if self.s.T.has(v):
                     words = (Name("T*"),)
                     yield from self._kinetic(
-                        None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, v, v + sign * w
+                        None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, right, written
                     )
+
+    def _turn_together(self, v: Any, w: Any) -> bool:
+        """Whether some body turns with the sum of two rates, as with relative angles."""
+        return any(x.diff(v) == x.diff(w) != 0 for b in self.s.bodies for x in self.s.omega(b))
 
     def _turning(self, b: Any) -> Iterator[LocalChange]:
         """Another angular velocity; m L² in place of J; an inertia where there is none."""
@@ -217,6 +228,10 @@ class GeometryChanges:
             sp.Rational(1, 12): 2.0,
             sp.Rational(1, 4): 2.3,
             sp.Rational(2, 3): 2.4,
+            sp.Rational(4, 3): 2.4,
+            sp.Rational(1, 6): 2.4,
+            sp.Rational(1, 24): 2.4,
+            sp.Rational(1, 48): 2.4,
         }
         words: Words = (f"the moment of inertia of {b.title}",)
         for number, cost in names.items():
@@ -235,7 +250,9 @@ class GeometryChanges:
         found += [replaced(right, {x: sp.S.Zero}) for x in v]
         by = [right.diff(x) for x in v if right.has(x)]
         more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
-        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(more, 1.5)}
+        rolled = [right + g * x / r for r in self.lengths[:4] for x in v if not right.has(x) for g in (1, -1)]
+        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7)}
+        listed |= {**dict.fromkeys(more, 1.5), **dict.fromkeys(v, 1.45)}
         return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
 
     # -- springs ------------------------------------------------------------------------------------------------------
@@ -267,10 +284,12 @@ class GeometryChanges:
             size = whole.coeff(f)
             found += [(size * x, "deflection", 1.9) for x in (partner(f), f) if size != 0]
         found += [(p - q, "deflection", 2.0) for p, q in combinations(self.s.q, 2)]
+        more = [*((x, 1.9) for x in self.s.carried), *((x, 2.1) for x in self.lengths)]
+        found += [(whole + g * x, "deflection", cost) for x, cost in more for g in (1, -1)]
         for p in pieces:
             found += [
                 (whole - p + x, kind, cost + 0.2)
-                for x, kind, cost in _instead_of_piece(p)
+                for x, kind, cost in instead_of_piece(p)
                 if kind not in ("piece_left_out", "piece_sign")
             ]
         for other, kind, cost in found:
@@ -341,46 +360,3 @@ class GeometryChanges:
 def _in(site: Site, what: str, step: int) -> Site:
     words: Words = (f"the {what} of {site.element.title}" if site.element is not None else what,)
     return Site(words=words, brief=words, step=step, element=site.element)
-
-
-def _instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
-    """What may stand in place of a piece of a position: nothing, its negative, sine for cosine, without its number."""
-    yield sp.S.Zero, "piece_left_out", 1.4
-    yield -p, "piece_sign", 1.6
-    for f in sorted(p.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-        yield replaced(p, {f: partner(f)}), "piece_function", 1.8
-        yield replaced(p, {f: sp.S.One}), "piece_function", 2.0
-    number = p.as_coeff_Mul()[0]
-    if number not in (1, -1):
-        yield p / abs(number), "piece_number", 1.9
-        yield p / abs(number) ** 2, "piece_number", 2.6
-    else:
-        yield p / 2, "piece_number", 2.0
-        yield 2 * p, "piece_number", 2.2
-
-
-def _instead_of_segment(
-    key: sp.Expr, pieces: Sequence[sp.Expr]
-) -> Iterator[tuple[list[sp.Expr], str, float, Any, Any]]:
-    """What may stand in place of the pieces of one segment, with its kind, its cost, and what to call right and
-    written: nothing, the other direction, sines for cosines, without its number."""
-    if len(pieces) < 2:
-        return
-    yield [sp.S.Zero for _ in pieces], "segment_left_out", 1.3, key, None
-    yield [-p for p in pieces], "segment_sign", 1.9, key, None
-    turned = [replaced(p, {f: partner(f) for f in p.atoms(sp.sin, sp.cos)}) for p in pieces]
-    if turned != list(pieces):
-        yield turned, "segment_turned", 1.9, key, None
-    numbers = {abs(p.as_coeff_Mul()[0]) for p in pieces}
-    if len(numbers) == 1:
-        number = cast("sp.Expr", numbers.pop())
-        others = ((1 / number, 1.6),) if number != 1 else ((sp.S.Half, 1.9), (sp.Integer(2), 2.1))
-        for times, cost in others:
-            written = number * times * key
-            yield [cast("sp.Expr", times * p) for p in pieces], "segment_number", cost, number * key, written
-
-
-def _segment(p: sp.Expr) -> sp.Expr:
-    """What pieces of one segment have in common: all factors but numbers and sines and cosines."""
-    factors = [f for f in sp.Mul.make_args(p) if not f.is_number and not isinstance(f, (sp.sin, sp.cos))]
-    return cast("sp.Expr", sp.Mul(*factors))

@@ -67,7 +67,7 @@ class LetterChanges:
                 cost=cost + site.surcharge,
                 site=site,
                 effect=effect,
-                right=right ** times.pop() if len(times) == 1 else right,
+                right=right ** times.pop() if len(times) == 1 else 1 / right if times and max(times) < 0 else right,
                 written=self.ring.expr(instead),
             )
         yield from self._powers(site, atom, exponents)

@@ -20,6 +20,7 @@ from lagrangian.check.changes.ring import Monomial, Sum, TooLong
 from lagrangian.check.changes.scales import scales
 from lagrangian.check.changes.sites import Sites
 from lagrangian.check.changes.slopes import AtomSlopes
+from lagrangian.check.changes.sums import SumChanges
 from lagrangian.check.changes.work import WorkChanges
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array
@@ -108,7 +109,8 @@ class Pool:
         yield from letters.changes([*parts, *wholes, *terms, *rows])
         yield from letters.factors([*parts, *terms, *rows])
         yield from GeometryChanges(sites, letters.lengths).changes()
-        yield from WorkChanges(sites, letters.lengths).changes()
+        yield from SumChanges(sites, letters.lengths).changes()
+        yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
 
     def _within_reach(self) -> Iterator[LocalChange]:
         """The changes until their sums are too long together; the reference says if some were left out."""

@@ -23,10 +23,11 @@ MOST_ARMS = 28
 class WorkChanges:
     """All changes of the generalized forces of a system."""
 
-    def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol]) -> None:
+    def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol], ratios: Sequence[sp.Symbol] = ()) -> None:
         self.sites = sites
         self.s = sites.of
         self.lengths = list(lengths)
+        self.ratios = list(ratios)
 
     def changes(self) -> Iterator[LocalChange]:
         """Every effort with every arm in every equation; shares moved to another equation; other rates in dampers."""
@@ -102,7 +103,7 @@ class WorkChanges:
     @property
     def arms(self) -> list[sp.Expr]:
         """1, the lengths, sines and cosines of the system's angles, and both together."""
-        every: list[sp.Expr] = [sp.S.One, *self.lengths]
+        every: list[sp.Expr] = [sp.S.One, *self.lengths, *(x for n in self.ratios for x in (n, 1 / n))]
         turned: list[sp.Expr] = []
         for a in self._angles():
             turned += [sp.cos(a), sp.sin(a)]
@@ -159,6 +160,8 @@ class WorkChanges:
         for p in self.s.model.parameters:
             if rate.has(p.symbol):
                 listed.append((put(rate, {p.symbol: sp.S.One}), "damper_rate", 2.0))
+        carried = [self.s.rate(x) for x in self.s.carried]
+        listed += [(rate + g * x, "damper_rate", 1.9) for x in carried for g in (1, -1)]
         for other, kind, cost in listed:
             if other not in (0, rate, -rate):
                 yield other, kind, cost

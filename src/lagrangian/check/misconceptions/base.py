@@ -227,6 +227,12 @@ class Ingredients:
         """Whether an expression contains a coordinate."""
         return expr.has(*self.q)
 
+    @cached_property
+    def carried(self) -> list[sp.Expr]:
+        """The prescribed motions in positions of bodies, such as A sin ωt of a shaken pivot."""
+        pieces = [p for b in self.bodies for x in self.position(b) for p in sp.Add.make_args(bounded.expand(x))]
+        return list(dict.fromkeys(p for p in pieces if p.has(time) and not p.has(*self.q)))
+
     def angles(self, expr: sp.Expr) -> list[sp.Expr]:
         """The arguments of sines and cosines that depend on coordinates."""
         found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}

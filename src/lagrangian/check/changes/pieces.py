@@ -1,0 +1,52 @@
+"""What may stand in place of a piece of a position, and of all pieces of one segment of the way to a body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import partner
+from lagrangian.check.misconceptions.base import put as replaced
+
+
+def instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
+    """What may stand in place of a piece of a position: nothing, its negative, sine for cosine, without its number."""
+    yield sp.S.Zero, "piece_left_out", 1.4
+    yield -p, "piece_sign", 1.6
+    for f in sorted(p.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
+        yield replaced(p, {f: partner(f)}), "piece_function", 1.8
+        yield replaced(p, {f: sp.S.One}), "piece_function", 2.0
+    number = p.as_coeff_Mul()[0]
+    if number not in (1, -1):
+        yield p / abs(number), "piece_number", 1.9
+        yield p / abs(number) ** 2, "piece_number", 2.6
+    else:
+        yield p / 2, "piece_number", 2.0
+        yield 2 * p, "piece_number", 2.2
+
+
+def instead_of_segment(key: sp.Expr, pieces: Sequence[sp.Expr]) -> Iterator[tuple[list[sp.Expr], str, float, Any, Any]]:
+    """What may stand in place of the pieces of one segment, with its kind, its cost, and what to call right and
+    written: nothing, the other direction, sines for cosines, without its number."""
+    if len(pieces) < 2:
+        return
+    yield [sp.S.Zero for _ in pieces], "segment_left_out", 1.3, key, None
+    yield [-p for p in pieces], "segment_sign", 1.9, key, None
+    turned = [replaced(p, {f: partner(f) for f in p.atoms(sp.sin, sp.cos)}) for p in pieces]
+    if turned != list(pieces):
+        yield turned, "segment_turned", 1.9, key, None
+    numbers = {abs(p.as_coeff_Mul()[0]) for p in pieces}
+    if len(numbers) == 1:
+        number = cast("sp.Expr", numbers.pop())
+        others = ((1 / number, 1.6),) if number != 1 else ((sp.S.Half, 1.9), (sp.Integer(2), 2.1))
+        for times, cost in others:
+            written = number * times * key
+            yield [cast("sp.Expr", times * p) for p in pieces], "segment_number", cost, number * key, written
+
+
+def segment(p: sp.Expr) -> sp.Expr:
+    """What pieces of one segment have in common: all factors but numbers and sines and cosines."""
+    factors = [f for f in sp.Mul.make_args(p) if not f.is_number and not isinstance(f, (sp.sin, sp.cos))]
+    return cast("sp.Expr", sp.Mul(*factors))
