@@ -50,6 +50,30 @@ def test_any_point_can_be_asked_for(arm: dict) -> None:
     np.testing.assert_array_equal(dyn.point("origin", Q)["r"], np.zeros((2, 2)))
 
 
+def test_the_bias_of_a_point_is_its_acceleration_at_constant_rates(arm: dict) -> None:
+    """r = (x + L sin θ, −L cos θ): r̈ = J q̈ + L θ̇² (−sin θ, cos θ)."""
+    found, L = arm["dyn"].point("tip", Q, V), 0.7
+    c, s, w = np.cos(Q[:, 1]), np.sin(Q[:, 1]), V[:, 1]
+    np.testing.assert_allclose(found["bias"], np.stack([-L * s * w**2, L * c * w**2], -1))
+    np.testing.assert_array_equal(arm["dyn"].frame("link", Q, V)["bias"], np.zeros(2))
+
+
+def test_the_bias_of_points_and_frames_that_float_is_their_acceleration() -> None:
+    """Difference quotients of v and ω along a motion of constant quasi-velocities, whose own rates are zero."""
+    s = lg.System("body")
+    body = s.floating_frame("body")
+    s.rigid_body(2, (1, 2, 3), body.origin, body)
+    turned = s.frame(s.coordinate("q"), axis=(0, 1, 0), parent=body, origin=body.point(1, 0, 0), name="arm")
+    s.rigid_body(1, (1, 1, 1), turned.point(0, 0, 1), turned)
+    dyn, tip = s.compile(), turned.point(0.3, 0.2, 0.5)
+    q, v = np.array([0.1, 0.2, 0.3, 0.1, -0.2, 0.3, 0.9, 0.4]), np.array([0.3, -0.5, 0.2, 0.7, 0.4, -0.6, 0.8])
+    h = 1e-5
+    ahead, behind = (q + sign * h * dyn.rates(q + sign * h / 2 * dyn.rates(q, v), v) for sign in (1, -1))
+    for name, call, asked in (("v", dyn.point, tip), ("omega", dyn.frame, "arm")):
+        slope = (call(asked, ahead, v)[name] - call(asked, behind, v)[name]) / (2 * h)
+        np.testing.assert_allclose(call(asked, q, v)["bias"], slope, rtol=1e-7, atol=1e-8)
+
+
 def test_a_frame_in_the_plane(arm: dict) -> None:
     for asked in ("link", arm["link"]):
         found = arm["dyn"].frame(asked, Q, V)

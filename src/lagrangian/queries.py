@@ -72,6 +72,7 @@ class Looking(Guided):
     ) -> dict[str, NDArray[np.float64]]:
         """Return the position ``r`` and velocity ``v`` of a point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
 
+        ``bias``, ``(..., d)``, is its acceleration while v does not change: r̈ = J v̇ + bias.
         ``point`` is a name, or any point of the system, with or without a name. Components are along the fixed axes, d
         = 2 in the plane and 3 in space. The rates are 0 unless given. Raises `ModelError` if there is no such point.
         """
@@ -84,6 +85,7 @@ class Looking(Guided):
     ) -> dict[str, NDArray[np.float64]]:
         """Return the rotation matrix ``R`` and angular velocity ``omega`` [rad/s] of a frame, and ``J`` = ∂omega/∂q̇.
 
+        ``bias`` is its angular acceleration while v does not change, shaped as omega: ω̇ = J v̇ + bias.
         ``frame`` is a name, or any frame of the system. A vector with components x in the frame has components R x in
         the fixed axes; omega and J are in the fixed axes, too. R is ``(..., d, d)``. In space omega is ``(..., 3)`` and
         J ``(..., 3, n)``; in the plane they are ``(...)`` and ``(..., n)``, positive counter-clockwise. Raises

@@ -9,6 +9,7 @@ from typing import Any
 from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.programs import _matrix, _program, _vector
+from lagrangian.dynamics.vectors import zeros
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, jvp
 from lagrangian.model import Frame, Model, Point
@@ -17,31 +18,39 @@ from lagrangian.model import Frame, Model, Point
 def point_program(model: Model, point: Point) -> Program:
     """q, v, u, p, t → position r and velocity ṙ of a point, shape (d,), and J with ṙ = J v + ∂r/∂t, shape (d, n).
 
-    All are in the fixed axes. Raises `ModelError` for a point of another system.
+    ``bias`` is r̈ at v̇ = 0, so that r̈ = J v̇ + bias. All are in the fixed axes.
+
+    Raises `ModelError` for a point of another system.
     """
     _own(model, point, "point")
     graph, inputs, d = _described(replace(model, points=(*model.points, point), _memo={}))
     motion, place = d.motion, d.places[point]
     velocity = motion.turned(place.velocity, place.axes, motion.root)
     outputs = {"r": _vector(motion.position(place)), "v": _vector(velocity)}
-    return _program(model, "point", graph, {**outputs, "J": _matrix(_slopes(graph, velocity, inputs))})
+    outputs["J"] = _matrix(_slopes(graph, velocity, inputs))
+    bias = motion.second_rate(velocity, zeros(graph, len(inputs.v)))
+    return _program(model, "point", graph, {**outputs, "bias": _vector(bias)})
 
 
 def frame_program(model: Model, frame: Frame) -> Program:
     """q, v, u, p, t → rotation R of a frame, (d, d), its angular velocity ω, and J with ω = J v + ω_t.
 
     R converts components in the frame to components in the fixed axes. ω and J are in the fixed axes, with shapes (3,)
-    and (3, n) in space, () and (n,) in the plane. Raises `ModelError` for a frame of another system.
+    and (3, n) in space, () and (n,) in the plane. ``bias`` is ω̇ at v̇ = 0,
+    so that ω̇ = J v̇ + bias. Raises `ModelError` for a frame of another system.
     """
     _own(model, frame.origin, "frame")
     graph, inputs, d = _described(replace(model, frames=(*model.frames, frame), _memo={}))
     motion, axes = d.motion, d.axes[frame]
     omega = motion.turned(axes.omega, axes, motion.root)
     rows = _slopes(graph, omega, inputs)
+    bias = motion.second_rate(omega, zeros(graph, len(inputs.v)))
     outputs = {"R": _matrix(motion.rotation(axes))}
     if model.dimension == 2:
-        return _program(model, "frame", graph, {**outputs, "omega": Output((omega[0],), ()), "J": _vector(rows[0])})
-    return _program(model, "frame", graph, {**outputs, "omega": _vector(omega), "J": _matrix(rows)})
+        outputs |= {"omega": Output((omega[0],), ()), "J": _vector(rows[0]), "bias": Output((bias[0],), ())}
+    else:
+        outputs |= {"omega": _vector(omega), "J": _matrix(rows), "bias": _vector(bias)}
+    return _program(model, "frame", graph, outputs)
 
 
 def _described(model: Model) -> tuple[Graph, Inputs, Description]:
