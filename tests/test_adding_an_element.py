@@ -4,6 +4,8 @@ import pathlib
 import subprocess
 import sys
 
+import pytest
+
 from test_docs import blocks
 
 CHECKS = """
@@ -39,6 +41,7 @@ else:
 """
 
 
+@pytest.mark.slow
 def test_the_element_of_the_page_is_derived_simulated_saved_and_verified(tmp_path: pathlib.Path) -> None:
     code = "\n".join(blocks("docs/adding-an-element.md", "python")) + CHECKS
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)

@@ -33,6 +33,7 @@ def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> N
     assert len(dyn.assemblies({"crank": 1.0}, fixed="crank")) == 2  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 def test_the_reactions_of_the_guide_balance(names: dict[str, object]) -> None:
     pin, swing = names["pin"], names["swing"]
     assert (pin.force.shape, pin.on, pin.at) == ((1001, 2), "rod 2", "B")  # type: ignore[attr-defined]

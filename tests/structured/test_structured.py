@@ -230,6 +230,7 @@ def test_forms_that_cannot_be_had_are_refused() -> None:
     assert "given" in refusal(s.model)
 
 
+@pytest.mark.slow
 def test_answers_and_reasons_go_back_to_the_coordinates() -> None:
     d = built_in.system("double-pendulum-relative").derive(form="structured")
     assert d.check(built_in.derivation("double-pendulum-relative").to_text(brief=True)).right
