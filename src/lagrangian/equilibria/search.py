@@ -156,7 +156,7 @@ class _Task:
         M = self.linearizer.values(self.linearizer.mass, q=at, v=v, u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
-        width = self.orientations.widths(self.search.width)
+        width = self._sizes(M)
         if self.linearizer.manifold is not None:
             try:
                 tangent = self.linearizer.manifold.tangent(np.concatenate([q, 0 * q]), self.p, 0.0)
@@ -168,6 +168,16 @@ class _Task:
         if not len(sized):
             return False
         return bool(sized.min() < SINGULAR * np.abs(sized).max())
+
+    def _sizes(self, M: Array) -> Array:
+        """The sizes of changes by which M is judged: the widths of the box. A charge whose current is sought has none
+        in the box; its size makes its inductance as large as the largest of the other entries."""
+        sizes = np.array(self.orientations.widths(self.search.width), float)
+        others = [k for k in range(len(sizes)) if k not in self.steady]
+        largest = float((np.diag(M) * sizes**2)[others].max(initial=0.0)) if self.steady else 0.0
+        for k in (k for k in self.steady if M[k, k] > 0):
+            sizes[k] = np.sqrt((largest or 1.0) / M[k, k])
+        return sizes
 
     def moves_no_mass(self, q: Array) -> str:
         """The coordinates that move no mass at q, as words for the middle of a sentence."""
@@ -299,7 +309,12 @@ def _notes(
     for direction in task.free:
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
-        listed.append(f"no force depends on {what}: any is as good; {names[0]} is held")
+        listed.append(f"no force depends on {what}: any value is as good; {names[0]} is held")
+        if len(names) > 1 and not found and not {c.name for c in task.model.charges}.isdisjoint(names):
+            listed.append(
+                f"a current that flows steadily through {' and '.join(names)} together is not sought: give every "
+                "capacitor a charge of its own as a coordinate, and the currents of the other charges are sought"
+            )
     for name in (task.box.names[k] for k in task.steady):
         bare = name.removesuffix("'")
         listed.append(f"no force depends on the charge {bare}: what is sought is its current {name}, steady there")

@@ -261,9 +261,8 @@ class ListedSteps:
                 for b, node in zip(self.found.bodies, self.found.heights[element.title], strict=True):
                     names.append(Name("V", f"{b.index} {element.name}" if many else b.index))
                     height = self.write(node)
-                    lines.append(
-                        [formula(names[-1], Product((b.body.mass * element.g, height)), note=text(b.body.title))]
-                    )
+                    weight = Product((b.body.mass * element.g, height)) if height != 0 else height
+                    lines.append([formula(names[-1], weight, note=text(b.body.title))])
                     reasons.append(text(names[-1], f": {element.title} pulls on {b.body.title}: mgh"))
             else:
                 names.append(Name("V", element.name))
