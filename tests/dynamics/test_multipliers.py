@@ -6,11 +6,12 @@ import mechanisms
 import mechanisms_in_space
 import numpy as np
 import pytest
+import sympy as sp
 from closed_loops import values
 
 import lagrangian as lg
 from effort import at_most
-from lagrangian.dynamics import Inputs, describe
+from lagrangian.dynamics import Inputs, describe, forward, forward_dual
 from lagrangian.dynamics.vectors import rotated
 from lagrangian.graph import Graph, Output, Program, count_operations, evaluate
 from size import rest_slow
@@ -156,6 +157,27 @@ def test_speeds_along_and_across_a_blade_are_used_where_they_take_fewer_operatio
     assert (operations(m), count_operations(graph, m.constrained.vdot, hoist=["p"]).operations) <= REDUCED[name]
     if name == "chaplygin-sleigh":
         assert m.constrained.margins == [graph.one]
+
+
+@pytest.mark.parametrize("tilted", [False, True])
+def test_speeds_along_a_blade_agree_with_dense_matrices_where_bodies_turn_the_same_rates(tilted):
+    """In space velocities are along the axes of the sleigh, so that x' and y' are turned for the bodies as well."""
+    s = lg.System("sleigh in space")
+    x, y, psi, phi = s.coordinates("x y psi phi")
+    body = s.frame(psi, axis=(0, 0, 1), origin=s.point("P", (x, y, 0)), name="sleigh")
+    s.rigid_body(2.0, (0.1, 0.2, 0.3), at=body.point(0.3, 0.1, 0.2), frame=body)
+    arm = s.frame(phi, axis=(1, 0, 0), parent=body, origin=body.point(0.1, 0.2, 0.0), name="arm")
+    s.rigid_body(1.0, (0.2, 0.1, 0.1), at=arm.point(0.0, 0.4, 0.1), frame=arm)
+    s.gravity((0, 0.5 if tilted else 0, -1))
+    t = s.t
+    s.velocity_constraint(y.diff(t) * sp.cos(psi) - x.diff(t) * sp.sin(psi), name="blade")
+    s.velocity_constraint(x.diff(t) * sp.cos(psi) + y.diff(t) * sp.sin(psi) - phi.diff(t) / 5, name="wheel")
+    draw = np.random.default_rng(3)
+    for _ in range(5):
+        q, v = draw.uniform(-1, 1, 4), draw.uniform(-1, 1, 4)
+        given = {"q": list(q), "v": list(v), "u": [], "p": [9.81], "t": [0.0]}
+        one, other = (evaluate(make(s.model), given)["a"] for make in (forward, forward_dual))
+        assert one == pytest.approx(other, rel=1e-11, abs=1e-11)
 
 
 @pytest.mark.parametrize("signs", list(itertools.product((1, -1), repeat=4)))

@@ -53,12 +53,14 @@ def _turn(problem: Problem, tape: EliminationTape, n: int, pair: Turned) -> None
     """Put the speeds w and u before their rates, and into every step in which one of them is left alone."""
     g = problem.graph
     j, k, c, s = pair
-    w, u = g.input("turned", 2 * n), g.input("turned", 2 * n + 1)
+    w, u, alone = g.input("turned", 2 * n), g.input("turned", 2 * n + 1), set[int]()
     for i, form in tape.forms.items():
         if j in form or k in form:
             across, along = rotated(g, form.get(k, g.zero), form.get(j, g.zero), c, s)
             if g.zero in (across, along):
                 tape.forms[i] = _without(form, j, k) | {x: a for x, a in ((w, along), (u, across)) if a != g.zero}
+                alone.add(i)
+    tape.turned = {i: pair for i, pair in tape.turned.items() if not alone & {i, pair[0]}}  # no rotations any more
     at = min(tape.order.index(j), tape.order.index(k))
     tape.order = [i for i in tape.order if i not in (j, k)]
     tape.order[at:at] = [w, u, j, k]
