@@ -91,6 +91,32 @@ def test_a_letter_by_which_an_equation_was_divided_names_no_element(drum: lg.Der
     assert "brake" not in str(mistake.what) and mistake.element != "damper 'brake'"
 
 
+def test_a_heading_with_the_form_of_the_equations_is_no_equation(drum: lg.Derivation) -> None:
+    rows = (
+        "M q'' + K q = f:\nm*x'' - m*g + k1*(x - R*phi) = 0\nJ*phi'' - k1*R*(x - R*phi) + k2*r^2*phi + c*r^2*phi' = 0"
+    )
+    assert drum.check(rows).right
+    verdict = drum.check(rows.replace("k2*r^2", "k2*r"))
+    (mistake,) = verdict.mistakes
+    assert mistake.element == "spring 'holder'"
+    assert not drum.check("M q'' + K q = f").right
+
+
+def test_a_spring_may_be_given_the_way_of_a_drum() -> None:
+    """s is already the elongation of the second rope; s − r φ was taken for it."""
+    s = lg.System("winch")
+    phi, way = s.coordinates("phi s")
+    m, J, r, k = s.parameters("m J r k")
+    s.rigid_body(m, J, at=s.origin, frame=s.frame(phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("A", (0, -r * phi - way)), name="load")
+    s.spring(k, deflection=way, name="rope")
+    d = s.derive()
+    (mistake,) = d.check(
+        "(J + m*r^2)*phi'' + m*r*s'' - k*r*(s - r*phi) = 0\nm*(r*phi'' + s'') + k*(s - r*phi) = 0"
+    ).mistakes
+    assert mistake.element == "spring 'rope'" and "-r*phi + s" in str(mistake.what)
+
+
 # -- lengths and angles that are sums, what rolls, what is carried -----------------------------------------------------
 
 

@@ -15,7 +15,7 @@ from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, 
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
-from lagrangian.check.lines import filled
+from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
 from lagrangian.check.numerators import multiplied
@@ -51,7 +51,9 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     said = declared(truth, lines)
     truth = truth.with_values(said.values) if said.values else truth
     truth.algebra.renew()
-    verdict = _checked(truth, said.lines, hint, explain)
+    judged, unjudged = without_forms(truth, said.lines)
+    verdict = _checked(truth, judged, hint, explain)
+    verdict = replace(verdict, notes=(*unjudged, *verdict.notes))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")

@@ -6,11 +6,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reading import Answer, generalized_force
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import ModelError
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
 
 
 def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
@@ -81,3 +84,23 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
         expr = truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
         out.append(AnsweredLine(line.kind, expr, line.number, line.name, line.text))
     return tuple(out)
+
+
+def without_forms(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The lines without headings such as M q̈ + K q = f, of whose names the system and all other lines have none.
+
+    Nothing is left out unless there is an equation for every coordinate beside them. With notes on what is not judged.
+    """
+    model = truth.model
+    known = {x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs, *model.definitions)}
+    known |= {m.symbol for m in truth.derivation.multipliers.values()}
+    names = [{x for x in (*a.expr.free_symbols, *a.expr.atoms(AppliedUndef)) if x != time} for a in lines]
+    forms: set[int] = set()
+    for k, line in enumerate(lines):
+        elsewhere = known.union(*(own for j, own in enumerate(names) if j != k))
+        if line.kind == "equation" and names[k] and not names[k] & elsewhere:
+            forms.add(k)
+    if sum(line.kind == "equation" for line in lines) - len(forms) < truth.n:
+        return tuple(lines), ()
+    told = tuple(text(f"'{lines[k].text}' was not judged: it names nothing of the system.") for k in sorted(forms))
+    return tuple(line for k, line in enumerate(lines) if k not in forms), told

@@ -21,6 +21,7 @@ from lagrangian.page.formula import Name
 AXES = "xyz"
 MOST_PIECES = 16
 """A position or deflection with more pieces is not changed piece by piece."""
+MOST_WAYS = 4
 
 
 class GeometryChanges:
@@ -284,7 +285,7 @@ class GeometryChanges:
             size = whole.coeff(f)
             found += [(size * x, "deflection", 1.9) for x in (partner(f), f) if size != 0]
         found += [(p - q, "deflection", 2.0) for p, q in combinations(self.s.q, 2)]
-        more = [*((x, 1.9) for x in self.s.carried), *((x, 2.1) for x in self.lengths)]
+        more = [*((x, 1.9) for x in (*self.s.carried, *self._ways())), *((x, 2.1) for x in self.lengths)]
         found += [(whole + g * x, "deflection", cost) for x, cost in more for g in (1, -1)]
         for p in pieces:
             found += [
@@ -300,6 +301,12 @@ class GeometryChanges:
                 site = Site(words=words, brief=words, step=3, element=spring)
                 yield self._of(kind, cost, site, {"V": V}, whole, other)
         yield from self._inner(spring, k, whole)
+
+    def _ways(self) -> list[sp.Expr]:
+        """The ways r φ of points on drums and pulleys: pieces of positions that are a length times a coordinate."""
+        pieces = [p for b in self.s.bodies for x in self.s.position(b) for p in sp.Add.make_args(bounded.expand(x))]
+        found = [p for p in pieces if any(p.diff(q) in (x, -x) for q in self.s.q for x in self.lengths)]
+        return list(dict.fromkeys(found))[:MOST_WAYS]
 
     def _inner(self, spring: Any, k: sp.Expr, extension: sp.Expr) -> Iterator[LocalChange]:
         """The chain rule left out: ∂(½kδ²)/∂ξ_i without ∂δ/∂ξ_i, or with a part of it."""
