@@ -9,6 +9,7 @@ import sys
 from collections import Counter
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 import size
 
@@ -18,6 +19,9 @@ def pytest_configure(config: pytest.Config) -> None:
     _keep_bytecode(config)
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # every core has its process: more threads wait for each other
+    # how long an example takes depends on what else the machine does, and says nothing about the package
+    settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+    settings.load_profile("untimed")
     size.FULL = "not slow" not in config.getoption("markexpr")
 
 

@@ -9,6 +9,7 @@ import sys
 from functools import cache
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 import lagrangian
 
@@ -92,6 +93,13 @@ def test_no_test_measures_time() -> None:
     """A busy machine is slow, and a slow one is no fault: tests count calls and steps, ``bench/`` measures."""
     found = [(file.name, node.lineno) for file in TESTS for node in nodes(file) if _reads_a_clock(node)]  # type: ignore[attr-defined]
     assert not found
+
+
+def test_no_random_test_measures_time() -> None:
+    """Beside other work Hypothesis would call its examples slow, and fail."""
+    assert settings.default is not None
+    assert settings.default.deadline is None
+    assert HealthCheck.too_slow in settings.default.suppress_health_check
 
 
 def test_every_file_of_tests_has_a_name_of_its_own() -> None:
