@@ -10,10 +10,10 @@ from lagrangian import bounded, derive, dynamics
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.errors import Error
-from lagrangian.model import Model, is_hard
+from lagrangian.model import Model
 from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Check, text
-from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, is_tangled
+from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, takes_long
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify
 from lagrangian.verify.listed import verify_listed
@@ -184,11 +184,7 @@ def verify_floating(model: Model, *, states: int, seed: int, exports: bool) -> t
     return (*found, *verify_compiled(model, states=states, seed=seed, exports=exports))
 
 
-def _takes_long(model: Model, *, form: AskedForm = "auto", **_: object) -> bool:
-    return is_tangled(model) if is_structured(model, form) else is_hard(model)
-
-
-@bounded.answered("writing the equations out", _takes_long)
+@bounded.answered("writing the equations out", takes_long)
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual", form: AskedForm = "auto") -> Derivation:
     """Derive a model and add the checks at the end; see `lagrangian.System.derive`."""
     check_dimensions(model)

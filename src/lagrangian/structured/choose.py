@@ -9,10 +9,11 @@ from typing import Any, Literal, TypeAlias, get_args
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.bounded import hard
 from lagrangian.derive import Derived, Detail, derive
 from lagrangian.errors import Error, ModelError, did_you_mean
-from lagrangian.model import Inductor, Model, MutualInductance
+from lagrangian.model import Inductor, Model, MutualInductance, is_hard
 from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import text
 from lagrangian.structured.derive import derive_structured
@@ -24,6 +25,14 @@ AskedForm: TypeAlias = Literal["auto", "expanded", "structured"]
 """How equations are to be written: in the coordinates alone, in named quantities, or whichever can be read."""
 
 
+def takes_long(model: Model, form: AskedForm = "auto", **_: object) -> bool:
+    """Whether deriving a model in a form may take so long that it is counted."""
+    if is_structured(model, form) and not model.constraints:
+        return is_tangled(model)
+    return is_hard(model)
+
+
+@bounded.answered("writing the equations out", takes_long)
 def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "usual") -> Derived:
     """Derive a model in the form asked for; "auto" writes long equations in named quantities.
 

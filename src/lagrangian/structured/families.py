@@ -85,7 +85,8 @@ class Families:
         """A table in which rows that repeat stand once; other items as they are."""
         if not isinstance(item, Table):
             return item
-        found = self([[Formula(row)] for row in item.rows])
+        cells: list[Any] = list(item.rows)
+        found = self([[Formula(row)] for row in cells])
         rows = [x.sides if x.note is None else self._with_note(x) for x in found if isinstance(x, Formula)]
         return replace(item, rows=tuple(rows))
 
