@@ -129,3 +129,14 @@ def test_the_bicycle_judges_its_own_equations_and_finds_a_change() -> None:
     assert d.check(list(d.equations)).right
     wrong = [sp.Eq(d.equations[0].lhs, 2 * d.equations[0].rhs), *d.equations[1:]]
     assert d.check(wrong).status is Status.WRONG
+
+
+@pytest.mark.slow
+def test_a_slip_that_multipliers_could_take_up_is_found() -> None:
+    """The Stewart platform: its 18 multipliers could balance one more constant in an equation."""
+    d = built_in.system("stewart-platform").derive()
+    assert d.check(list(d.equations)).right
+    last = d.equations[-1]
+    slipped = sp.Eq(last.lhs + d.model.parameters[0].symbol, last.rhs)
+    found = d.check([*d.equations[:-1], slipped])
+    assert found.status is Status.WRONG and any(f.status is Status.WRONG for f in found.findings)

@@ -193,9 +193,7 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
         if places and len(true) == len(equations) and not _are_forces(truth, equations, unknown, given=given):
             status = Status.WRONG
             notes.append(_no_force(unknown))
-            held = [
-                line for line in equations if set(unknown) & {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
-            ]
+            held = [line for line in equations if not _names_in(truth, line).isdisjoint(unknown)]
             found |= {id(line): Finding(line, Status.WRONG) for line in held}
         elif places and len(true) == len(equations):
             notes += _named(truth, unknown, places)
@@ -220,12 +218,15 @@ def _worst(statuses: Sequence[Status]) -> Status:
     return max(statuses, key=list(Status).index, default=Status.INCOMPLETE)
 
 
+def _names_in(truth: Compared, line: AnsweredLine) -> set[sp.Basic]:
+    """The names in a line, and the multipliers in the named quantities among them."""
+    used: set[sp.Basic] = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+    return used | {x for name in used & truth.holding.keys() for x in truth.holding[name]}
+
+
 def _unknown(truth: Compared, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
     """The names in an answer that the system does not have, and its multipliers."""
-    used: set[sp.Basic] = set()
-    for line in lines:
-        used |= {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
-    used |= {x for name in used & truth.holding.keys() for x in truth.holding[name]}
+    used = set[sp.Basic]().union(*(_names_in(truth, line) for line in lines))
     return sorted(used - truth.known, key=str)
 
 

@@ -39,6 +39,9 @@ EQUAL = 1e-9
 PLACES = 6
 """The number of states at which a quantity is compared."""
 
+SPREAD = 0.05
+"""How far parameters are drawn from their values, in parts of them, where loops close only near these."""
+
 DRAWS = 40
 """Random states that are drawn for each that is asked for."""
 
@@ -120,7 +123,7 @@ class _Truth:
         outputs = {"mine": Output((graphed.lines[0],), ()), "right": Output((right,), ())}
         program = Program("line", graphed.graph, graphed.inputs_of, outputs)
         found: list[tuple[float, float]] = []
-        for state in _states(self.model, PLACES, given=False, still=line.kind in CONSTANT):
+        for state in _states(self.model, PLACES, still=line.kind in CONSTANT):
             got = evaluated(program, state)
             found.append((float(got["mine"]), float(got["right"])))
         off = np.array([mine - theirs for mine, theirs in found])
@@ -232,15 +235,21 @@ class _AnswerInNumbers:
         self.multipliers = dynamics.multipliers(model) if bound else None
 
     def states(self, count: int, *, given: bool) -> Iterator[Groups]:
-        """Up to ``count`` random states; with ``given`` the parameters keep their values."""
+        """Up to ``count`` random states; with ``given`` the parameters keep their values.
+
+        Where no loop closes with random lengths, parameters are drawn near their values.
+        """
         found = 0
-        for drawn in _states(self.model, DRAWS * count if self.onto else count, given=given):
-            state = drawn if self.onto is None else self.onto.of(drawn)
-            if state is not None:
-                found += 1
-                yield state
-                if found == count:
-                    return
+        for spread in (0.0,) if given else (None, SPREAD):
+            for drawn in _states(self.model, DRAWS * count if self.onto else count, spread=spread):
+                state = drawn if self.onto is None else self.onto.of(drawn)
+                if state is not None:
+                    found += 1
+                    yield state
+                    if found == count:
+                        return
+            if found:
+                return
 
     def at(self, here: Groups) -> AnswerAt:
         """The answer at one state with the true accelerations."""
@@ -273,8 +282,11 @@ class _AnswerInNumbers:
                 yield self.at(state)
 
 
-def _states(model: Model, count: int, *, given: bool, still: bool = False) -> Iterator[Groups]:
-    """Random states with finite accelerations; parameters are drawn, too, and keep their first values if ``still``."""
+def _states(model: Model, count: int, *, spread: float | None = None, still: bool = False) -> Iterator[Groups]:
+    """Random states with finite accelerations; parameters are drawn, too, and keep their first values if ``still``.
+
+    With a ``spread`` those that have a value are drawn near it: all different, though their values may be equal.
+    """
     forward, source, found = dynamics.forward(model), np.random.default_rng(11), 0
     quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
     positive = np.array([c.positive for c in model.coordinates])
@@ -282,8 +294,9 @@ def _states(model: Model, count: int, *, given: bool, still: bool = False) -> It
     for _ in range(DRAWS + count):
         if not (still and found):
             drawn = source.uniform(0.4, 1.6, len(model.parameters))
-            values = [x.value if given else None for x in model.parameters]
-            p = [float(x if v is None else v) for x, v in zip(drawn, values, strict=True)]
+            values = [None if spread is None else x.value for x in model.parameters]
+            near = 1.0 + (spread or 0.0) * (drawn - 1.0)
+            p = [float(x if v is None else v * f) for x, v, f in zip(drawn, values, near, strict=True)]
             t = float(source.uniform(0.1, 0.9))
         q = source.uniform(-1.2, 1.2, len(model.coordinates))
         turned = [c.name in quaternions for c in model.coordinates]
