@@ -22,7 +22,7 @@ def pytest_configure(config: pytest.Config) -> None:
     # how long an example takes depends on what else the machine does, and says nothing about the package
     settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     settings.load_profile("untimed")
-    size.FULL = "not slow" not in config.getoption("markexpr")
+    size.FULL = "not slow" not in (config.getoption("markexpr") or "")
 
 
 def _keep_bytecode(config: pytest.Config) -> None:
