@@ -88,6 +88,21 @@ def test_the_same_as_mujoco(text):
             expected = [*(R.T @ data.qacc[:3] - np.cross(v[3:6], v[:3])), *data.qacc[3:6], *expected]
         found = evaluate(program, {"q": q, "v": v, "u": u, "p": p, "t": [0.0]})["a"]
         np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
+        # their velocities are X v: linear motion along the fixed axes, joints in their own order
+        n = len(system.velocities)
+        X, turning = np.zeros((n, n)), np.zeros(n)
+        if free:
+            X[:3, :3], X[3:6, 3:6] = R, np.eye(3)
+            turning[:3] = R @ np.cross(v[3:6], v[:3])
+        X[places, range(n - len(places), n)] = 1
+        whole = np.zeros((n, n))
+        mujoco.mj_fullM(theirs, data, whole)
+        bias = X.T @ (data.qfrc_bias - data.qfrc_passive - data.qfrc_applied + whole @ turning)
+        for make, name, expected in ((dynamics.mass_matrix, "M", X.T @ whole @ X), (dynamics.bias, "h", bias)):
+            made = make(system)
+            given = {"q": q, "v": v, "u": u, "p": p, "t": [0.0]}
+            found = np.array(evaluate(made, {key: given[key] for key in made.inputs})[name])
+            np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
 
 
 def test_what_is_not_mechanics_is_listed():
