@@ -38,7 +38,7 @@ class Families:
     """Writes repeated lines of a system once, with an index that is none of its names."""
 
     def __init__(self, model: Model) -> None:
-        self.index = next(x for x in ("k", "j", "n", "index") if x not in model.symbols)
+        self.index = next((x for x in ("k", "j", "n") if x not in model.symbols), "#")
 
     def __call__(self, blocks: Iterable[Block]) -> Iterator[Item]:
         """The items of the blocks in order, where a pattern that repeats stands once, at its first place."""
