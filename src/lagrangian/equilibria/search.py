@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.equilibria.box import Box, make_box
-from lagrangian.equilibria.currents import largest_charge, slopes, split_state, steady_currents, without_charges
+from lagrangian.equilibria.currents import SteadyCurrents, largest_charge
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.orientations import SoughtOrientations
 from lagrangian.equilibria.points import Equilibria, Equilibrium
@@ -107,9 +107,10 @@ class _Task:
     linearizer: Linearizer
     u: Array
     p: Array
+    steady: SteadyCurrents
+    """The currents that are sought in place of charges."""
+
     held_forces: HeldForces | None = None
-    steady: tuple[int, ...] = ()
-    """The charges whose currents are sought."""
 
     orientations: SoughtOrientations = field(default_factory=SoughtOrientations)
     """The quaternions of floating frames."""
@@ -137,7 +138,7 @@ class _Task:
 
     def state(self, q: Array) -> tuple[Array, Array]:
         """q and v of what is sought."""
-        return (q, self.orientations.resting(q)) if self.orientations else split_state(q, self.steady)
+        return (q, self.orientations.resting(q)) if self.orientations else self.steady.state(q)
 
     def without_rounding(self, q: Array) -> Array:
         """A root with 0 where only rounding is left."""
@@ -145,7 +146,7 @@ class _Task:
 
     def _stability(self, x: Array) -> Stability:
         try:
-            return without_charges(self.linearizer.at_rest(x, self.u, self.p), self.steady)
+            return self.steady.verdict(self.linearizer.at_rest(x, self.u, self.p))
         except RunError as trouble:  # it is an equilibrium all the same
             return Stability("marginal", trouble.what)
 
@@ -156,6 +157,8 @@ class _Task:
         M = self.linearizer.values(self.linearizer.mass, q=at, v=v, u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
+        if self.steady:
+            M = self.steady.basis.T @ M @ self.steady.basis
         width = self._sizes(M)
         if self.linearizer.manifold is not None:
             try:
@@ -173,9 +176,10 @@ class _Task:
         """The sizes of changes by which M is judged: the widths of the box. A charge whose current is sought has none
         in the box; its size makes its inductance as large as the largest of the other entries."""
         sizes = np.array(self.orientations.widths(self.search.width), float)
-        others = [k for k in range(len(sizes)) if k not in self.steady]
-        largest = float((np.diag(M) * sizes**2)[others].max(initial=0.0)) if self.steady else 0.0
-        for k in (k for k in self.steady if M[k, k] > 0):
+        leading = self.steady.leading
+        others = [k for k in range(len(sizes)) if k not in leading]
+        largest = float((np.diag(M) * sizes**2)[others].max(initial=0.0)) if leading else 0.0
+        for k in (k for k in leading if M[k, k] > 0):
             sizes[k] = np.sqrt((largest or 1.0) / M[k, k])
         return sizes
 
@@ -206,8 +210,8 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     u, p = given.input_values(inputs), given.parameter_values(params)
     program = linearizer.forces
     orientations = SoughtOrientations.of(model)
-    steady = steady_currents(linearizer)
-    names = tuple(f"{name}'" if k in steady else name for k, name in enumerate(program.inputs["q"]))
+    steady = SteadyCurrents.of(linearizer, u, p)
+    names = tuple(f"{name}'" if k in steady.leading else name for k, name in enumerate(program.inputs["q"]))
     charge = largest_charge(model, dict(zip(model.parameters, p.tolist(), strict=True)), u) if model.charges else None
     turning = _turning(linearizer, u, p, orientations)
     box = make_box(given, names, asked, turning, charge, orientations.entries)
@@ -223,7 +227,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
     free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
     search = Search(forces, box.centre(), seek, scale, width, box.turns, last=bool(orientations))
-    return _Task(model, box, search, free, held, linearizer, u, p, held_forces, steady, orientations)
+    return _Task(model, box, search, free, held, linearizer, u, p, steady, held_forces, orientations)
 
 
 def _turning(linearizer: Linearizer, u: Array, p: Array, orientations: SoughtOrientations) -> NDArray[np.bool_]:
@@ -310,14 +314,14 @@ def _notes(
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
         listed.append(f"no force depends on {what}: any value is as good; {names[0]} is held")
-        if len(names) > 1 and not found and not {c.name for c in task.model.charges}.isdisjoint(names):
-            listed.append(
-                f"a current that flows steadily through {' and '.join(names)} together is not sought: give every "
-                "capacitor a charge of its own as a coordinate, and the currents of the other charges are sought"
-            )
-    for name in (task.box.names[k] for k in task.steady):
-        bare = name.removesuffix("'")
-        listed.append(f"no force depends on the charge {bare}: what is sought is its current {name}, steady there")
+    coordinates = [c.name for c in task.model.coordinates]
+    for k, what, d in zip(task.steady.leading, task.steady.named(coordinates), task.steady.directions, strict=True):
+        alone = np.count_nonzero(d) == 1
+        which = f"the charge {what}" if alone else f"a shift of the charges {what} together"
+        listed.append(
+            f"no force depends on {which}: what is sought is {'its' if alone else 'their'} current "
+            f"{task.box.names[k]}, steady there"
+        )
     if outside:
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")
@@ -359,16 +363,16 @@ def _kernel(program: Program, *names: str) -> machine.Kernel:
     return machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
 
 
-def _forces(program: Program, u: Array, p: Array, steady: tuple[int, ...], orientations: SoughtOrientations) -> Forces:
+def _forces(program: Program, u: Array, p: Array, steady: SteadyCurrents, orientations: SoughtOrientations) -> Forces:
     """h and K at rest, or with steady currents, in machine code; where they are not finite, h is `LARGE` and K is 0."""
     kernel = _kernel(program, "h", "K", *(["D"] if steady else []))
 
     def forces(z: Array) -> tuple[Array, Array]:
-        q, v = (z, orientations.resting(z)) if orientations else split_state(z, steady)
+        q, v = (z, orientations.resting(z)) if orientations else steady.state(z)
         got = kernel(q, v, u, p, 0.0)
         h, K = np.array(got["h"]), np.array(got["K"])
         if steady:
-            K = slopes(K, np.array(got["D"]), steady)
+            K = steady.slopes(K, np.array(got["D"]))
         if orientations:
             h, K = orientations.with_lengths(z, h, K)
         bad = (np.abs(h) >= LARGE).any(axis=1) | (np.abs(K) >= LARGE).any(axis=(1, 2))
