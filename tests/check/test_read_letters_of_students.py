@@ -195,3 +195,67 @@ def test_expressions_of_programs_are_no_words() -> None:
 
 def test_a_list_with_an_item_in_two_lines_is_read() -> None:
     assert accepted(f"- cart 1: −k x = {CART.replace(' + k x', '').replace('= F_a', '- F_a')}\n- bob, in N m:\n  {BOB}")
+
+
+FIRST = r"(M+m)\ddot x + m\ell\ddot\theta\cos\theta - m\ell\dot\theta^2\sin\theta + kx &= F_a"
+SECOND = r"m\ell\ddot\theta + m\ddot x\cos\theta &= -mg\sin\theta"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        rf"\[\left\{{\begin{{aligned}} {FIRST} \\ {SECOND} \end{{aligned}}\right.\]",
+        rf"$$\left.\begin{{split}} {FIRST} \\ {SECOND} \end{{split}}\right\}}$$",
+        rf"\begin{{align}} \mathrm{{(1)}}\quad {FIRST} \\ \text{{(2)}}\quad {SECOND} \end{{align}}",
+    ],
+)
+def test_systems_in_braces_and_numbers_in_upright_letters(written: str) -> None:
+    assert accepted(written)
+    assert not accepted(written.replace("-mg", "mg"))
+
+
+def test_empty_entries_of_a_matrix_are_zeros() -> None:
+    first = r"m\ell\ddot\theta\cos\theta-m\ell\dot\theta^2\sin\theta+kx"
+    terms = rf"\begin{{pmatrix}}{first}\\m\ddot x\cos\theta+mg\sin\theta\end{{pmatrix}}"
+    for blank, right in ((r"M+m\\&m\ell", True), (r"&M+m\\m\ell", False), (r"M+m&\\&m\ell", True)):
+        mass = rf"\begin{{pmatrix}}{blank}\end{{pmatrix}}\begin{{pmatrix}}\ddot x\\\ddot\theta\end{{pmatrix}}"
+        written = rf"$${mass}+{terms}=\begin{{pmatrix}}F_a\\0\end{{pmatrix}}$$"
+        assert accepted(written) == right
+    verdict = cart().check(rf"$${mass}+{terms}=\begin{{pmatrix}}F_a\\0\end{{pmatrix}}$$")
+    assert "Empty entries of a matrix were read as 0." in map(str, verdict.notes)
+
+
+def test_named_matrices_with_rows_below_each_other() -> None:
+    forces = "f = [F_a - k*x + m*ell*sin(theta)*theta'^2 ; -m*g*ell*sin(theta)]"
+    mass = "M_q = [ M+m   m*ell*cos(theta) ]\n      [ m*ell*cos(theta)   m*ell^2 ]"
+    assert accepted(f"M_q q'' = f\n{mass}\n{forces}")
+    assert not accepted(f"M_q q'' = f\n{mass.replace('ell^2', 'ell')}\n{forces}")
+
+
+def test_an_arrow_of_two_lines_and_a_remark_begin_an_equation() -> None:
+    assert accepted(f"T = {T}\n==> {CART}\n===> {BOB}")
+    assert accepted(f"(cart) {CART}\n(bob) {BOB}")
+    assert accepted(f"{CART}\n{BOB}".replace("theta''", "diff(theta, 2)").replace("theta'^2", "diff(theta)^2"))
+
+
+def test_sums_of_numbers_and_energies_before_a_colon() -> None:
+    V = "1/2 k x^2 - m g ell cos(theta)"
+    assert accepted(f"- T: {T}\n- V: {V}\n- x: {CART}\n- theta: {BOB}")
+    assert accepted(f"T: {T}\nV: {V}\n(1): {CART}\n(1) + 2·(2): {BOB}")
+    assert accepted(f"T*: cart, bob's speed (x' + ell theta')\nT* = {T}\n{CART}\n{BOB}")
+    assert not accepted(f"T: {T}\nV: {V.replace('- m', '+ m')}\n(1): {CART}\n(2): {BOB}")
+    first = CART.replace("F_a", f"F_a + {BOB.partition(chr(61))[0]}")
+    assert accepted(f"(1) - (2): {first}\n(2): {BOB}")
+    assert not accepted(f"(1) - (2): {CART}\n(2) 3: {BOB.replace('g ell', 'g')}")
+
+
+def test_second_derivatives_of_brackets() -> None:
+    for two in ("²", "^2"):
+        assert accepted(f"(M + m) x'' + m ell d{two}(sin θ)/dt{two} + k x = F_a\n{BOB}")
+        assert not accepted(f"(M + m) x'' + m ell d{two}(cos θ)/dt{two} + k x = F_a\n{BOB}")
+
+
+def test_an_energy_of_energies_without_values_is_told_if_it_says_more() -> None:
+    verdict = cart().check(f"L = T - V + k x\n{CART}\n{BOB}")
+    assert "'L = T - V + k x' was not judged: an energy in it has no value." in map(str, verdict.notes)
+    assert not cart().check(f"L = T - V\n{CART}\n{BOB}").notes

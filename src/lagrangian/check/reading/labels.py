@@ -50,6 +50,12 @@ _DIRECTION = "eqn?|equation|gl|gln|gleichung|dir|direction|axis|richtung|achse|c
 _OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{_DIRECTION})\b\.?[ \t]++(?=[^\s=+*/^-])", re.IGNORECASE)
 _FAR = re.compile(r"\s*+(?P<said>[^\W\d_][\w.#’-]{1,24}(?:[ ][\w.#’-]{1,24}){0,3}+)(?:[ \t]{2,}|\t)(?=[^\s=+*/^])")
 """Words or a word with a number, far from the equation behind them: load1  m1*x1'' = …"""
+_SUM_OF_NUMBERS = re.compile(
+    rf"\s*+(?:\w{{1,9}}\s?[·*]?\s?)?\(\s*{_NUMBER}\s*\)(?:\s?[-+−]\s?(?:\w{{1,9}}\s?[·*]?\s?)?\(\s*{_NUMBER}\s*\))*\s?:(?!=)"
+)
+"""Which equations were added: (1) - r·(2): …"""
+_ENERGY = re.compile(r"\s*+(?:[-*•+]\s+)?(?P<name>T\*?|[VUD]|E_?(?:kin|pot))\s?(?P<colon>:)(?!=)(?=[^=\n]+\Z)")
+"""An energy without an equals sign: T: 1/2 m v^2."""
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
 _TRAIL = re.compile(rf"(?<=[\w\u0307\u0308)\]'’′²³])(?:\s*+,)?\s++{_WORDS}\s*+[,:]?\s*+\Z", re.IGNORECASE)
 _LEADERS = r"\s*+(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]{0,300}+"
@@ -97,9 +103,23 @@ def numbering(text: str, words: Words) -> Numbering:
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
     """Blank out an arrow, a bullet, a number or a label before a statement."""
+    if (energy := _ENERGY.match(line)) is not None and _is_energy(energy, line, words):
+        at = energy.start("colon")
+        return f"{blank(line, 0, energy.start('name'))[:at]}={line[at + 1 :]}"
     for _ in range(_ROUNDS):
         above = line
-        for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _SPOKEN, _CALLED, _STEP_NUMBER, _OPEN, _LABEL):
+        for form in (
+            _BRACE,
+            _ARROW,
+            _BULLET,
+            _SUM_OF_NUMBERS,
+            _NUMBERED,
+            _SPOKEN,
+            _CALLED,
+            _STEP_NUMBER,
+            _OPEN,
+            _LABEL,
+        ):
             match = form.match(line)
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
@@ -111,6 +131,13 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
         if line == above:
             break
     return line
+
+
+def _is_energy(match: re.Match[str], line: str, words: Words) -> bool:
+    """Whether an energy is stated behind its letter and a colon, and no words."""
+    listed = re.findall(r"[^\W\d_]{3,}", line[match.end() :])
+    spoken = any(not words.readable(x) and not words.is_product(x) for x in listed)
+    return not spoken and not words.is_name(match["name"].rstrip("*"))
 
 
 def _label(line: str, words: Words) -> re.Match[str] | None:

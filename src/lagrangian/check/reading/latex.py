@@ -43,6 +43,8 @@ class LatexParser(LatexFractions):
     def __init__(self, source: Source, names: Names) -> None:
         super().__init__(source, names)
         self._bars = 0
+        self._blanks = False
+        """Whether an entry of the matrix that is read was left empty."""
 
     def side_by_side(self) -> bool:
         """Any operand may follow another; a number may not follow a number."""
@@ -332,7 +334,7 @@ class LatexParser(LatexFractions):
 
     def _matrix(self, token: AnswerToken) -> Tree:
         self.deeper(token.start)
-        symmetric = self._says_symmetric()
+        symmetric, self._blanks = self._says_symmetric(), False
         rows: list[list[Tree | None]] = [[self._entry(symmetric)]]
         while not self.accept("end_"):
             if self.accept("&"):
@@ -343,6 +345,10 @@ class LatexParser(LatexFractions):
             else:
                 raise self.stopped(False)
         self.opened.pop()
+        if self._blanks and not symmetric:
+            width = max(map(len, rows))
+            rows = [[*row, *(number("0", token.start) for _ in range(width - len(row)))] for row in rows]
+            self.names.notes.setdefault("Empty entries of a matrix were read as 0.")
         return matrix(
             token.start, [[self.mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
         )
@@ -362,4 +368,7 @@ class LatexParser(LatexFractions):
         """Read an entry of a matrix; None for one that is left empty because the matrix is symmetric."""
         if symmetric and (self.accept("sym") or self.next.kind in ("&", "rowsep", "end_")):
             return None
+        if self.next.kind in ("&", "rowsep"):
+            self._blanks = True
+            return number("0", self.next.start)
         return self.sum()

@@ -27,7 +27,10 @@ _DISPLAYS = [
 _OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
 _WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
-_WRAPPER = re.compile(rf"\\(?:begin|end)\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?")
+_WRAPPER = re.compile(
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[)\s*)?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
+    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\s*\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
+)
 _SYSTEM = re.compile(
     r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
     r"(?P<rows>(?:(?!\\begin|\\end)[^=])*=(?:(?!\\begin\{(?P=kind)\}).)*?)\\end\{(?P=kind)\}"
@@ -35,6 +38,7 @@ _SYSTEM = re.compile(
     re.DOTALL,
 )
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
+_UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
 _BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath)\s*\{")
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
 _SHORT = re.compile(r"\w{1,20}\Z")
@@ -118,7 +122,7 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
 def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     """The statements of one piece of mathematics; ``lines``: the end of a line may end a statement."""
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
-    for form in (_WRAPPER, _NOTE):
+    for form in (_WRAPPER, _NOTE, _UPRIGHT_NUMBER):
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = without_units(without_braces(_with_points(_without_words(_unboxed(text)))))
     rows: list[AnswerRow] = []

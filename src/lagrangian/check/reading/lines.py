@@ -230,6 +230,8 @@ class Lines:
         name = subject.name
         lhs: sp.Expr | None = None
         if is_general(value):
+            if any(not is_placeholder(x) for x in value.atoms(AppliedUndef)):
+                self._not_judged(reader, "an energy in it has no value")  # L = T - V + λ (x² + y² - l²)
             return self._make("statement", None, value, None, sides[0], side, reader)
         if kind in ENERGIES and (given := self._parameter(sides[0], value)) is not None:
             return self._make("given", None, value, given, sides[0], side, reader)

@@ -84,6 +84,9 @@ class PlainParser(PlainCalls):
         likely = self.next.start == last.end and not numbers
         return likely != self.words.flipped
 
+    def _moves(self, called: str) -> bool:
+        return self.words.names.changes(undotted(called)[0])
+
     def stopped(self, wants_operand: bool) -> ParseError:
         """Raise the error that explains what is wrong at the next token."""
         token = self.next
@@ -251,7 +254,11 @@ class PlainParser(PlainCalls):
         if token.text == "diag" and self.next.kind == "(" and not self.words.is_name("diag"):
             listed = self._arguments()
             return diagonal(token.start, matrix_entries(listed[0]) or listed)
-        if token.text == "d" and self.next.kind == "(" and (rate := self._d_of_bracket(token)) is not None:
+        if (
+            token.text == "d"
+            and self.next.kind in ("(", "raised", "power")
+            and (rate := self._d_of_bracket(token)) is not None
+        ):
             return rate
         if self.words.is_function(token.text):
             return self._function(token)

@@ -25,6 +25,10 @@ CLOSING = {"(": ")", "[": "]"}
 class PlainDerivatives(PlainConditions):
     """The part of the parser that reads derivatives."""
 
+    def _moves(self, called: str) -> bool:
+        """Whether a name changes with time."""
+        raise NotImplementedError
+
     def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
         order = sum(ORDERS[c] for c in primes.text)
         inner = inside(made)
@@ -55,15 +59,24 @@ class PlainDerivatives(PlainConditions):
         return name(written, found.start(group), order)
 
     def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
-        """Read d(…)/dt; None if no /dt follows."""
+        """Read d(…)/dt or d²(…)/dt²; None if no bracket or no /dt follows."""
         at = self.i
-        inner = self._bracket()
-        if self.next.kind == "over" and self.ahead().kind == "name" and self.ahead().text == "dt":
+        twice = self._two()
+        inner = self._bracket() if self.next.kind == "(" else None
+        if inner is not None and self.next.kind == "over" and self.ahead().text == "dt":
             self.take()
             self.take()
-            return node("rate", token.start, inner, 1)
+            if not twice or self._two():
+                return node("rate", token.start, inner, 2 if twice else 1)
         self.i = at
         return None
+
+    def _two(self) -> bool:
+        """Whether ² or ^2 is next; if so, consume it."""
+        if self.next.text == "²" or (self.next.kind == "power" and self.ahead().text == "2"):
+            self.i += 1 if self.next.text == "²" else 2
+            return True
+        return False
 
     def _differentiated(self, token: AnswerToken) -> Tree:
         """Read diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)), D[x[t], {t, 2}] or diff(L, x')."""
@@ -97,6 +110,10 @@ class PlainDerivatives(PlainConditions):
         if not self.accept(closing):
             raise self.stopped(False)
         self.opened.pop()
+        named = only_name(made)
+        called = token.text in ("diff", "Derivative") and named is not None and not named[1]
+        if not order and called and named is not None and self._moves(str(named[0])):
+            order = 1  # diff(x) can only mean the rate
         if not order and made.data != "partial":
             raise self.source.error(
                 f"{token.text} needs a variable to differentiate by", token.start, fix=f"write {token.text}(x1, t)"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.words import Words, function_of
 
-_REMARK = re.compile(r"(?<=\s)\(([^\W\d_][^()=+*/^\n]*)\)")
+_REMARK = re.compile(r"(?<!\S)\(([^\W\d_][^()=+*/^\n]*)\)")
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
 _IDENTIFIER = re.compile(r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*")
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"

@@ -44,7 +44,7 @@ _CLOSED = {"(": ")", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
-_OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!>))")
+_OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
 _LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–]")
 _STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
@@ -58,7 +58,7 @@ _SUM_ALONE = re.compile(
 )
 _SUM = re.compile(r"∑|\\sum(?![A-Za-z])")
 _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
-_ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
+_ARROWS = "<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
 _LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
 _RATES = re.compile(
@@ -69,7 +69,7 @@ _NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2})"
 _BETWEEN = re.compile(
-    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
+    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
 
 
@@ -148,8 +148,7 @@ def _separated(text: str, labelled: Callable[[str], bool]) -> str:
         elif depth <= 0 and match["arrow"] and is_mark(text[text.rfind("\n", 0, match.start()) + 1 : match.start()]):
             continue
         elif depth <= 0 and match["colon"]:
-            head = text[text.rfind("\n", 0, match.start()) + 1 : match.start() + 1]
-            if _states(text, match.start()) and not (len(head) < LONGEST_LABEL and labelled(head)):
+            if _states(text, match.start()) and not _labelled(text, match.start(), labelled):
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
             if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
@@ -158,6 +157,12 @@ def _separated(text: str, labelled: Callable[[str], bool]) -> str:
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
     return "".join(letters)
+
+
+def _labelled(text: str, at: int, labelled: Callable[[str], bool]) -> bool:
+    """Whether what stands before a colon on its line is a label."""
+    first = text.rfind("\n", max(0, at - LONGEST_LABEL), at) + 1
+    return (first > 0 or at < LONGEST_LABEL) and labelled(text[first : at + 1])
 
 
 def _states(text: str, at: int) -> bool:

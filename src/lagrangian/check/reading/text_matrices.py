@@ -30,6 +30,8 @@ _OPERATOR = "+-−–*/^·×=,;"
 _TIMES = re.compile(r"\s*[*·×@]?\s*")
 _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
+_NAMED_ROW = re.compile(r"\s*+[^\W\d]\w*+\s*+=\s*+\[[^\[\]=;,]++(?P<close>\])\s*\Z")
+_ROW_ALONE = re.compile(r"\s*+(?P<open>\[)[^\[\]=;,]++(?P<close>\])\s*\Z")
 _MAX = 200
 """The largest number of matrices whose entries are looked at."""
 
@@ -47,11 +49,27 @@ def on_one_line(written: TracedText) -> TracedText:
     drawn = [line.lstrip()[0] for line in written.text.split("\n") if _TALL.search(line)]
     if drawn and all(_TALL.match(first) for first in drawn):  # products of matrices, which have no name
         written = TracedText(written.text.translate(_PLAIN), written.origins)
-    written = _blocks(written).sub(_AT, lambda match: " * ")
+    written = _blocks(_named_rows(written)).sub(_AT, lambda match: " * ")
     if "[" not in written.text:
         return written
     written = written.edited(_row_ends(written.text))
     return written.edited(_entry_gaps(written.text))
+
+
+def _named_rows(written: TracedText) -> TracedText:
+    """A matrix with a name and rows in brackets in lines below each other, M = [a  b], [c  d], as M = [a  b; c  d]."""
+    edits: list[Edit] = []
+    above, at, end = False, 0, 0
+    for line in written.text.split("\n"):
+        row = _ROW_ALONE.match(line) if above and len(line) < 2000 else None
+        if row is not None:
+            edits.append((end, at + row.end("open"), "; "))
+        first = _NAMED_ROW.match(line) if len(line) < 2000 else None
+        above = row is not None or first is not None
+        match = row or first
+        end = at + match.start("close") if match is not None else 0
+        at += len(line) + 1
+    return written.edited(edits)
 
 
 def _joined(written: TracedText) -> TracedText:

@@ -112,7 +112,7 @@ class Words:
         """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
         be a spelled Greek one."""
         bare = re.sub(r"[\W\d_]", "", undotted(word)[0])
-        if word in ("dot", "ddot") or _INDEXED.fullmatch(word):
+        if word in ("dot", "ddot", "diff", "Derivative") or _INDEXED.fullmatch(word):
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
