@@ -21,6 +21,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
+from lagrangian.page.formula import text
 
 LONGEST_SYSTEM = 2_000
 """If T*, V and Ξ have more operations, times the number of coordinates, mistakes are reported only by their terms."""
@@ -60,7 +61,10 @@ class Wrong:
         v = self.variant
         name = truth.model.coordinates[v.coordinate].name if v.coordinate is not None else None
         title = v.element.title if v.element is not None else None
-        return Mistake(self.name, v.what, self.module.WHY, self.step, title, name)
+        first, *more = v.what.parts
+        begins = isinstance(first, str) and title is not None and first.startswith(title)  # a title begins the sentence
+        what = text(str(first)[:1].upper() + str(first)[1:], *more) if begins else v.what
+        return Mistake(self.name, what, self.module.WHY, self.step, title, name)
 
 
 class Effects:
