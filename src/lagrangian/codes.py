@@ -24,7 +24,11 @@ class Code(StrEnum):
         made._value_, made.what, made.explanation = value, what, explanation
         return made
 
-    E101 = "E101", "a number that is not finite", "Masses, inertias, offsets and values must be real and below 1.8e308."
+    E101 = (
+        "E101",
+        "a number that is not finite, or too large",
+        "Masses, inertias and offsets must be real and below 1.8e308, and values of parameters at most 1e150 SI units.",
+    )
     E102 = "E102", "a negative mass", "A mass must be positive, and so must an inductance."
     E103 = "E103", "a zero mass", "A mass, an inductance or a capacitance is not zero; leave out what has none."
     E104 = (

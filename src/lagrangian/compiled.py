@@ -223,7 +223,7 @@ class Compiled(Differentiated):
         states = np.broadcast_to(q, (*matrices.shape[:-2], n)).reshape(len(flat), -1)
         for state, M in zip(states, flat, strict=True):
             _, singular, right = np.linalg.svd(M)
-            if singular[-1] * SINGULAR <= singular[0]:
+            if singular[-1] <= singular[0] / SINGULAR:
                 moved = dynamics.moving_no_mass(self.velocities, right[-1:])
                 return RunError(
                     f"M is singular at {self._listed(state)}: {moved} there",

@@ -149,3 +149,14 @@ def test_sweeps_hold_coordinates_and_keep_multipliers(capsys: pytest.CaptureFixt
     assert len(lines) == 3 and "max loop.x" in lines[0]
     code, _, err = said(capsys, "sweep", file, "crank=0.9,1.0", "--fixed", "shaft")
     assert code != 0 and "no coordinate 'shaft'" in err
+
+
+@pytest.mark.parametrize("verb", ["linearize", "simulate", "sweep", "animate"])
+def test_coordinates_that_stay_are_a_list_or_several_options(
+    capsys: pytest.CaptureFixture[str], file: str, verb: str
+) -> None:
+    """Every name is read in both forms: the second one, which is unknown, is what the error names."""
+    for asked in (["--fixed", "crank,shaft"], ["--fixed", "crank", "--fixed", "shaft"]):
+        values = {"sweep": ["crank=0.9,1.0"], "animate": ["-o", file + ".svg"]}.get(verb, [])
+        code, _, err = said(capsys, verb, file, *values, *asked)
+        assert (code, "there is no coordinate 'shaft' to hold fixed" in err) == (2, True), err

@@ -61,7 +61,8 @@ NotationOption = Annotated[
     Notation,
     typer.Option(
         "--notation",
-        help="Symbols to use: ξ, T*, Ξ (lecture), q, T, Q (physics) or M, C, g, τ (robotics).",
+        help="Symbols to use: ξ, T*, Ξ (lecture: the textbook procedure in steps 0 to 6), q, T, Q (physics) "
+        "or M, C, g, τ (robotics).",
         rich_help_panel=OUTPUT,
     ),
 ]

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagrangian.cli.assignments import assignments
+from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import (
     ConstantInputs,
@@ -47,8 +47,8 @@ def linearize(
         list[str] | None,
         typer.Option(
             "--fixed",
-            metavar="NAME",
-            help="The point is a guess, to be moved onto the constraints; this coordinate stays. Repeatable.",
+            metavar="NAME[,NAME]",
+            help="The point is a guess, to be moved onto the constraints; these coordinates stay. Repeatable.",
         ),
     ] = None,
     symbols: Annotated[
@@ -75,7 +75,7 @@ def linearize(
         inputs=assignments(inputs, "--input"),
         outputs=_outputs(outputs),
         operating_point=operating_point,
-        fixed=fixed or None,
+        fixed=names(fixed) if fixed else None,
     )
     put_report(found.report(symbols=symbols), wanted, width, output)
 

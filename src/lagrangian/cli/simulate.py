@@ -150,12 +150,12 @@ def _check_targets(output: Path | None, plot: Path | None, force: bool) -> None:
 
 
 def start_values(
-    initial: list[str] | None, fixed: str | None, parameters: list[str] | None, signals: list[str] | None
+    initial: list[str] | None, fixed: list[str] | None, parameters: list[str] | None, signals: list[str] | None
 ) -> dict[str, Any]:
     """Return what --init, --fixed, --set and --input say, as the options of `lagrangian.System.simulate`."""
     return {
         "initial": assignments(initial, "--init"),
-        "fixed": fixed,
+        "fixed": names(fixed) if fixed else None,
         "params": assignments(parameters, "--set"),
         "inputs": {name: input_signal(name, value) for name, value in assignments(signals, "--input").items()},
     }

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from lagrangian.cli.assignments import assignments
+from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.door import StandardOutput, ask, put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
@@ -163,7 +163,7 @@ def sweep(
             duration,
             grid,
             initial=assignments(initial, "--init"),
-            fixed=fixed,
+            fixed=names(fixed) if fixed else None,
             params=assignments(values, "--set"),
             inputs=assignments(inputs, "--input"),
             draws=draws,

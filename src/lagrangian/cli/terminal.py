@@ -105,11 +105,11 @@ Initial = Annotated[
     ),
 ]
 Fixed = Annotated[
-    str | None,
+    list[str] | None,
     typer.Option(
         "--fixed",
         metavar="NAME[,NAME]",
-        help="Coordinates that stay as given where constraints move the others at the start.",
+        help="Coordinates that stay as given where constraints move the others at the start. Repeatable.",
         show_default=False,
     ),
 ]

@@ -20,6 +20,7 @@ from lagrangian.codegen import Kernel
 from lagrangian.errors import RunError
 from lagrangian.linear.linearize import Linearizer
 from lagrangian.linear.manifold import Manifold
+from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
 
 Array = NDArray[np.float64]
@@ -120,3 +121,16 @@ class HeldForces:
         found = {name: np.array(x) for name, x in self.rows(q, 0 * q, self.u, self.p, t).items()}
         h = np.where(np.abs(bias) < LARGE, bias, 0.0) / self.size
         return found, h, np.asarray(np.linalg.pinv(self._load(found), rcond=DEPENDENT), float)
+
+
+def check_sizes(model: Model, h: Array, p: Array) -> None:
+    """Raise `RunError` if the forces h (N, n) are at no start numbers below `LARGE`; ``p`` are the parameters."""
+    if not h.size or (np.abs(h) < LARGE).all(axis=1).any():
+        return
+    k = int(np.argmax(np.abs(p))) if len(p) else 0
+    most = f": parameter '{model.parameters[k].name}' is {p[k]:g}" if len(p) else ""
+    raise RunError(
+        f"the forces of system '{model.name}' are nowhere in the box finite and below {LARGE:g}{most}",
+        fix="check the power of ten and the unit of the values; look for roots of negative numbers and divisions by 0",
+        code="E503",
+    )

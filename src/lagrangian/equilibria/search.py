@@ -23,7 +23,7 @@ from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.orientations import SoughtOrientations
 from lagrangian.equilibria.points import Equilibria, Equilibrium
 from lagrangian.equilibria.roots import ENOUGH, EXACT, Forces, Search, distinct, starting_points
-from lagrangian.equilibria.rows import LARGE, HeldForces
+from lagrangian.equilibria.rows import LARGE, HeldForces, check_sizes
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.echelon import null_space, reduced
@@ -221,6 +221,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     else:
         forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale)
     h, K = forces(starts)
+    check_sizes(model, h, p)
     scale, width = np.ones(h.shape[1]) if held_forces else _scale(h), box.high - box.low
     good = K[(K != 0).any(axis=(1, 2)) & (np.abs(h) < LARGE).all(axis=1)]
     directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)

@@ -173,4 +173,4 @@ class Declarations:
                 fix="gravity(..., g=another symbol)",
                 code="E404",
             )
-        return self.parameter("g", value, unit="m/s^2").symbol
+        return self.parameter("g", value, unit="m/s^2", description="gravitational acceleration").symbol

@@ -15,6 +15,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model
+from lagrangian.model.checks import SMALLER, too_large
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity
 from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, Mismatch, check_dimensions
@@ -106,6 +107,13 @@ class Group:
             if name in found:
                 raise RunError(f"{self.noun} '{name}' is given twice, by name and by symbol", code="E404")
             found[name] = number(value, f"{self.noun} '{name}'", self.dims[self.names.index(name)])
+        return self._computable(found)
+
+    def _computable(self, found: dict[str, float]) -> dict[str, float]:
+        """The same values; raises `RunError` for a parameter that is too large to compute with."""
+        for name, value in found.items() if self.noun == "parameter" else ():
+            if trouble := too_large(value):
+                raise RunError(f"{self.noun} '{name}' {trouble}", fix=SMALLER, code="E101")
         return found
 
     def _listed(self, given: Any) -> dict[str, float]:
@@ -119,7 +127,8 @@ class Group:
                 fix="give a mapping by name, or one number for each, in this order",
                 code="E501",
             )
-        return {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}
+        found = {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}
+        return self._computable(found)
 
 
 @dataclass(frozen=True, eq=False)
