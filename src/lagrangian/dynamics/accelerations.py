@@ -15,9 +15,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.tape import EliminationTape, Form
-from lagrangian.dynamics.vectors import rotated
+from lagrangian.dynamics.vectors import dot, rotated
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph
+from lagrangian.graph import Graph, jvp, vjp
 
 
 class Quadratic:
@@ -242,3 +242,16 @@ def condensed(graph: Graph, tape: EliminationTape, H: Quadratic, rates: Sequence
     solver.run(minimise=False)
     rows = solver.H.rows
     return [[rows.get(i, {}).get(k, graph.zero) for k in rates] for i in rates]
+
+
+def by_columns(graph: Graph, H: Quadratic, rates: Sequence[int]) -> list[list[int]]:
+    """The mass matrix M over ``rates``, row after row: its column j is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
+    g, n, seeds = graph, len(rates), list(H.rows)
+    rows = [[g.zero] * n for _ in range(n)]
+    for j, v in enumerate(rates):
+        moved = dict(zip(seeds, jvp(g, seeds, {v: g.one}), strict=True))
+        forces = [dot(g, list(H.rows[i].values()), [moved[k] for k in H.rows[i]]) for i in seeds]
+        column = vjp(g, seeds, forces, list(rates))
+        for i in range(j + 1):
+            rows[i][j] = rows[j][i] = column[i]
+    return rows

@@ -60,6 +60,14 @@ class Bodies:
             self._put_in_plane(plane, self.motion.root, place, m, self.motion.graph.zero)
         return [*space, *plane.values()]
 
+    @property
+    def point_masses(self) -> dict[PlaceMotion, int]:
+        """The mass at every place, if all bodies are point masses in the plane; else none."""
+        g, found = self.motion.graph, dict[PlaceMotion, int]()
+        for place, m in self._points if not (self._space or self._plane) else ():
+            found[place] = g.add(found.get(place, g.zero), m)
+        return found
+
     def groupings(self) -> list[list[AnyLink]]:
         """The arrangements that are worth counting."""
         if self.motion.dimension == 3:

@@ -13,7 +13,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from lagrangian.dynamics.accelerations import Quadratic, condensed, solve
+from lagrangian.dynamics.accelerations import Quadratic, by_columns, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.dependent import Known, without_dependent
@@ -24,9 +24,10 @@ from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.row_problem import AttachedRow, Problem, RowSolution
 from lagrangian.dynamics.rows import Added, ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
+from lagrangian.dynamics.tensions import by_tensions
 from lagrangian.dynamics.turned_rates import in_speeds_of_rows
 from lagrangian.dynamics.vectors import bare, dot, minus, plus, zeros
-from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
+from lagrangian.graph import Graph, count_operations, gradient, hessian, vjp
 from lagrangian.model.spare import SpareRows
 
 Pairs = list[tuple[int, int]]
@@ -132,10 +133,12 @@ class Mechanics:
 
     def missing(self, acc: Accelerations, links: Sequence[AnyLink]) -> Pairs:
         """Pairs (velocity, missing force) for given accelerations: inertial minus applied, including weights."""
-        g = self.graph
         inertial = [pair for link in links for pair in link.wrench(self.motion, acc)]
-        applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
-        return [*inertial, *self.raw_inertial(acc.vdot), *applied]
+        return [*inertial, *self.raw_inertial(acc.vdot), *self._applied]
+
+    @property
+    def _applied(self) -> Pairs:
+        return [(rate, self.graph.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
 
     @cached_property
     def dragged(self) -> Pairs:
@@ -202,23 +205,10 @@ class Mechanics:
         found = []
         for links in self.groupings:
             H = self.inertia(links)
-            for rows in (self._by_columns(H), condensed(g, make_tape(g, list(H.rows), self.v), H, self.v)):
+            for rows in (by_columns(g, H, self.v), condensed(g, make_tape(g, list(H.rows), self.v), H, self.v)):
                 found.append([x for row in rows for x in row])
         flat = self.cheapest(found)
         return [flat[i * n : (i + 1) * n] for i in range(n)]
-
-    def _by_columns(self, H: Quadratic) -> list[list[int]]:
-        """Column j of M is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
-        g, n = self.graph, len(self.v)
-        seeds = list(H.rows)
-        rows = [[g.zero] * n for _ in range(n)]
-        for j, v in enumerate(self.v):
-            moved = dict(zip(seeds, jvp(g, seeds, {v: g.one}), strict=True))
-            forces = [dot(g, list(H.rows[i].values()), [moved[k] for k in H.rows[i]]) for i in seeds]
-            column = vjp(g, seeds, forces, list(self.v))
-            for i in range(j + 1):
-                rows[i][j] = rows[j][i] = column[i]
-        return rows
 
     # -- energies -----------------------------------------------------------------------------------------------
 
@@ -272,7 +262,15 @@ class Mechanics:
                     found.append(self.by_mass_matrix(links, free=free))
             if n <= MANY:
                 found.append(self.along_tape(links, free=True, exchange=False))
+        if (tensions := self.tensions_first()) is not None:
+            found.append(tensions)
         return self.cheapest(found)
+
+    def tensions_first(self) -> list[int] | None:
+        """v̇ by the tensions of massless rods between point masses, or None where there is more than those."""
+        if self.kinetics or self.floats:
+            return None
+        return by_tensions(self.motion, self.bodies.point_masses, self.down, self._linear(self._applied))
 
     def along_tape(self, links: Sequence[AnyLink], *, free: bool, exchange: bool) -> list[int]:
         """v̇ = reference + the result of the elimination of the tape."""
