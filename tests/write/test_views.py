@@ -97,7 +97,7 @@ def test_pictures_follow_the_theme_of_their_notebook() -> None:
 def test_a_view_without_its_style_says_what_is_missing() -> None:
     """JupyterLab removes styles and MathML from what a notebook that is not trusted holds; then ½ becomes 12."""
     view = lg.example("pendulum").linearize()._repr_html_()
-    assert "& .stripped { display: none; }" in view.partition("</style>")[0]
+    assert "\n.stripped { display: none; }" in view.partition("</style>")[0]
     assert '<p class="stripped">This notebook is not trusted' in view
 
 

@@ -83,7 +83,7 @@ def fragment(document: Document) -> str:
     rules = style_sheet() + _pointing(document)
     nested = rules.replace(":root", "&").replace("body {", "& {")  # restricted to this piece
     themes = f"{_themes()}}}\n" + ("" if document.picture is None else themed_scenes())
-    style = f"<style>\n.lagrangian {{\n& .stripped {{ display: none; }}\n{nested}{themes}</style>"
+    style = f"<style>\n.lagrangian {{\n{nested}{themes}</style>"
     said = f'<p class="stripped">{STRIPPED}</p>\n'
     head = f'<div class="lagrangian" lang="en">{style}\n{said}<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{_picture(document)}{body}\n</div></div>"
