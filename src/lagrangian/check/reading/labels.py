@@ -75,7 +75,12 @@ _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|�
 """What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
 _DOTS = re.compile(r"(?<=[\w\u0307\u0308)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]{0,80}\Z")
 """Words behind dots: J_A = J + m*l^2 ... used below."""
-_UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
+_UNIT = re.compile(
+    r"(?<=[\w\u0307\u0308)\]'’′″²³,.;])(?P<gap>[ \t]+)\[(?P<unit>[A-Za-zµΩ·*/^²³⁻¹\d \t-]{1,12})\]"
+    r"(?=[ \t]*(?:[.,;:]|$)|[ \t]+[^\W\d_]{2,}[ \t])",
+    re.MULTILINE,
+)
+"""The unit of what stands in front of it, at the end of a statement."""
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
 
@@ -85,8 +90,9 @@ class Numbering:
 
     before: bool
     behind: bool
-    named: bool = False
-    """Whether every coordinate stands once in brackets in front of its equation: (r) …, (θ) …"""
+    named: frozenset[str] = frozenset()
+    """The names in brackets that only say which equation follows: the coordinates, each once, (r) …, (θ) …, or letters
+    that are found nowhere else, (A) …, (B) …"""
 
 
 def numbering(text: str, words: Words) -> Numbering:
@@ -95,10 +101,12 @@ def numbering(text: str, words: Words) -> Numbering:
     first = [int(m[1]) for line in lines if (m := re.match(r"\s*\(\s*(\d{1,2})\s*\)", line))]
     last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
     before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
-    called = [words.names.scope.meanings(m[1])[0] for line in lines if (m := _COORDINATE.match(line))]
+    written = [m[1] for line in lines if (m := _COORDINATE.match(line))]
+    called = [words.names.scope.meanings(x)[0] for x in written]
     coordinates = [c.name for c in words.names.model.coordinates]
-    named = len(called) > 1 and sorted(x[0] for x in called if x) == sorted(coordinates)
-    return Numbering(before, behind, named)
+    named = sorted(x[0] for x in called if x) == sorted(coordinates)
+    lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
+    return Numbering(before, behind, frozenset(written if len(written) > 1 and (named or lettered) else ()))
 
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
@@ -123,7 +131,9 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             match = form.match(line)
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
-            labelled = form is _NUMBERED and numbers.named and (match := _COORDINATE.match(line) or match) is not None
+            called = _COORDINATE.match(line) if form is _NUMBERED else None
+            labelled = called is not None and called[1] in numbers.named
+            match = called if labelled else match
             if form is _LABEL and (match is None or match.group().count("(") != match.group().count(")")):
                 match = _label(line, words)
             if match is not None and (labelled or not _is_factor(match, words)):
@@ -179,10 +189,17 @@ def is_mark(text: str) -> bool:
     return any(match is not None and match.end() == len(mark) for match in found)
 
 
-def _is_unit(written: str, words: Words) -> bool:
-    """Whether all words in brackets are units, and none is a name."""
-    found = re.findall(r"[^\W\d_]+", written)
-    return bool(found) and not any(words.is_name(x) or (lookup(x) is None and x != "Nm") for x in found)
+def without_units(text: str, words: Words) -> str:
+    """Blank out the units behind statements: T = … [N m], where u = … [m] is …"""
+    return _UNIT.sub(lambda m: " " * len(m.group()) if _is_unit(m["unit"], words, m["gap"]) else m.group(), text)
+
+
+def _is_unit(written: str, words: Words, gap: str) -> bool:
+    """Whether all words in brackets are units, and one is no product of names; far from a statement, all may be."""
+    found = re.findall("[A-Za-zµΩ]+", written)
+    if not found or any(lookup(x) is None and x != "Nm" for x in found):
+        return False
+    return len(gap) > 1 or not all(words.is_name(x) or words.is_product(x) for x in found)
 
 
 def _is_factor(match: re.Match[str], words: Words) -> bool:
@@ -195,10 +212,8 @@ def _is_factor(match: re.Match[str], words: Words) -> bool:
     return letter is not None and not letter[0].isdigit() and words.is_name(letter)
 
 
-def behind(line: str, words: Words, numbers: Numbering) -> str:
-    """Blank out the number of an equation after it, a full stop, a linking word, and the unit of both sides: [N m]."""
-    if (unit := _UNIT.search(line)) is not None and _is_unit(unit[1], words):
-        line = blank(line, unit.start(), len(line))
+def behind(line: str, numbers: Numbering) -> str:
+    """Blank out the number of an equation after it, a full stop and a linking word."""
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
     for form in (_DOTS, _TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):

@@ -28,7 +28,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
-from lagrangian.read.letters import normal
+from lagrangian.read.letters import key, normal
 
 _ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 _BEGINS_LISTED = "number fraction letters symbol upright accent decoration function frac sqrt { ( [ abs( begin partial"
@@ -198,6 +198,10 @@ class LatexParser(LatexFractions):
 
     # -- symbols -----------------------------------------------------------------------------------------------------
 
+    def _is_letter(self, base: str) -> bool:
+        """Whether a sign that may be an operator is a name of the system, or one that the answer defines."""
+        return self.known(base) or key(base) in self.names.scope.taken
+
     def _symbol(self) -> Tree:
         """Read a name with its subscript, dots, primes and powers, or a product under dots."""
         start = self.next.start
@@ -207,7 +211,7 @@ class LatexParser(LatexFractions):
         if base == "diag" and self.next.kind == "(" and not self.known("diag"):
             made = inside(self._closed(")"))
             return diagonal(start, matrix_entries(made) or [made])
-        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self.known("delta"):
+        if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self._is_letter(base):
             return wrapped("variation", start, self._symbol_in_brackets())
         if base == "e" and self.next.kind == "^" and not self.known("e"):
             self.take()

@@ -279,7 +279,8 @@ class Lines:
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
         assert subject.token is not None
-        if self.names.occurs(subject.token) == 1 and not subject.order:
+        rates = self.names.changes(subject.token)  # q1dd is a rate of q1
+        if self.names.occurs(subject.token) == 1 and not subject.order and not rates:
             self._not_judged(reader, f"nothing else uses {subject.token}")
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:

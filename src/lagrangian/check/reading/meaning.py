@@ -66,7 +66,11 @@ class Meaning(ExpressionReader):
         if order and (given := self.names.rates.get((key(base), order))) is not None:
             self._spend(given, token)
             return given
-        if order and (value := self._meaning(token)[1]).has(AppliedUndef, time) and order <= MAX_ORDER:
+        _, value, dots = self._meaning(token)
+        order = dots + len(primes or "")  # ydd is y'', which may be a column
+        if not order:
+            return value
+        if value.has(AppliedUndef, time) and order <= MAX_ORDER:
             return self._rated(value, order, token)
         return super()._name(node)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.words import Words, function_of
@@ -15,6 +15,7 @@ _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
 _WORD = re.compile(rf"{_LETTER}+(?:['’-]{_LETTER}+)*")
 _TWO = re.compile(r"(?<!\w)([^\W\d_]{2,})(?=[ \t]([^\W\d_]{2,})(?![\w'’′(\[]))")
 _BRACKETS = re.compile(r"[()\n]")
+_SENTENCE = re.compile(rf"\s*(?P<first>{_LETTER}{{3,}})(?:[ \t]*[,:;]|[ \t]+(?P<second>{_LETTER}{{2,}})(?![\w(\[]))")
 _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
@@ -37,6 +38,12 @@ CHANGING = frozenset(
     ["twice", "half", "double", "triple", "minus", "negative", "times", "halb", "halbe", "doppelt", "doppelte", "mal"]
 )
 """Words that change the value of what stands behind them, and are not left out in silence."""
+_OFTEN, _DERIVES = "twice|once|zweimal|deux fois", "differentiated?|derived|abgeleitet|differenziert|dérivée?"
+_DERIVED = re.compile(
+    rf"\b(?:{_OFTEN})\s++(?:{_DERIVES})\b|\b(?:{_DERIVES})\s++(?:{_OFTEN})\b",
+    re.IGNORECASE,
+)
+"""Words that say how often a statement was differentiated, not what its value is multiplied by."""
 _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
 """What a definition means: ψ = θ − β : angle between pendulum and normal."""
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
@@ -67,9 +74,8 @@ _SHORTEST = 3
 """The fewest letters of a word that cannot be a name."""
 
 
-def stated_remarks(text: str) -> str:
-    """Return an answer in which statements in brackets stand alone: … = 0 (with c = cos θ)."""
-    letters = list(text)
+def _apart(text: str) -> Iterator[tuple[int, int]]:
+    """The places of the outermost brackets that open behind a blank and are closed on the same line."""
     opened: list[int] = []
     for match in _BRACKETS.finditer(text):
         mark, at = match.group(), match.start()
@@ -79,10 +85,18 @@ def stated_remarks(text: str) -> str:
             opened.clear()
         elif opened and mark == ")":
             start = opened.pop()
-            if not opened and (start == 0 or text[start - 1].isspace()) and _states(text, start, at):
-                letters[start] = letters[at] = ";"
-                if text[at + 1 : at + 2] == ":":  # drum (psi = phi/n): J psi'' = …
-                    letters[at + 1] = " "
+            if not opened and (start == 0 or text[start - 1].isspace()):
+                yield start, at
+
+
+def stated_remarks(text: str) -> str:
+    """Return an answer in which statements in brackets stand alone: … = 0 (with c = cos θ)."""
+    letters = list(text)
+    for start, end in _apart(text):
+        if _states(text, start, end):
+            letters[start] = letters[end] = ";"
+            if text[end + 1 : end + 2] == ":":  # drum (psi = phi/n): J psi'' = …
+                letters[end + 1] = " "
     return "".join(letters)
 
 
@@ -101,7 +115,27 @@ def without_remarks(text: str, words: Words) -> str:
             continue
         if any(_is_word(x, words) for x in listed) and not any(len(x) > 2 and words.is_name(x) for x in listed):
             text = blank(text, match.start(), match.end())
+    return _without_comments(text, words)
+
+
+def _without_comments(text: str, words: Words) -> str:
+    """Return an answer without sentences in brackets behind a statement, which may hold mathematics, as a note tells:
+    J_b = … (bar about the pivot, the same as m L²/3)."""
+    for start, end in _apart(text):
+        behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
+        if behind and _says(text[start + 1 : end], words):
+            told = " ".join(text[start : end + 1].split())
+            words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
+            text = blank(text, start, end + 1)
     return text
+
+
+def _says(inside: str, words: Words) -> bool:
+    """Whether what stands in brackets begins with a word that is no name, and another or a comma behind it."""
+    match = _SENTENCE.match(inside)
+    if match is None or match["first"].lower() in CHANGING or not _is_word(match["first"], words):
+        return False
+    return match["second"] is None or _links(match["second"], words) or _is_word(match["second"], words)
 
 
 def without_lead(text: str, words: Words) -> str:
@@ -120,6 +154,7 @@ def without_lead(text: str, words: Words) -> str:
         if _links(written, words) or said or (first and _is_word(written, words)):
             end = match.start(1) + word.end()
     changed = stated and any(x.strip(",:.").lower() in CHANGING for x in text[:end].split())
+    changed = changed and _DERIVED.search(text, 0, end) is None
     return blank(text, 0, end) if end > match.start(1) and not changed else text
 
 

@@ -25,6 +25,7 @@ from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
+from lagrangian.check.reading.stands_for import with_stated_letters
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
@@ -45,8 +46,9 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|[,;:]|\bwhere|\bwith|\band"
-_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+((?>{_NAME}))[ \t]*+(?:(?:\^|\*\*)\s*2|²)?\s*+=(?![=>])", re.MULTILINE)
+_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|[,;:$]|\bwhere|\bwith|\band"
+_SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
+_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
 _VECTOR = re.compile(r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s{0,9}=(?P<value>[^=]*+)\Z")
 _UNIT_VECTOR = re.compile(
@@ -150,8 +152,14 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
 def _without_notations(text: str, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names = lines.names
-    bare = without_functions(without_tags(TracedText(text)), [c.name for c in lines.model.coordinates])
-    plain = without_programs(bare, names.changes, lambda x: bool(names.scope.meanings(x)[0]))
+
+    def taken(name: str) -> bool:
+        return bool(names.scope.meanings(name)[0])
+
+    tagless = without_tags(TracedText(text))
+    said = with_stated_letters(tagless, names.changes, taken, latex=bool(_LATEX.search(tagless.text)))
+    bare = without_functions(said, [c.name for c in lines.model.coordinates])
+    plain = without_programs(bare, names.changes, taken)
     return on_one_line(plain)
 
 

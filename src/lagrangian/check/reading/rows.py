@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
-from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering
+from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_units
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose import (
@@ -36,6 +36,9 @@ class AnswerRow:
     start: int
     text: str
 
+
+MAX_LIST = 60
+"""The most lines of a list of equations in braces."""
 
 LONGEST_LABEL = 140
 """The most characters of a label in front of an equation, with its number."""
@@ -67,7 +70,7 @@ _RATES = re.compile(
 """A rate behind its name, where the name of another follows: xd = x' xdd = x''."""
 _NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\w{0,8}['′*]?[ \t]*=(?!=))"
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
-_STOP = r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+[A-ZÄÖÜÉ][a-zäöüéè]{2})"
+_STOP = r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:[A-ZÄÖÜÉ][a-zäöüéè]{2}|[^\W\d]\w{0,8}+[ \t]*+=(?!=)))"
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
@@ -75,13 +78,13 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_remarks(stated_remarks(text), words)
+    text = without_remarks(stated_remarks(without_units(text, words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
     labelled = partial(is_label, words=words, numbers=numbers)
     text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled)
     text = "\n".join(
-        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in text.split("\n")
+        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
     )
     rows: list[AnswerRow] = []
     offset = 0
@@ -96,9 +99,9 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
                 head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"
             gap = offset - open_row.start - len(head)
-            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, words, numbers))
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, numbers))
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
-            open_row = AnswerRow(offset, behind(stripped, words, numbers))
+            open_row = AnswerRow(offset, behind(stripped, numbers))
             rows.append(open_row)
         offset += len(line)
     split = [
@@ -112,6 +115,24 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
     stated = [row for row, level in zip(found, levels, strict=True) if not level and not is_prose(row.text, words)]
     return stated or found[:1]
+
+
+def _whole_lists(text: str) -> Iterator[str]:
+    """The lines of a text; those of one list in braces, {a == b,↵ c == d}, together."""
+    waiting: list[str] = []
+    for line in text.split("\n"):
+        if waiting or (line.lstrip()[:1] == "{" and line.count("{") > line.count("}")):
+            waiting.append(line)
+        whole = "\n".join(waiting)
+        if not waiting:
+            yield line
+        elif not line.strip() or len(waiting) > MAX_LIST:
+            yield from waiting
+            waiting = []
+        elif whole.count("{") <= whole.count("}"):
+            yield whole
+            waiting = []
+    yield from waiting
 
 
 def _bare(text: str, words: Words) -> str:

@@ -1,0 +1,60 @@
+"""Reads what an answer says beside its mathematics about the letters that it uses for coordinates.
+
+% q1 = phi, q2 = s             q1 = phi, q2 = s           a comment of a program
+$\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.read.letters import SPELLED, key
+
+_NAME = r"[^\W\d]\w{0,15}+"
+_PAIR = rf"{_NAME}[ \t]*+=[ \t]*+{_NAME}"
+_PAIRS = rf"{_PAIR}(?:[ \t]*+(?:,|;|and|und|et)[ \t]*+{_PAIR})*+"
+_COMMENT = re.compile(
+    rf"(?P<mark>(?<!\\)[#%]|//)[ \t]*+(?P<said>{_PAIRS})[ \t]*+[.;]?[ \t]*+$",
+    re.MULTILINE,
+)
+_EACH = re.compile(rf"({_NAME})[ \t]*+=[ \t]*+({_NAME})")
+_SENTENCE = re.compile(
+    rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{_NAME})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
+    rf"[ \t]++(?:the[ \t]|your[ \t]|den[ \t]|das[ \t])?(?P<open>\$?)(?P<own>\\?{_NAME})(?P=open)(?![\w(^'′$\\])"
+)
+
+
+def with_stated_letters(
+    written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], *, latex: bool
+) -> TracedText:
+    """Return an answer in which names of coordinates that comments and sentences say stand as statements.
+
+    ``moves`` says whether a name is one that changes with time, ``taken`` whether it belongs to the system. Only a new
+    name for such a one is read; every other comment stays a comment.
+    """
+
+    def says(new: str, own: str) -> bool:
+        return moves(own.lstrip("\\")) and not taken(new.lstrip("\\"))
+
+    edits: list[Edit] = []
+    if not latex:
+        text = written.text
+        for match in _COMMENT.finditer(text):
+            if all(says(*pair) or says(*reversed(pair)) for pair in _EACH.findall(match["said"])):
+                behind = text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
+                edits.append((*match.span("mark"), "; " if behind else " "))
+    for match in _SENTENCE.finditer(written.text):
+        if says(match["new"], match["own"]):
+            edits.append((*match.span(), _statement(match, latex=latex)))
+    return written.edited(sorted(edits))
+
+
+def _statement(match: re.Match[str], *, latex: bool) -> str:
+    """The statement that a sentence makes."""
+    new, own = match["new"], match["own"]
+    if not latex:
+        return f"{new} = {own}"
+    new, own = (f"\\{x}" if key(x) in SPELLED.values() and not x.startswith("\\") else x for x in (new, own))
+    return f"${new}={own}$"

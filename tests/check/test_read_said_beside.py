@@ -1,0 +1,122 @@
+"""What answers say beside their equations: units, labels, remarks in brackets, comments, names for coordinates.
+
+Oracle: the equation of the pendulum, m L² θ̈ + b θ̇ + m g L sin θ = 0, and those of the cart with a pole, in the grammar
+of model files. Every form has a wrong twin, which stays wrong.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
+POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
+BARE = r"m L^2\ddot\theta + b\dot\theta + m g L\sin\theta"
+
+
+def right(written: str, name: str = "cart-pole") -> bool:
+    """Whether an answer is judged right."""
+    return derivation(name).check(written).right
+
+
+@pytest.mark.parametrize(
+    ("unit", "factor"), [("   [N m]", " [m]"), (" [N m].", " (N m)"), ("\t[kg m²/s²]", " [m l]"), ("   [m]", " [g]")]
+)
+def test_a_unit_behind_a_statement_is_none_of_its_factors(unit: str, factor: str) -> None:
+    first = f"H = m l cos theta{unit}\n(M + m) x'' + H theta'' - m l theta'^2 sin theta + b x' = F"
+    assert right(f"{first}\n{POLE}")
+    assert not right(f"{first.replace(unit, factor)}\n{POLE}")
+    assert not right(f"{first.replace('cos', 'sin')}\n{POLE}")
+
+
+def test_a_unit_in_a_sentence_is_no_factor() -> None:
+    where = "where H = m l cos theta [kg m] is the coupling and R = m g l sin theta [N m]."
+    for sign, is_right in (("-", True), ("+", False)):
+        rows = f"(M + m) x'' + H theta'' - m l theta'^2 sin theta + b x' = F\n(J + m l^2) theta'' + H x'' {sign} R = 0"
+        assert right(f"{rows}\n{where}") == is_right
+
+
+def test_letters_in_brackets_that_the_answer_has_nowhere_else_are_labels() -> None:
+    assert right(f"(A) {CART}\n(B) {POLE}")
+    assert not right(f"(A) {CART}\n(B) {POLE.replace('- m g', '+ m g')}")
+    assert not right(f"(A) {CART}\n(A) {POLE}")  # a factor of both is none of the letters
+    assert not right(f"(l) {CART.replace('b x', 'l b x')}\n(B) {POLE}")
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "(about the pivot, the same as m*l^2/3 + m*(l/2)^2)",
+        "(uniform rod about its end: m l^2/3)",
+        "(SymPy, .expand())",
+        "(inertia of the pole about the joint, J + m l^2)",
+    ],
+)
+def test_a_sentence_in_brackets_is_a_remark_even_with_mathematics(remark: str) -> None:
+    for inertia, is_right in (("J + m*l^2", True), ("J + m*l^2/3", False)):
+        written = f"with A = {inertia}  {remark}:\n{CART}\nA theta'' + m l x'' cos theta - m g l sin theta = 0"
+        verdict = derivation("cart-pole").check(written)
+        assert verdict.right == is_right
+        assert any("is a remark" in str(note) for note in verdict.notes)
+
+
+def test_a_factor_in_words_is_no_remark() -> None:
+    assert right(f"{CART}\n(J + m l^2) theta'' = m l (g sin theta - x'' cos theta)")
+    with pytest.raises(ParseError):
+        right(f"{CART}\n(J + m l^2) theta'' = m l (twice g sin theta - x'' cos theta)")
+
+
+@pytest.mark.parametrize("mark", ["%", "#", "//"])
+def test_comments_that_name_coordinates_are_read(mark: str) -> None:
+    for first, second, is_right in (("x", "theta", True), ("theta", "x", False)):
+        rows = "(M + m)*q1dd + m*l*q2dd*cos(q2) - m*l*q2d^2*sin(q2) + b*q1d == F\n"
+        rows += "(J + m*l^2)*q2dd + m*l*q1dd*cos(q2) - m*g*l*sin(q2) == 0"
+        assert right(f"{mark} q1 = {first}, q2 = {second}\n{rows}") == is_right
+    assert right(f"{mark} m = l, M = b\n{CART}\n{POLE}")  # a comment about constants stays one
+
+
+def test_a_sentence_says_what_a_letter_stands_for() -> None:
+    cart = r"$$(M+m)\ddot x+ml\ddot\psi\cos\psi-ml\dot\psi^2\sin\psi+b\dot x=F$$"
+    pole = r"$$(J+ml^2)\ddot\psi+ml\ddot x\cos\psi-mgl\sin\psi=0$$"
+    assert right(rf"$\psi$ stands for theta here. {cart} {pole}")
+    assert not right(rf"$\psi$ stands for theta here. {cart} {pole.replace('-mgl', '+mgl')}")
+    assert not right(rf"$\psi$ stands for x here. {cart} {pole}")
+
+
+def test_names_are_given_values_in_one_sentence_after_the_other() -> None:
+    said = "I measure the pole's angle as psi = theta and abbreviate A = J + m l^2. H = m l (a moment of the pole)."
+    rows = "(M + m) x'' + H psi'' cos psi - H psi'^2 sin psi + b x' = F\nA psi'' + H x'' cos psi - H g sin psi = 0"
+    assert right(f"{said}\n{rows}")
+    assert not right(f"{said.replace('H = m l', 'H = m')}\n{rows}")
+    assert not right(f"{said}\n{rows.replace('- H g', '+ H g')}")
+
+
+def test_a_list_in_braces_may_go_on_in_the_next_line() -> None:
+    program = (
+        "Mathematica:\n{(M + m) x''[t] + m l Cos[theta[t]] theta''[t] - m l Sin[theta[t]] theta'[t]^2 + b x'[t] == F,\n"
+    )
+    program += " (J + m l^2) theta''[t] + m l Cos[theta[t]] x''[t] - m g l Sin[theta[t]] == 0}"
+    assert right(program)
+    assert not right(program.replace("- m g l", "+ m g l"))
+
+
+def test_twice_differentiated_multiplies_nothing() -> None:
+    said = "with s = l sin theta, twice differentiated s'' = l cos theta theta'' - l sin theta theta'^2"
+    rows = f"(M + m) x'' + m s'' + b x' = F\n{POLE}"
+    assert right(f"{rows}\n{said}")
+    assert not right(f"{rows}\n{said.replace('- l', '+ l')}")
+
+
+@pytest.mark.parametrize("name", ["y", "z", "q"])
+def test_rates_in_letters_of_a_column_that_the_answer_names(name: str) -> None:
+    matrices = "A = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2],  {0} = [x; theta]\n"
+    matrices += "h = [b*x' - m*l*theta'^2*sin(theta) - F; -m*g*l*sin(theta)]"
+    assert right(f"A*{name}dd + h = [0; 0]\n{matrices.format(name)}")
+    assert not right(f"A*{name}dd - h = [0; 0]\n{matrices.format(name)}")
+
+
+def test_a_delta_that_the_answer_defines_is_no_variation() -> None:
+    said = r"$\delta=g/L$: \[ m L^2\left(\ddot\theta + \delta(\sin\theta)\right) + b\dot\theta = 0 \]"
+    assert right(said, "pendulum")
+    assert not right(said.replace("g/L", "gL"), "pendulum")
+    assert not right(rf"\[ ({BARE})\delta(\theta) = 0,\quad T = m L^2\dot\theta^2 \]", "pendulum")
