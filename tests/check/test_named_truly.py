@@ -155,3 +155,83 @@ def test_what_is_called_missing_belongs_there(name: str) -> None:
         held = [dict(m) for s in change.site.sums() for m in s]
         some = all if change.kind == "factor_missing" else any
         assert some(all(m.get(a, 0) * e > 0 and abs(m[a]) >= abs(power * e) for a, e in needed) for m in held)
+
+
+def pushed() -> lg.Derivation:
+    """A mass in the plane on two springs, pushed by F at the angle beta from x."""
+    s = lg.System("pushed mass")
+    x, y = s.coordinates("x y")
+    m, k, beta = s.parameters("m k beta")
+    F = s.input("F")
+    at = s.origin + (x, y)
+    s.particle(m, at=at, name="block")
+    s.spring(k, deflection=x)
+    s.spring(k, deflection=y)
+    s.force((F * sp.cos(beta), F * sp.sin(beta)), at=at, name="push")
+    return s.derive()
+
+
+def bar() -> lg.Derivation:
+    """A bar of length d on two springs, lifted by F at the distance a from its left end; a motor with the gear n."""
+    s = lg.System("bar")
+    u, w = s.coordinates("u w")
+    m, J, k, d, a, n, r = s.parameters("m J k d a n r")
+    F, tau = s.input("F"), s.input("tau")
+    turned = s.frame((w - u) / d)
+    s.rigid_body(m, J, at=s.origin + (d / 2, (u + w) / 2), frame=turned, name="bar")
+    s.spring(k, deflection=u)
+    s.spring(k, deflection=w)
+    s.force(F, deflection=u + a * (w - u) / d, name="lift")
+    s.torque(tau, on=n * u / r, name="motor")
+    return s.derive()
+
+
+def carts() -> lg.Derivation:
+    """A cart and a trailer on a coupling that is longer by z."""
+    s = lg.System("cart and trailer")
+    x, z = s.coordinates("x z")
+    m, M, k = s.parameters("m M k")
+    s.particle(M, at=s.origin + (x, 0), name="cart")
+    s.particle(m, at=s.origin + (x - z, 0), name="trailer")
+    s.particle(2 * m, at=s.origin + (x - z, 0), name="load")
+    s.spring(k, deflection=z)
+    return s.derive()
+
+
+def only(derivation: lg.Derivation, answer: str) -> tuple[str, str]:
+    """The name and the words of the one mistake in an answer."""
+    (mistake,) = derivation.check(answer).mistakes
+    return mistake.name, str(mistake.what)
+
+
+def test_a_force_that_stands_in_both_equations_is_in_neither_in_place_of_the_other() -> None:
+    name, words = only(pushed(), "m*x'' + k*x = F*sin(beta)\nm*y'' + k*y = F*cos(beta)")
+    assert (name, words) == ("sine_for_cosine", "Sine and cosine are exchanged in what force 'push' adds to Xi.")
+    rows = "m*(u''+w'')/4 - J*(w''-u'')/d^2 + k*u = {} + n*tau/r\nm*(u''+w'')/4 + J*(w''-u'')/d^2 + k*w = {}"
+    name, words = only(bar(), rows.format("F*a/d", "F*(d-a)/d"))
+    assert name == "force_wrong_equation"
+    assert words == "What force 'lift' adds to Xi_1 and what it adds to Xi_2 are exchanged."
+    name, words = only(bar(), rows.format("F", "0"))
+    assert "in place of" not in words
+
+
+def test_one_factor_of_an_arm_is_not_the_whole_arm() -> None:
+    rows = "m*(u''+w'')/4 - J*(w''-u'')/d^2 + k*u = F*(d-a)/d + {}\nm*(u''+w'')/4 + J*(w''-u'')/d^2 + k*w = F*a/d"
+    for written, missing in (("tau/r", "n"), ("n*tau", "1/r")):
+        name, words = only(bar(), rows.format(written))
+        assert name in {"force_arm", "lost"} and f"the factor {missing} is missing" in words, words
+    name, words = only(bar(), rows.format("tau"))
+    assert name == "force_arm" and words.endswith("comes without its arm.")
+
+
+def test_a_rate_is_quoted_as_it_was_written_and_as_it_belongs_there() -> None:
+    name, words = only(carts(), "M*x'' = 0\n3*m*z'' + k*z = 0")
+    assert "x' + z'" not in words and "z' + x'" not in words
+    assert (name, words) == ("rate", "In T*, z' stands in place of x' - z'.")
+
+
+def test_an_inertia_about_an_end_is_too_much_for_the_bodys_own_rate() -> None:
+    more = "(J/d^2 + m/4)*(w''-u'')"
+    answer = f"m*(u''+w'')/4 - {more} + k*u = F*(d-a)/d + n*tau/r\nm*(u''+w'')/4 + {more} + k*w = F*a/d"
+    name, words = only(bar(), answer)
+    assert name == "inertia_added" and "1/4·d^2*m too much as an inertia for" in words, words

@@ -169,32 +169,43 @@ class GeometryChanges:
         for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
             for sign in (1, -1):
                 table = {v: v + sign * w}
-                right, written = (v + w, v) if sign < 0 and self._turn_together(v, w) else (v, v + sign * w)
                 for b in self.s.bodies:
                     old = self.s.kinetic(b)
                     if old.has(v):
                         words = (f"the kinetic energy of {b.title}",)
+                        right, written = self._quoted([b], v, w, sign)
                         yield from self._kinetic(
                             b, replaced(old, table), old, "rate", 1.6, words, words, right, written
                         )
                 if self.s.T.has(v):
                     words = (Name("T*"),)
+                    right, written = self._quoted(self.s.bodies, v, w, sign)
                     yield from self._kinetic(
                         None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, right, written
                     )
 
-    def _turn_together(self, v: Any, w: Any) -> bool:
-        """Whether some body turns with the sum of two rates, as with relative angles."""
-        return any(x.diff(v) == x.diff(w) != 0 for b in self.s.bodies for x in self.s.omega(b))
+    def _quoted(self, bodies: Sequence[Any], v: Any, w: Any, sign: int) -> tuple[sp.Expr, sp.Expr]:
+        """What belongs there and what stands there where ξ̇_i + g ξ̇_j is put in place of ξ̇_i, with g = ±1.
+
+        In a·(ξ̇_i − g ξ̇_j) that leaves a·ξ̇_i: ż stands where ẋ − ż belongs. Where it does so in every speed and every
+        angular velocity that holds ξ̇_i, these are quoted; otherwise ξ̇_i and what was put in its place.
+        """
+        speeds = [x for b in bodies for x in (*self.s.velocity(b), *self.s.omega(b)) if x.has(v)]
+        if not speeds or any(bounded.expand(x.diff(w) + sign * x.diff(v)) != 0 for x in speeds):
+            return v, v + sign * w
+        backwards = all(x.diff(v).could_extract_minus_sign() for x in speeds)
+        return (sign * w - v if backwards else v - sign * w), v
 
     def _turning(self, b: Any) -> Iterator[LocalChange]:
         """Another angular velocity; m L² in place of J; an inertia where there is none."""
         omega = self.s.omega(b)
         words: Words = (f"the angular velocity of {b.title}",)
         mass = self.s.expand(b.mass)
+        rates = list(self.s.v)
         if omega and len([w for w in omega if w != 0]) == 1 and b.axes is not None:
             own = self.s.rotation(b)
             [right] = [w for w in omega if w != 0]
+            rates += [right] if right not in rates else []
             for instead, cost in self._other_rates(right):
                 turned = tuple(instead if w != 0 else w for w in omega)
                 yield from self._kinetic(
@@ -203,7 +214,7 @@ class GeometryChanges:
             for length in self.lengths:
                 yield from self._inertias(b, own, right, mass * length**2)
         for length in self.lengths:
-            for v in self.s.v:
+            for v in rates:
                 extra = mass * length**2 * v**2 / 2
                 where: Words = (f"the kinetic energy of {b.title}",)
                 T = self._difference(extra, sp.S.Zero)
