@@ -31,6 +31,19 @@ def test_importing_the_package_imports_nothing_heavy() -> None:
     assert imported("import lagrangian; lagrangian.__version__; dir(lagrangian)") == set()
 
 
+LATER = ("codegen", "dynamics", "export", "fit", "graph", "integrate", "look", "optimize", "simulate", "verify", "web")
+"""The rooms of which touching the public names needs nothing."""
+
+
+def test_touching_the_public_names_imports_no_room_that_answers_questions() -> None:
+    code = "import lagrangian as lg; lg.System, lg.load, lg.example, lg.System.fit, lg.System.optimize"
+    ending = "\nimport sys; print(*(m.split('.')[1] for m in sys.modules if m.startswith('lagrangian.')))"
+    done = subprocess.run([sys.executable, "-c", code + ending], capture_output=True, text=True, check=True)
+    loaded = set(done.stdout.split())
+    assert {"model", "system"} <= loaded
+    assert loaded.isdisjoint(LATER)
+
+
 PENDULUM = """
 import sys
 sys.modules.update(dict.fromkeys({blocked!r}))  # as if they were not installed

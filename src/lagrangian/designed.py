@@ -42,7 +42,7 @@ class Designed(Simulated):
         max_steps: int = 1_000_000,
         max_events: int = 100_000,
         timeout: float | None = None,
-        max_evaluations: int = 200,
+        max_evaluations: int = 500,
         **initial_by_name: Any,
     ) -> Fit:
         """Find the parameters and initial values whose runs fit measured data best; return a `lagrangian.Fit`.
@@ -65,6 +65,9 @@ class Designed(Simulated):
         is the standard deviation of the noise of the columns; where it is not given it is estimated, for each column,
         from what is left over. A run begins at ``start``, by default at its first time. ``initial``, ``params`` and
         ``inputs`` are those of `simulate`, or lists with one mapping for each run; the others are its options, too.
+
+        ``max_evaluations``, of all runs together, and ``timeout`` [s] limit the whole search; the best so far is then
+        returned, with ``success`` False.
 
         Raises `RunError` for data, names and guesses that do not fit, and what `Trajectory.sensitivities` raises.
         """
@@ -124,7 +127,8 @@ class Designed(Simulated):
         ``(low, high)``. A terminal event may end the run; its time is then part of what is optimized.
 
         The search is SciPy's L-BFGS-B, with ``reach`` SLSQP, with the exact gradients of the run. It is local, ends if
-        a step improves the cost by less than ``tolerance``, relatively, and takes ``max_evaluations`` at most. All
+        a step improves the cost by less than ``tolerance``, relatively. ``max_evaluations`` of
+        the run and ``timeout`` [s] limit all of it; the last iterate is then returned, with ``success`` False. All
         other options are those of `simulate`. Raises `RunError` for what does not fit, and what
         `Trajectory.sensitivities` raises.
         """

@@ -1,5 +1,6 @@
 """Fits against linear regression, exact data, and the errors of data that do not fit."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.fit.problem import FitProblem
+from lagrangian.simulate import allowance
 
 
 def glider() -> lg.System:
@@ -275,3 +278,34 @@ def test_how_a_search_ended_is_said_in_words_of_its_own() -> None:
     found = lg.example("pendulum").fit({"t": T, "theta": run["theta"]}, {"L": 0.6}, theta=0.5, max_evaluations=1)
     assert found.message == "max_evaluations were not enough"
     assert "The search did not end at a minimum: max_evaluations were not enough.\n" in str(found)
+
+
+FAR = {"t": T, "theta1": 40 * T**2 + 5, "theta2": -30 * np.cos(9 * T)}
+"""Angles that no double pendulum has."""
+
+
+@pytest.mark.parametrize("most", [1, 7, 60])
+def test_the_evaluations_of_all_searches_together_are_limited(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
+    """The unknowns cannot be told apart either. A few more evaluations belong to the start and to the estimate."""
+    counted = list[int]()
+    compute = FitProblem._computed
+    monkeypatch.setattr(FitProblem, "_computed", lambda self, z: counted.append(1) or compute(self, z))
+    found = lg.example("double-pendulum").fit(
+        FAR, ["m1", "m2", "L1", "L2", "g"], theta1=0.7, theta2=0.4, max_evaluations=most
+    )
+    assert len(counted) <= most + 20
+    assert not found.success and found.message == "max_evaluations were not enough"
+    assert "The search did not end at a minimum" in str(found)
+
+
+def test_a_timeout_ends_the_whole_fit_and_the_best_so_far_is_returned(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a clock that goes on by a second whenever it is read: it is not the machine's time that counts."""
+    ticks = iter(range(10**6))
+    monkeypatch.setattr(allowance, "time", SimpleNamespace(monotonic=lambda: next(ticks)))
+    found = lg.example("double-pendulum").fit(FAR, ["m1", "m2", "L1", "L2", "g"], theta1=0.7, theta2=0.4, timeout=5.0)
+    assert next(ticks) < 30
+    assert not found.success and found.message == "timeout was not enough"
+    start = lg.example("double-pendulum").simulate(times=T, theta1=0.7, theta2=0.4)
+    away = sum(float(np.sum((start[name] - FAR[name]) ** 2) / np.ptp(FAR[name]) ** 2) for name in ("theta1", "theta2"))
+    left = sum(float(np.sum(found.residuals[0][name] ** 2) / np.ptp(FAR[name]) ** 2) for name in ("theta1", "theta2"))
+    assert left < away

@@ -1,11 +1,13 @@
 """Optimal runs against problems whose solutions are known."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import lagrangian as lg
+from lagrangian.simulate import allowance
 
 
 def cart() -> lg.System:
@@ -141,3 +143,19 @@ def test_how_a_search_failed_is_said_in_words_of_its_own() -> None:
     assert short.message == "max_evaluations were not enough"
     both = cart.optimize("F", 1.0, integral="F^2", reach={"M": 99}, inputs=push, theta=0.1)
     assert both.message.endswith("contradicts itself, or no unknown changes it")
+
+
+def test_the_evaluations_and_the_time_of_a_search_that_must_reach_something_are_limited(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """By a clock that goes on by a second whenever it is read."""
+    cart = lg.example("cart-pole")
+    asked = {"integral": "F^2", "reach": {"x": 1.0, "theta": 0.0}, "inputs": {"F": ([0, 1, 2], [0.5, 0.0, -0.5])}}
+    short = cart.optimize("F", 2.0, **asked, theta=0.4, max_evaluations=3)
+    assert not short.success and short.message.endswith("max_evaluations were not enough")
+    assert short.evaluations <= 3 + 2  # the first guess and the values that are returned
+    ticks = iter(range(10**6))
+    monkeypatch.setattr(allowance, "time", SimpleNamespace(monotonic=lambda: next(ticks)))
+    late = cart.optimize("F", 2.0, **asked, theta=0.4, timeout=4.0)
+    assert not late.success and late.message.endswith("timeout was not enough")
+    assert late.evaluations <= 4 + 2

@@ -9,14 +9,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
-from lagrangian.errors import Error, RunError, did_you_mean
+from lagrangian.errors import RunError, did_you_mean
 from lagrangian.fit.measured import MeasuredRun, measured
 from lagrangian.fit.problem import FitProblem, FittedRun
 from lagrangian.fit.result import Fit, residuals_of
+from lagrangian.fit.search import ENDED, OUT_OF_TIME, search, searched
 from lagrangian.fit.uncertainty import Uncertainty, uncertainty
 from lagrangian.model import Model
+from lagrangian.simulate.allowance import Allowance
 from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.settings import RunSettings, check_names, whole
@@ -30,30 +31,11 @@ from lagrangian.viewed import Entries
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-10
-"""The search ends if a step changes the sum of squares or the unknowns by less than this fraction."""
-
 ROUNDS = 12
 """How often the standard deviations of several columns are estimated, and the fit repeated with them."""
 
 SETTLED = 1e-4
 """Estimated standard deviations that change by less than this fraction are final."""
-
-BEGINNINGS = (1 / 16, 1 / 8, 1 / 4, 1 / 2)
-"""The shares of the runs that are fitted one after another to find a start for the whole."""
-
-SAMPLES_FOR_EACH = 3
-"""The smallest number of samples for each unknown in such a share."""
-
-ENDED = {
-    -1: "SciPy refused the problem",
-    0: "max_evaluations were not enough",
-    1: "the slope of the sum of squares is 0",
-    2: "the sum of squares no longer changes",
-    3: "the unknowns no longer change",
-    4: "neither the sum of squares nor the unknowns change any more",
-}
-"""How the search ended, by SciPy's status."""
 
 LEAST_SIGMA = 1e-12
 """The smallest standard deviation, relative to the range of a column, that is estimated: data without noise."""
@@ -69,7 +51,7 @@ class FitOptions:
     sigma: Any = None
     bounds: Any = None
     start: Any = None
-    max_evaluations: int = 200
+    max_evaluations: int = 500
 
 
 def fit(
@@ -97,7 +79,7 @@ def fit(
         )
     problem.compared(z0)  # a first guess with which nothing can be computed is an error
     sigma, known = _first_sigma(options.sigma, problem, given)
-    return _fitted(model, problem, z0, bounds, (sigma, known), most, owners)
+    return _fitted(model, problem, z0, bounds, (sigma, known), Allowance(most, run_options["timeout"]), owners)
 
 
 def _check_columns(runs: Sequence[MeasuredRun], guesses: Mapping[str, Any], given: Given) -> None:
@@ -258,7 +240,7 @@ def _fitted(
     z0: Array,
     bounds: Bounds,
     noise: tuple[Array, bool],
-    most: int,
+    allowance: Allowance,
     owners: Sequence[str],
 ) -> Fit:
     """The best unknowns; where the noise is not known, columns are weighted by their own residuals."""
@@ -267,7 +249,7 @@ def _fitted(
     z, sure = z0, None
     found: Any = None
     for k in range(1 if known else ROUNDS):
-        found = (_search if k else _searched)(problem, z, bounds, sigma, most)
+        found = (search if k else searched)(problem, z, bounds, sigma, allowance)
         z = found.x
         free = found.active_mask == 0
         sure = uncertainty(problem.slopes(z, sigma), z, problem.names, free)
@@ -281,48 +263,11 @@ def _fitted(
         sure = uncertainty(problem.slopes(z, sigma), z, problem.names, free)
         if settled or single or not found.success:
             break
+        if allowance.used_up:  # the standard deviations are not final yet
+            found.success, found.status = False, OUT_OF_TIME if allowance.over else 0
+            break
     assert sure is not None
     return _result(model, problem, z, sigma, known, sure, found, owners)
-
-
-def _searched(problem: FitProblem, z0: Array, bounds: Bounds, sigma: Array, most: int) -> Any:
-    """The better one of two searches: from the first guess, and from what fits growing beginnings of the runs.
-
-    Over a long run the sum of squares of a motion that oscillates, or is chaotic, has many minima, over its beginning
-    few.
-    """
-    direct = _search(problem, z0, bounds, sigma, most)
-    z = z0
-    for share in BEGINNINGS:
-        part = problem.beginning(share)
-        if part.count < SAMPLES_FOR_EACH * len(z0):
-            continue
-        try:
-            part.compared(z)
-            z = _search(part, z, bounds, sigma, most).x
-        except Error:  # this way leads to runs that are impossible; the direct one is left
-            return direct
-    if np.array_equal(z, z0) or not np.isfinite(problem.residuals(z, sigma)).all():
-        return direct
-    grown = _search(problem, z, bounds, sigma, most)
-    return grown if grown.cost < direct.cost else direct
-
-
-def _search(problem: FitProblem, z0: Array, bounds: Bounds, sigma: Array, most: int) -> Any:
-    """SciPy's trust-region search; a start on a bound is moved inside by SciPy itself."""
-    scale = np.where(z0 != 0, np.abs(z0), 1.0)
-    return least_squares(
-        lambda z: problem.residuals(np.ascontiguousarray(z), sigma),
-        z0,
-        jac=lambda z: problem.slopes(np.ascontiguousarray(z), sigma),  # type: ignore[arg-type]
-        bounds=bounds,
-        x_scale=scale,
-        method="trf",
-        ftol=TOLERANCE,
-        xtol=TOLERANCE,
-        gtol=TOLERANCE,
-        max_nfev=most,
-    )
 
 
 def _result(

@@ -25,7 +25,6 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
-from lagrangian.graph import unknown_part
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 from lagrangian.viewed import Brief
@@ -44,6 +43,8 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
 
     Decimal numbers become exact rationals (0.1 → 1/10), because equations are displayed and compared exactly.
     """
+    from lagrangian.graph import unknown_part  # here, so that importing the package does not wait for the graph
+
     if isinstance(value, sp.Expr):
         expr = value
     elif isinstance(value, bool) or not isinstance(value, Real):

@@ -17,6 +17,7 @@ from lagrangian.integrate import RunStatus
 from lagrangian.page.formula import Check
 from lagrangian.simulate import quotients
 from lagrangian.simulate.admission import Admission, fitness
+from lagrangian.simulate.allowance import Allowance
 from lagrangian.simulate.inputs import SampledInput
 from lagrangian.simulate.integrating import Task
 from lagrangian.simulate.sensitivities import observed
@@ -61,6 +62,7 @@ class Objective:
         self._admit = None if check is None else Admission(task.model, check)
         self._last: tuple[bytes, RunCost | None] | None = None
         self.evaluations = 0
+        self.allowance: Allowance | None = None  # of a search that goes on
 
     def judged(self, z: Array) -> RunCost:
         """The run with these values. Raises `Error` if it is impossible or fails."""
@@ -75,6 +77,9 @@ class Objective:
         """The same, None for values with which the run is impossible or fails."""
         if self._last is not None and self._last[0] == np.ascontiguousarray(z).tobytes():
             return self._last[1]
+        if self.allowance is not None:
+            self.allowance.check()
+            self.allowance.take()
         try:
             return self.judged(z)
         except Error:

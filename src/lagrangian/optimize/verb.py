@@ -16,6 +16,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model, as_expr
 from lagrangian.optimize.objective import FAR, Goal, Objective
 from lagrangian.optimize.result import Optimum
+from lagrangian.simulate.allowance import Allowance, OutOfEvaluationsError, OutOfTimeError
 from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.inputs import SampledInput
 from lagrangian.simulate.integrating import Task
@@ -87,7 +88,7 @@ def optimize(
     check_inside(names, z0, bounds)
     objective = Objective(task, columns, goal)
     first = objective.judged(z0)  # a first guess with which nothing can be computed is an error
-    z, success, message = _search(objective, z0, bounds, most, tolerance)
+    z, success, message = _search(objective, z0, bounds, Allowance(most, run_options["timeout"]), tolerance)
     best = objective.judged(z)
     if goal.reach and np.abs(best.missing).max() > REACHED:
         success, message = (
@@ -175,8 +176,14 @@ def _first_run(
     return made.task, made.settings
 
 
-def _search(objective: Objective, z0: Array, bounds: Bounds, most: int, tolerance: float) -> tuple[Array, bool, str]:
-    """SciPy's L-BFGS-B, or SLSQP where something must be reached; in units of the first guess and of its cost."""
+def _search(
+    objective: Objective, z0: Array, bounds: Bounds, allowance: Allowance, tolerance: float
+) -> tuple[Array, bool, str]:
+    """SciPy's L-BFGS-B, or SLSQP where something must be reached; in units of the first guess and of its cost.
+
+    Where evaluations or time are used up, it returns the last iterate.
+    """
+    objective.allowance = allowance
     first = objective.judged(z0)
     size = _sizes(objective.columns, z0)
     unit = abs(first.cost) or float(np.linalg.norm(first.gradient * size)) or 1.0
@@ -203,16 +210,30 @@ def _search(objective: Objective, z0: Array, bounds: Bounds, most: int, toleranc
         tied.append({"type": "eq", "fun": missing, "jac": slopes})
     limited = list(zip(bounds[0] / size, bounds[1] / size, strict=True))
     small: dict[str, Any] = {"ftol": tolerance}
+    most = allowance.total
     small |= {"maxiter": most} if tied else {"maxfun": most, "maxiter": most, "gtol": tolerance}
-    found = minimize(
-        cost,
-        z0 / size,
-        jac=True,
-        method="SLSQP" if tied else "L-BFGS-B",
-        bounds=limited,
-        constraints=tied,
-        options=small,
-    )
+    last = z0 / size
+
+    def reached(y: Array) -> None:
+        nonlocal last
+        last = np.array(y)
+
+    try:
+        found = minimize(
+            cost,
+            z0 / size,
+            jac=True,
+            method="SLSQP" if tied else "L-BFGS-B",
+            bounds=limited,
+            constraints=tied,
+            options=small,
+            callback=reached,
+        )
+    except (OutOfEvaluationsError, OutOfTimeError) as spent:
+        name = "timeout was" if isinstance(spent, OutOfTimeError) else "max_evaluations were"
+        return np.ascontiguousarray(last * size), False, f"{name} not enough"
+    finally:
+        objective.allowance = None
     _log.info("optimize: %d evaluations, %s", objective.evaluations, found.message)
     ended = ENDED[bool(tied)].get(int(found.status), ROUGH)
     return np.ascontiguousarray(found.x * size), bool(found.success), ended
