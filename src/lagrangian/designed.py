@@ -127,10 +127,9 @@ class Designed(Simulated):
         ``(low, high)``. A terminal event may end the run; its time is then part of what is optimized.
 
         The search is SciPy's L-BFGS-B, with ``reach`` SLSQP, with the exact gradients of the run. It is local, ends if
-        a step improves the cost by less than ``tolerance``, relatively. ``max_evaluations`` of
-        the run and ``timeout`` [s] limit all of it; the last iterate is then returned, with ``success`` False. All
-        other options are those of `simulate`. Raises `RunError` for what does not fit, and what
-        `Trajectory.sensitivities` raises.
+        a step improves the cost by less than ``tolerance``, relatively, or after ``max_evaluations`` of the run or
+        ``timeout`` [s] in all, with ``success`` False. All other options are those of `simulate`. Raises `RunError` for
+        what does not fit, and what `Trajectory.sensitivities` raises.
         """
         from lagrangian.optimize.verb import OptimizeOptions, optimize
 

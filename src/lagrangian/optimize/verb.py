@@ -212,12 +212,7 @@ def _search(
     small: dict[str, Any] = {"ftol": tolerance}
     most = allowance.total
     small |= {"maxiter": most} if tied else {"maxfun": most, "maxiter": most, "gtol": tolerance}
-    last = z0 / size
-
-    def reached(y: Array) -> None:
-        nonlocal last
-        last = np.array(y)
-
+    iterates = [z0 / size]
     try:
         found = minimize(
             cost,
@@ -227,11 +222,11 @@ def _search(
             bounds=limited,
             constraints=tied,
             options=small,
-            callback=reached,
+            callback=lambda y: iterates.append(np.array(y)),
         )
     except (OutOfEvaluationsError, OutOfTimeError) as spent:
         name = "timeout was" if isinstance(spent, OutOfTimeError) else "max_evaluations were"
-        return np.ascontiguousarray(last * size), False, f"{name} not enough"
+        return np.ascontiguousarray(iterates[-1] * size), False, f"{name} not enough"
     finally:
         objective.allowance = None
     _log.info("optimize: %d evaluations, %s", objective.evaluations, found.message)
