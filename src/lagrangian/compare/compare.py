@@ -29,8 +29,12 @@ from lagrangian.derive import Derived
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import Check, Name, Partial, text
+from lagrangian.structured.predict import is_long
 
 _log = logging.getLogger(__name__)
+
+MOST_TERMS = 5000
+"""Terms of the equations up to which two systems are compared row by row, exactly; longer ones by their motions."""
 
 
 class Derivable(Protocol):
@@ -79,7 +83,9 @@ def _derived(thing: object, which: str) -> Derived:
             fix="compare(System, System), or their derivations",
             code="E406",
         )
-    return thing.derive()  # type: ignore[attr-defined]
+    model = getattr(thing, "model", None)
+    exact = model is not None and not model.constraints and not model.floating and not is_long(model, MOST_TERMS)
+    return thing.derive(**({"form": "expanded"} if exact else {}))  # type: ignore[attr-defined]
 
 
 def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any, Any] | None) -> Comparison:
