@@ -241,8 +241,8 @@ def test_answers_and_reasons_go_back_to_the_coordinates() -> None:
 @pytest.mark.slow
 def test_long_systems_are_compared_by_their_motions(puma_lines: Any) -> None:
     """Absolute and relative angles of one chain, whose relative equations are too long; and a robot with itself."""
-    same = lg.compare(robots.chain(6, relative=True), robots.chain(6, relative=False))
-    assert same.same and "at random states" in str(same) and same.change is not None
+    same = lg.compare(robots.chain(6, relative=True).derive(), robots.chain(6, relative=False).derive())
+    assert same.same and "at random states" in " ".join(str(same).split()) and same.change is not None
     assert lg.compare(puma_lines, puma_lines).same
     heavier = robots.puma()
     heavier.damper(0.1, deflection=heavier["q3"])
