@@ -8,6 +8,8 @@ import sympy as sp
 
 import lagrangian as lg
 from constrained_systems import four_bar
+from lagrangian.assembly import assemble
+from lagrangian.assembly.assemble import assembler_of, seen_position
 from lagrangian.errors import RunError
 
 CRANK, COUPLER, ROCKER, BASE = 0.5, 1.2, 0.9, 1.0
@@ -68,6 +70,18 @@ def test_least_motion_is_measured_by_the_mass_matrix() -> None:
     s.constraint(x - y, name="together")
     q, v = s.compile().assemble([1.0, 5.0], [2.0, -2.0])
     assert q == pytest.approx([4.0, 4.0]) and v == pytest.approx([-1.0, -1.0])
+    assert seen_position(s.model, np.array([1.0, 5.0]), np.array([])) == pytest.approx([4.0, 4.0])
+
+
+def test_a_picture_closes_loops_by_numbers_as_a_run_does_by_its_elimination(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dense matrices against the compiled elimination, from a guess whose first step turns by more than 1 rad."""
+    s = four_bar()
+    p = np.array([s.model.values[x.symbol] for x in s.model.parameters])
+    for fixed, q in (((), np.array([0.1, 2.9, -2.0])), (("a",), np.array([0.8, 2.0, -0.5]))):
+        expected = assembler_of(s.model, fixed).position(q, p)
+        with monkeypatch.context() as held:
+            held.setattr(assemble, "assembler_of", None)
+            assert seen_position(s.model, q, p, fixed) == pytest.approx(expected, abs=1e-12)
 
 
 def test_what_cannot_close_is_named_with_its_gap() -> None:

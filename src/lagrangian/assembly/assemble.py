@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.integrate.closing import Array, Closing, LoopSearch
+from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
 from lagrangian.values.values import key_name
@@ -39,7 +39,7 @@ class Assembler:
         self.model, self.fixed = model, tuple(fixed)
         self.names = [c.name for c in model.coordinates]
         self._positions = positions_closing(model, self.fixed)
-        self.search = None if self._positions.position is None else LoopSearch(self._positions)
+        self.search = None if self._positions.position is None else LoopSearch(CompiledRows(self._positions))
 
     @cached_property
     def closing(self) -> Closing:
@@ -160,6 +160,23 @@ def assembler_of(model: Model, fixed: Iterable[str] = ()) -> Assembler:
     """Return the assembler of a model that holds these coordinates; it is made, and its code compiled, only once."""
     key = tuple(fixed)
     return model.recent("assemblers", key, lambda: Assembler(model, key), REMEMBERED)
+
+
+def seen_position(model: Model, q: Array, p: Array, fixed: Iterable[str] = ()) -> Array:
+    """Return the nearest position found to the guess q at t = 0, for a picture: no program is compiled for one guess.
+
+    The coordinates in ``fixed`` stay. Raises `RunError`, with the gaps, if there is none.
+    """
+    key = tuple(fixed)
+    if not any(row.on_positions for e in model.constraints for row in e.conditions(model)):
+        return q
+    search = model.recent("seen positions", key, lambda: _dense_search(model, key), REMEMBERED)
+    found, closed = search.run(q[None, :], p, 0.0)
+    return found[0] if closed[0] else assembler_of(model, key).position(q, p)
+
+
+def _dense_search(model: Model, fixed: tuple[str, ...]) -> LoopSearch:
+    return LoopSearch(DenseRows(dynamics.closing_terms(model, fixed)))
 
 
 def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:

@@ -8,6 +8,7 @@ from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
 from lagrangian.dynamics.constraint_programs import (
     changes,
+    closing_terms,
     constraint_matrix,
     correction,
     divisors,
@@ -86,6 +87,7 @@ __all__ = [
     "changes",
     "check_joint",
     "closed",
+    "closing_terms",
     "columns_key",
     "configurations",
     "constraint_matrix",

@@ -3,6 +3,7 @@
 multipliers        λ of every row, and how well it is determined
 projection         the correction of a state x after which it satisfies its rows
 correction         the same for q and v separately, with fixed coordinates: one step of an assembly
+closing_terms      f, A, M and N, from which the same step on positions is made by dense matrices
 residual           f of the rows on positions, and A v + a₀ of all
 constraint_matrix  A, a₀ and γ
 forward_dual       v̇ and λ by another route
@@ -26,7 +27,7 @@ from lagrangian.dynamics.constrained import (
     velocity_correction,
 )
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.programs import _program, _start, _vector
+from lagrangian.dynamics.programs import _matrix, _program, _start, _vector
 from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
@@ -106,6 +107,22 @@ def correction(model: Model, fixed: Collection[str] = (), *, position: bool = Tr
         return None
     outputs = {"dq" if position else "dv": _vector(step[0]), **_judged(m, step[1], position=position)}
     return _program(model, "position_correction" if position else "velocity_correction", graph, outputs)
+
+
+def closing_terms(model: Model, fixed: Collection[str] = ()) -> Program:
+    """q, v, u, p, t → ``f`` and ``A`` (rows, n) of the rows on positions, ``M`` (n, n), and ``N`` (n_q, n), q̇ = N v.
+
+    Every coordinate in ``fixed`` (names) is a row of its own, q̇ᵢ = 0.
+    """
+    graph, _, m = _start(model)
+    units = {v: [graph.one if k == j else graph.zero for k in range(len(m.v))] for j, v in enumerate(m.v)}
+    N = [units.get(rate) or vjp(graph, [rate], [graph.one], list(m.v)) for rate in m.motion.rates]
+    rows = position_rows(m)
+    held = [row for c, row in zip(model.coordinates, N, strict=True) if c.name in fixed]
+    A = [*(vjp(graph, [row.rate], [graph.one], list(m.v)) for row in rows), *held]
+    f = [*(row.residual or graph.zero for row in rows), *zeros(graph, len(held))]
+    outputs = {"f": _vector(f), "A": _matrix(A), "M": _matrix(m.mass_matrix()), "N": _matrix(N)}
+    return _program(model, "closing_terms", graph, outputs)
 
 
 def residual(model: Model) -> Program:

@@ -2,21 +2,21 @@
 
     δq = −N M⁻¹ Aᵀ (A M⁻¹ Aᵀ)⁺ f,        δv = −M⁻¹ Aᵀ (A M⁻¹ Aᵀ)⁺ (A v + a₀)
 
-The programs that compute the corrections are made elsewhere. A step changes no angle by more than 1 rad, and it is
-halved while it makes the gap larger.
+The programs that compute the corrections, or M, A and N, are made elsewhere. A step changes no angle by more than
+1 rad, and it is halved while it makes the gap larger.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
-from lagrangian.graph import Program
+from lagrangian.graph import Program, evaluate
 
 Array: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
@@ -42,6 +42,9 @@ SEEN = 1e-9
 CLOSED = 1e-11
 """A gap of this size relative to its terms counts as closed."""
 
+
+SAME_WAY = 1e-10
+"""Rows whose directions differ by less than this, as the sine of the angle, say the same."""
 
 KEPT = 1e-9
 """A velocity row whose residual is larger than this, relative to its terms, is not satisfied."""
@@ -82,7 +85,7 @@ class Closing:
         n = len(self.rows.inputs["q"])
         q, arrived = x[:, :n], np.ones(len(x), bool)
         if self.position is not None:
-            q, arrived = LoopSearch(self).run(q, p, t)
+            q, arrived = LoopSearch(CompiledRows(self)).run(q, p, t)
         v, kept = self.rates(q, x[:, n : n + len(self.rows.inputs["v"])], p, t)
         return np.concatenate([q, v, x[:, n + v.shape[1] :]], axis=1), arrived & kept.all(axis=-1)
 
@@ -98,13 +101,91 @@ class Closing:
         return v, left <= KEPT * (1e-3 + terms)
 
 
-class LoopSearch:
-    """Positions that satisfy the rows, from many guesses at once."""
+class PositionRows(Protocol):
+    """The rows on positions at q (guesses, n), for parameters (np,), or different ones for each guess."""
+
+    def step(self, q: Array, p: Array, t: float) -> Array:
+        """δq (guesses, n), the least step that satisfies the rows to first order."""
+        ...
+
+    def gaps(self, q: Array, p: Array, t: float) -> Array:
+        """f of every row, shape (guesses, rows)."""
+        ...
+
+    def sizes(self, q: Array, p: Array, t: float) -> Array:
+        """The largest |A_rj| of each guess, (guesses,)."""
+        ...
+
+
+class CompiledRows:
+    """Rows as machine code, with an elimination made for them: for many guesses, and for long chains of loops."""
 
     def __init__(self, programs: Closing) -> None:
         assert programs.position is not None
-        self.correct, self.rows = kernel_of(programs.position), kernel_of(programs.rows)
-        self.matrix = kernel_of(programs.matrix)
+        self._correct, self._rows = kernel_of(programs.position), kernel_of(programs.rows)
+        self._matrix = kernel_of(programs.matrix)
+
+    def step(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return _values(self._correct, q, p, t)["dq"]
+
+    def gaps(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return _values(self._rows, q, p, t)["f"]
+
+    def sizes(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return np.abs(_values(self._matrix, q, p, t)["A"]).max(axis=(-1, -2))
+
+
+class DenseRows:
+    """Rows as numbers, with dense matrices: for one guess, which needs neither an elimination nor machine code.
+
+    ``terms`` has the outputs f, A, M and N over q, v, u, p, t. The step is Newton's, δ₀ = −A⁺ f, plus the motion
+    within the null space Z of A that makes ½ δᵀ M δ the least.
+    """
+
+    def __init__(self, terms: Program) -> None:
+        self._terms, self._residual = terms, replace(terms, outputs={"f": terms.outputs["f"]})
+
+    def step(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return np.array([self._step(x, p, t) for x in q])
+
+    def gaps(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return np.array([self._at(self._residual, x, p, t)["f"] for x in q])
+
+    def sizes(self, q: Array, p: Array, t: float) -> Array:
+        """See `PositionRows`."""
+        return np.array([np.abs(self._at(self._terms, x, p, t)["A"]).max() for x in q])
+
+    def _at(self, program: Program, q: Array, p: Array, t: float) -> dict[str, Any]:
+        groups = program.inputs
+        rest = {name: [0.0] * len(groups[name]) for name in ("v", "u")}
+        return evaluate(program, {"q": q.tolist(), "p": p.tolist(), "t": [t], **rest})
+
+    def _step(self, q: Array, p: Array, t: float) -> Array:
+        terms = self._at(self._terms, q, p, t)
+        f, A, M, N = (np.array(terms[name], float) for name in ("f", "A", "M", "N"))
+        if not all(np.isfinite(x).all() for x in (f, A, M)):
+            return np.full(len(N), np.nan)
+        sizes = np.linalg.norm(A, axis=1)
+        sizes[sizes == 0.0] = 1.0  # nothing moves this row: it is skipped
+        U, s, W = np.linalg.svd(A / sizes[:, None])
+        rank = int((s > SAME_WAY * s[0]).sum())
+        delta = -W[:rank].T @ ((U[:, :rank].T @ (f / sizes)) / s[:rank])
+        Z = W[rank:].T
+        inside = Z.T @ M @ Z
+        delta -= Z @ (np.linalg.pinv(inside, hermitian=True) @ (Z.T @ (M @ delta)))
+        return N @ delta
+
+
+class LoopSearch:
+    """Positions that satisfy the rows, from many guesses at once."""
+
+    def __init__(self, rows: PositionRows) -> None:
+        self.rows = rows
 
     def angles(self, q: Array, p: Array, t: float) -> Flags:
         """Which coordinates are angles: the rows depend on them, but do not change after a full turn."""
@@ -126,12 +207,11 @@ class LoopSearch:
 
     def gaps(self, q: Array, p: Array, t: float) -> Array:
         """f of every row on positions, shape (guesses, rows)."""
-        return _values(self.rows, q, p, t)["f"]
+        return self.rows.gaps(q, p, t)
 
     def closed(self, q: Array, p: Array, t: float) -> Flags:
         """Whether every gap is rounding, compared with the sum of its terms Σ |A_rj| |q_j|."""
-        sizes = np.abs(_values(self.matrix, q, p, t)["A"])
-        scale = 1.0 + sizes.max(axis=(-1, -2)) * np.maximum(np.abs(q).max(axis=-1), 1.0)
+        scale = 1.0 + self.rows.sizes(q, p, t) * np.maximum(np.abs(q).max(axis=-1), 1.0)
         return np.abs(self.gaps(q, p, t)).max(axis=-1) <= CLOSED * scale
 
     def run(self, guesses: Array, p: Array, t: float) -> tuple[Array, Flags]:
@@ -139,21 +219,25 @@ class LoopSearch:
 
         Parameters are the same for all guesses, (np,), or different for each, (guesses, np).
         """
-        q, angles = guesses.copy(), self.angles(guesses[0], p if p.ndim == 1 else p[0], t)
-        lost = ~np.isfinite(self._step(q, p, t, angles)).all(axis=-1)  # as where the two ends of a rod coincide
+        q, start = guesses.copy(), guesses[0].copy()
+        lost = ~np.isfinite(self._step(q, p, t, start)).all(axis=-1)  # as where the two ends of a rod coincide
         q[lost] += NUDGE * np.linspace(0.3, 1.0, q.shape[1])
         going = np.arange(len(q))
         for _ in range(MAX_STEPS):
             own = p if p.ndim == 1 else p[going]
-            step = np.nan_to_num(self._step(q[going], own, t, angles), posinf=0.0, neginf=0.0)
+            step = np.nan_to_num(self._step(q[going], own, t, start), posinf=0.0, neginf=0.0)
             q[going], settled = self._damped(q[going], step, own, t)
             going = going[~settled]
             if not len(going):
                 break
         return q, self.closed(q, p, t)
 
-    def _step(self, q: Array, p: Array, t: float, angles: Flags) -> Array:
-        step = _values(self.correct, q, p, t)["dq"]
+    def _step(self, q: Array, p: Array, t: float, start: Array) -> Array:
+        """A step that changes no angle by more than `MAX_TURN`; which coordinates are angles is asked at ``start``."""
+        step = self.rows.step(q, p, t)
+        if not (np.abs(step) > MAX_TURN).any():
+            return step
+        angles = self.angles(start, p if p.ndim == 1 else p[0], t)
         turn = np.abs(np.where(angles, step, 0.0)).max(axis=-1, keepdims=True)
         return step * np.minimum(1.0, MAX_TURN / np.maximum(turn, MAX_TURN))
 

@@ -82,14 +82,14 @@ class Board:
     @property
     def r(self) -> Array:
         """The positions [m] of all points in the pose."""
-        found = self._r
-        if found is None or len(found) != len(self.stage.points):
-            found = self._r = self.views.r[0]
+        found = np.zeros((0, self.stage.dimension)) if self._r is None else self._r
+        if len(found) != len(self.stage.points):
+            found = self._r = np.concatenate([found, self.stage.positions(self.q, self.p, len(found))])
         return found
 
     @property
     def views(self) -> Views:
-        """The stage in the pose, with all points that there are."""
+        """The stage in the pose, with all points that there are, and with derivatives (`r` is had for less)."""
         found = self._views
         if found is None or found.r.shape[1] != len(self.stage.points):
             found = self._views = self.stage.views([self.q], self.p, known=found)

@@ -14,6 +14,7 @@ from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.model import RigidBody
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 SAME = 1e-9
 """What is zero or parallel, relative to the sizes that enter."""
@@ -56,6 +57,11 @@ class Motions:
         v = self.views
         self.size = float(max(1e-12, np.abs(v.r).max()))
         self.moves = np.abs(v.J).max(axis=(0, 1, 2)) if v.J.size else np.zeros(0)
+        turning = np.abs(v.RJ).max(axis=(0, 2, 3)) > SAME if v.RJ.size else np.zeros((len(stage.frames), 0), bool)
+        self._turns = [tuple(np.flatnonzero(row).tolist()) for row in turning]
+        self._moving: dict[int, list[tuple[int, ...]]] = {}
+        self._rods: dict[int, Flags] = {}
+        self._carried: dict[tuple[int, int | None], Flags] = {}
         self.holds: list[Hold] = []
         for k in range(len(stage.points)):
             self.holds.append(self._hold(k))
@@ -75,10 +81,11 @@ class Motions:
 
     def coordinates(self, k: int, holder: int = 0) -> tuple[int, ...]:
         """The coordinates that move a point against another."""
-        change = self.views.J[:, k] - self.views.J[:, holder]
-        return tuple(
-            int(i) for i in np.flatnonzero(np.abs(change).max(axis=(0, 1)) > SAME * np.maximum(1e-3, self.moves))
-        )
+        if k not in self._moving:
+            change = np.abs(self.views.J - self.views.J[:, k, None]).max(axis=(0, 2))
+            moving = change > SAME * np.maximum(1e-3, self.moves)
+            self._moving[k] = [tuple(np.flatnonzero(row).tolist()) for row in moving]
+        return self._moving[k][holder]
 
     def even(self, k: int, holder: int, i: int) -> bool:
         """Whether a coordinate moves a point against another one by the same step everywhere."""
@@ -88,9 +95,7 @@ class Motions:
 
     def turns(self, frame: int | None) -> tuple[int, ...]:
         """The coordinates that turn a frame."""
-        if frame is None:
-            return ()
-        return tuple(int(i) for i in np.flatnonzero(np.abs(self.views.RJ[:, frame]).max(axis=(0, 1, 2)) > SAME))
+        return () if frame is None else self._turns[frame]
 
     def local(self, k: int, centre: int, frame: int | None) -> tuple[Array, Array]:
         """The offset of a point from another in a frame's axes at every state, and its derivatives by coordinates."""
@@ -103,11 +108,20 @@ class Motions:
 
     def carried(self, k: int, centre: int, frame: int | None) -> bool:
         """Whether a point is at rest in a body: against its centre, in its axes."""
-        x, X = self.local(k, centre, frame)
-        if not X.size:
-            return True
-        steady = np.abs(x - x[0]).max() < 1e-7 * self.size
-        return bool(steady and np.abs(X).max() < 1e-7 * max(1.0, self.size))
+        key = centre, frame
+        if key not in self._carried:
+            self._carried[key] = self._all_carried(centre, frame)
+        return bool(self._carried[key][k])
+
+    def _all_carried(self, centre: int, frame: int | None) -> Flags:
+        """Which points are at rest in a body."""
+        v = self.views
+        x, X = v.r - v.r[:, centre, None], v.J - v.J[:, centre, None]
+        if frame is not None:
+            R, RJ = v.R[:, frame], v.RJ[:, frame]
+            x, X = x @ R, np.einsum("sji,skjn->skin", R, X) + np.einsum("sjin,skj->skin", RJ, x)
+        steady = np.abs(x - x[0]).max(axis=(0, 2)) < 1e-7 * self.size
+        return steady & (np.abs(X).max(axis=(0, 2, 3), initial=0.0) < 1e-7 * max(1.0, self.size))
 
     def in_line(self, one: Hold, two: Hold) -> float | None:
         """The length of the second rod by that of the first, if both are seen as one: on a line, in every position.
@@ -166,14 +180,12 @@ class Motions:
 
     def relation(self, k: int, holder: int) -> Hold:
         """How a point moves as seen from another."""
-        d, D = self.local(k, holder, None)
         moving = self.coordinates(k, holder)
         if not moving:
             return Hold(k, holder, HoldKind.FIRMLY)
-        length = np.abs(d).max()
-        radial = np.abs(np.einsum("sd,sdn->sn", d, D)).max()
-        if length > SAME * self.size and radial < 1e-8 * length * max(np.abs(D).max(), SAME):
+        if self._rod(k, holder):
             return Hold(k, holder, HoldKind.ROD, moving)
+        d, D = self.local(k, holder, None)
         if _one_direction(D):
             return Hold(k, holder, HoldKind.SLIDE, moving, moving[0] if len(moving) == 1 else None)
         for s in moving:
@@ -187,6 +199,16 @@ class Motions:
         return Hold(k, holder, HoldKind.FREE, moving)
 
     # -- rules --------------------------------------------------------------------------------------------------
+
+    def _rod(self, k: int, holder: int) -> bool:
+        """Whether two points keep their distance."""
+        if k not in self._rods:
+            d, D = self.views.r[:, k, None] - self.views.r, self.views.J[:, k, None] - self.views.J
+            lengths = np.abs(d).max(axis=(0, 2))
+            radial = np.abs(np.einsum("skd,skdn->skn", d, D)).max(axis=(0, 2), initial=0.0)
+            largest = np.maximum(np.abs(D).max(axis=(0, 2, 3), initial=0.0), SAME)
+            self._rods[k] = (lengths > SAME * self.size) & (radial < 1e-8 * lengths * largest)
+        return bool(self._rods[k][holder])
 
     def _telescope(self, d: Array, D: Array, s: int) -> bool:
         """d = s u, where |u| is constant and the other coordinates turn u."""
@@ -229,13 +251,16 @@ class Motions:
             return first
         others = [h for h in range(k) if h != home and self.stage.points[h] is not self.stage.points[k]]
         others.sort(key=lambda h: (self.still(h), float(np.linalg.norm(self.views.r[0, k] - self.views.r[0, h]))))
-        found = [self.relation(k, h) for h in others]
-        for hold in found:
-            if hold.how is HoldKind.ROD and len(hold.moving) < len(first.moving) + (first.how is not HoldKind.FREE):
-                return hold
-        carriers = [x for x in found if not {*x.moving} & {*self.coordinates(x.holder)}]
-        for how in (HoldKind.SLIDE, HoldKind.TELESCOPE) if first.how is HoldKind.FREE else ():
-            for hold in carriers:
+        for h in others:
+            moving = self.coordinates(k, h)
+            if moving and self._rod(k, h) and len(moving) < len(first.moving) + (first.how is not HoldKind.FREE):
+                return Hold(k, h, HoldKind.ROD, moving)
+        if first.how is not HoldKind.FREE:
+            return first
+        carriers = [h for h in others if not {*self.coordinates(k, h)} & {*self.coordinates(h)}]
+        found = [self.relation(k, h) for h in carriers]
+        for how in (HoldKind.SLIDE, HoldKind.TELESCOPE):
+            for hold in found:
                 if hold.how is how and len(hold.moving) < len(first.moving):
                     return hold
         return first

@@ -18,6 +18,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.dynamics import Inputs, placed
+from lagrangian.dynamics.vectors import plus, times
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, Tangents, evaluate, jvp
 from lagrangian.model import Frame, Model, Point
@@ -63,12 +64,10 @@ class Kinematics:
         self.points: list[Point] = [model.origin, *(p for p in found if p is not model.origin)]
         self.frames: list[Frame] = sorted(axes, key=lambda f: f.serial)
         self._index = {id(p): k for k, p in enumerate(self.points)}
-        self._nodes: list[list[int]] = [self._position(p) for p in self.points]
-        self._tangents = [Tangents(self.graph, {s: self.graph.one}) for s in (*self.inputs.q, self.inputs.t)]
-
-    def _position(self, point: Point) -> list[int]:
         motion = self.described.motion
-        return list(motion.position(self.described.places[point]))
+        self._nodes: list[list[int]] = [list(motion.position(places[p])) for p in self.points]
+        self._parameters: Array | None = None
+        self._tangents = [Tangents(self.graph, {s: self.graph.one}) for s in (*self.inputs.q, self.inputs.t)]
 
     # -- points -------------------------------------------------------------------------------------------------
 
@@ -82,11 +81,10 @@ class Kinematics:
         point = Point(None, self.points[parent], components, frame)
         d = self.described
         axes = d.motion.root if frame is None else d.axes[frame]
-        place = d.motion.place(d.places[self.points[parent]], axes, d.nodes(components))
-        d.places[point] = place
+        step = times(self.graph, d.motion.rotation(axes), d.nodes(components))
         self.points.append(point)
         self._index[id(point)] = len(self.points) - 1
-        self._nodes.append(self._position(point))
+        self._nodes.append(plus(self.graph, self._nodes[parent], step))
         return len(self.points) - 1
 
     def fixed(self, r: Sequence[float]) -> int:
@@ -114,6 +112,11 @@ class Kinematics:
         """The inputs of a program at rest."""
         x = [*map(float, q), *[0.0] * len(self.inputs.v)]
         return {"x": x, "u": [u] * len(self.inputs.u), "p": [float(v) for v in p], "t": [t]}
+
+    def positions(self, q: Array, p: Array, first: int = 0) -> Array:
+        """The positions (points, d) of all points from number ``first`` on, at a state."""
+        nodes = [i for node in self._nodes[first:] for i in node]
+        return self._numbers(nodes, q, p).reshape(-1, self.dimension)
 
     def views(self, states: Sequence[Array], p: Array, *, t: float = 0.0, known: Views | None = None) -> Views:
         """Positions, rotations and their derivatives at coordinates q, one array for each state.
@@ -173,15 +176,15 @@ class Kinematics:
 
     def parameters(self) -> Array:
         """The declared values of the parameters; those without one differ, and angles are half a radian."""
-        offsets = [x for point in self.points for x in point.offset] + [f.angle for f in self.frames]
-        inside = {s for x in offsets for f in x.atoms(sp.sin, sp.cos) for s in f.args[0].free_symbols}
-        return np.array(
-            [
+        if self._parameters is None:
+            offsets = [x for point in self.points for x in point.offset] + [f.angle for f in self.frames]
+            inside = {s for x in offsets for f in x.atoms(sp.sin, sp.cos) for s in f.args[0].free_symbols}
+            values = [
                 p.value if p.value is not None else 0.5 if p.symbol in inside else max(0.35, 0.88**n)
                 for n, p in enumerate(self.model.parameters)
-            ],
-            float,
-        )
+            ]
+            self._parameters = np.array(values, float)
+        return self._parameters.copy()
 
     def _whole(self, q: Array) -> Array:
         """The coordinates with unit quaternions."""

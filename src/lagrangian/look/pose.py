@@ -12,7 +12,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.assembly.assemble import assembler_of
+from lagrangian.assembly.assemble import seen_position
 from lagrangian.errors import RunError
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.model import Spring
@@ -141,7 +141,7 @@ class Pose:
         fixed = tuple(name for name in self.stage.model.settings.get("fixed", ()) if name in self.names)
         for held in (fixed, ()) if fixed else ((),):
             try:
-                return assembler_of(self.stage.model, held).position(q, self.p, 0.0)
+                return seen_position(self.stage.model, q, self.p, held)
             except RunError:
                 continue
         return q
@@ -163,12 +163,17 @@ def view_of(motions: Motions, azimuth: float, elevation: float) -> Array:
 
     The eye looks from the direction that is ``azimuth`` about the vertical and ``elevation`` above the floor.
     """
+    return views_of(motions, np.array([azimuth]), np.array([elevation]))[0]
+
+
+def views_of(motions: Motions, azimuths: Array, elevations: Array) -> Array:
+    """Several such projections, (n, 2, 3)."""
     up = up_axis(motions)
     x = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     x = x - (x @ up) * up
     x /= np.linalg.norm(x)
     y = np.cross(up, x)
-    right = -np.sin(azimuth) * x + np.cos(azimuth) * y
-    forward = np.cos(azimuth) * x + np.sin(azimuth) * y
-    above = -np.sin(elevation) * forward + np.cos(elevation) * up
-    return np.array([right, -above])
+    sine, cosine = np.sin(azimuths)[:, None], np.cos(azimuths)[:, None]
+    right, forward = cosine * y - sine * x, cosine * x + sine * y
+    above = np.cos(elevations)[:, None] * up - np.sin(elevations)[:, None] * forward
+    return np.stack([right, -above], axis=1)

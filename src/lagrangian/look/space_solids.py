@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from math import pi
+from math import hypot, pi
 
 import numpy as np
 import sympy as sp
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from lagrangian.look.board import BODY, Board
 from lagrangian.look.shapes import INK, arc, line, lines
-from lagrangian.page.scene import Disc, Path, Placement, Role
+from lagrangian.page.scene import Disc, Pair, Path, Placement, Role
 
 Array = NDArray[np.float64]
 
@@ -112,20 +112,15 @@ class Solids:
     def _order(self) -> list[Item]:
         """From back to front: each after all that it covers; where that goes in a circle, by the middle."""
         items, eye = self.items, self.eye
-        ends = [(self._seen(x.a), self._seen(x.b)) for x in items]
         behind: list[set[int]] = [set() for _ in items]
-        for i, one in enumerate(items):
-            for j in range(i):
-                two = items[j]
-                s, t, gap = nearest(ends[i], ends[j])
-                if gap > one.radius + two.radius:
-                    continue
-                di = float(eye @ (one.a + s * (one.b - one.a))) + one.lift * self.pixel
-                dj = float(eye @ (two.a + t * (two.b - two.a))) + two.lift * self.pixel
-                if di > dj + 0.75 * self.pixel:
-                    behind[i].add(j)
-                elif dj > di + 0.75 * self.pixel:
-                    behind[j].add(i)
+        for i, j, s, t in self._meeting():
+            one, two = items[i], items[j]
+            di = float(eye @ (one.a + s * (one.b - one.a))) + one.lift * self.pixel
+            dj = float(eye @ (two.a + t * (two.b - two.a))) + two.lift * self.pixel
+            if di > dj + 0.75 * self.pixel:
+                behind[i].add(j)
+            elif dj > di + 0.75 * self.pixel:
+                behind[j].add(i)
         depth = [float(eye @ (x.a + x.b)) / 2 + x.lift * self.pixel for x in items]
         waiting, order = set(range(len(items))), list[Item]()
         while waiting:
@@ -135,8 +130,19 @@ class Solids:
             order.append(items[n])
         return order
 
-    def _seen(self, r: Array) -> Array:
-        return self.board.scale * (self.board.view @ r)
+    def _meeting(self) -> Iterator[tuple[int, int, float, float]]:
+        """The pairs of items i > j whose lines are seen nearer than their radii, and where: see `nearest`."""
+        if not self.items:
+            return
+        ends = np.array([(x.a, x.b) for x in self.items]) @ (self.board.scale * self.board.view.T)
+        radii = np.array([x.radius for x in self.items])
+        low, high = ends.min(axis=1), ends.max(axis=1)
+        apart = np.maximum(low[:, None] - high, low - high[:, None]).max(axis=2)  # of the boxes around the lines
+        lines = [((a[0], a[1]), (b[0], b[1])) for a, b in ends.tolist()]
+        for i, j in np.argwhere(np.tril(apart <= np.add.outer(radii, radii), -1)).tolist():
+            s, t, gap = nearest(lines[i], lines[j])
+            if gap <= self.items[i].radius + self.items[j].radius:
+                yield i, j, s, t
 
     # -- solids ---------------------------------------------------------------------------------------------------
 
@@ -251,28 +257,28 @@ def swapped(place: Placement) -> Placement:
     return Placement(place.at, place.across, place.scaling, place.shift, place.shift, place.towards)
 
 
-def nearest(one: tuple[Array, Array], two: tuple[Array, Array]) -> tuple[float, float, float]:
+def nearest(one: tuple[Pair, Pair], two: tuple[Pair, Pair]) -> tuple[float, float, float]:
     """Where two pieces of lines are nearest to each other, by their parameters in [0, 1], and how far they are."""
     best = (0.5, 0.5, float("inf"))
-    (a, b), (c, d) = one, two
-    e, f = b - a, d - c
-    cross = float(e[0] * f[1] - e[1] * f[0])
-    tried: list[tuple[float, float]] = []
+    ((ax, ay), (bx, by)), ((cx, cy), (dx, dy)) = one, two
+    ex, ey, fx, fy, gx, gy = bx - ax, by - ay, dx - cx, dy - cy, cx - ax, cy - ay
+    cross = ex * fy - ey * fx
+    tried: list[Pair] = []
     if abs(cross) > 1e-9:
-        g = c - a
-        tried.append((float(g[0] * f[1] - g[1] * f[0]) / cross, float(g[0] * e[1] - g[1] * e[0]) / cross))
+        tried.append(((gx * fy - gy * fx) / cross, (gx * ey - gy * ex) / cross))
     for s in (0.0, 1.0):
-        tried.append((s, _foot(c, f, a + s * e)))
+        tried.append((s, _foot(fx, fy, s * ex - gx, s * ey - gy)))
     for t in (0.0, 1.0):
-        tried.append((_foot(a, e, c + t * f), t))
+        tried.append((_foot(ex, ey, gx + t * fx, gy + t * fy), t))
     for s, t in tried:
         s, t = min(1.0, max(0.0, s)), min(1.0, max(0.0, t))
-        gap = float(np.linalg.norm(a + s * e - c - t * f))
+        gap = hypot(s * ex - t * fx - gx, s * ey - t * fy - gy)
         if gap < best[2] - 1e-9:
             best = (s, t, gap)
     return best
 
 
-def _foot(a: Array, e: Array, p: Array) -> float:
-    square = float(e @ e)
-    return float((p - a) @ e) / square if square > 1e-12 else 0.5
+def _foot(ex: float, ey: float, px: float, py: float) -> float:
+    """The parameter of the foot of the perpendicular from p on the line along e; both begin at 0."""
+    square = ex * ex + ey * ey
+    return (px * ex + py * ey) / square if square > 1e-12 else 0.5

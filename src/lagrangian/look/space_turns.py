@@ -42,10 +42,11 @@ class Spin:
 def spins_of(motions: Motions, floating: frozenset[int]) -> list[Spin]:
     """The angles among the coordinates, apart from those of ``floating`` frames."""
     found: list[Spin] = []
+    of_frames = _of_frames(motions)
     for i in range(len(motions.stage.inputs.q)):
         if i in floating:
             continue
-        spin = _of_frames(motions, i) or _of_rods(motions, i)
+        spin = of_frames.get(i) or _of_rods(motions, i)
         if spin is not None:
             found.append(spin)
     return found
@@ -61,33 +62,35 @@ def relative(motions: Motions, frame: int, base: int | None) -> tuple[Array, Arr
     return np.einsum("sji,sjk->sik", B, R), np.einsum("sji,sjkn->sikn", B, RJ) + np.einsum("sjin,sjk->sikn", BJ, R)
 
 
-def own_axis(motions: Motions, i: int, frame: int, base: int | None) -> Array | None:
-    """The constant axis about which coordinate i alone turns a frame against another by itself."""
+def own_turn(motions: Motions, frame: int, base: int | None) -> tuple[int, Array] | None:
+    """The one coordinate that turns a frame against another, and its axis, if that is constant."""
     R, RJ = relative(motions, frame, base)
     moving = np.flatnonzero(np.abs(RJ).max(axis=(0, 1, 2)) > SAME)
-    if list(moving) != [i]:
+    if len(moving) != 1:
         return None
+    i = int(moving[0])
     W = np.einsum("sik,sjk->sij", RJ[..., i], R)
     n = np.stack([W[:, 2, 1], W[:, 0, 2], W[:, 1, 0]], axis=-1)
     if np.abs(n - n[0]).max() > SAME or abs(float(np.linalg.norm(n[0])) - 1.0) > 1e-6:
         return None
-    return np.asarray(n[0])
+    return i, np.asarray(n[0])
 
 
-def _of_frames(motions: Motions, i: int) -> Spin | None:
+def _of_frames(motions: Motions) -> dict[int, Spin]:
+    """The spins that turn frames, by their coordinates: against the frame's parent, else against an earlier frame."""
     stage = motions.stage
     numbers = {id(f): k for k, f in enumerate(stage.frames)}
     parents = [None if f.parent is None else numbers.get(id(f.parent)) for f in stage.frames]
-    for f in range(len(stage.frames)):
-        found = own_axis(motions, i, f, parents[f])
-        if found is not None:
-            return _made(motions, i, f, parents[f], found)
-    for f in range(len(stage.frames)):
-        for base in (None, *range(f)):
-            found = own_axis(motions, i, f, base)
-            if found is not None:
-                return _made(motions, i, f, base, found)
-    return None
+    pairs: list[tuple[int, int | None]] = list(enumerate(parents))
+    pairs += [(f, base) for f in range(len(stage.frames)) for base in (None, *range(f)) if base != parents[f]]
+    found: dict[int, Spin] = {}
+    for f, base in pairs:
+        if not (set(motions.turns(f)) | set(motions.turns(base))) - set(found):
+            continue
+        turn = own_turn(motions, f, base)
+        if turn is not None and turn[0] not in found:
+            found[turn[0]] = _made(motions, turn[0], f, base, turn[1])
+    return found
 
 
 def _made(motions: Motions, i: int, frame: int, base: int | None, axis: Array) -> Spin:

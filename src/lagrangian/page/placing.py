@@ -46,20 +46,26 @@ def placed(part: ScenePart, at: Array) -> list[Drawn]:
         centre = origin + shape.centre[0] * x + shape.centre[1] * y
         radius = shape.radius * np.hypot(x[..., 0], x[..., 1])
         return [("O", np.concatenate([centre, radius[..., None]], axis=-1))]
-    drawn: list[Drawn] = []
-    for letter, numbers in shape.commands:
-        pairs = [origin + a * x + b * y for a, b in zip(numbers[::2], numbers[1::2], strict=True)]
-        drawn.append((letter, np.concatenate(pairs, axis=-1) if pairs else np.zeros((*at.shape[:-2], 0))))
-    return drawn
+    pairs = np.array([v for _, numbers in shape.commands for v in numbers]).reshape(-1, 2)
+    spots = origin[..., None, :] + pairs[:, :1] * x[..., None, :] + pairs[:, 1:] * y[..., None, :]
+    return _split([(letter, len(numbers) // 2) for letter, numbers in shape.commands], spots)
 
 
 def _trace(trace: Trace, at: Array) -> list[Drawn]:
-    shifts = trace.shifts or ((0.0, 0.0),) * len(trace.anchors)
-    drawn: list[Drawn] = [
-        ("L" if i else "M", _anchor(anchor, shift, at))
-        for i, (anchor, shift) in enumerate(zip(trace.anchors, shifts, strict=True))
-    ]
-    return [*drawn, ("Z", np.zeros((*at.shape[:-2], 0)))] if trace.closed else drawn
+    spots = at[..., list(trace.anchors), :]
+    if trace.shifts:
+        spots = spots + np.array(trace.shifts)
+    letters = [("L" if i else "M", 1) for i in range(len(trace.anchors))]
+    return _split([*letters, ("Z", 0)] if trace.closed else letters, spots)
+
+
+def _split(letters: list[tuple[str, int]], spots: Array) -> list[Drawn]:
+    """The commands with the places (…, m, 2) that follow one another, each as many as its letter takes."""
+    flat, first, drawn = spots.reshape(*spots.shape[:-2], -1), 0, list[Drawn]()
+    for letter, count in letters:
+        drawn.append((letter, flat[..., 2 * first : 2 * (first + count)]))
+        first += count
+    return drawn
 
 
 def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
@@ -95,18 +101,28 @@ def _anchor(number: int | None, shift: tuple[float, float], at: Array) -> Array:
 
 def on_bodies(scene: Scene, at: Array) -> Iterator[tuple[Label, bool]]:
     """Return every label of a scene, and whether it stands on the inside of a body."""
-    bodies = [placed(part, at) for part in scene.parts if part.filled and part.role == "body"]
-    return ((label, any(inside(label.centre, body) for body in bodies)) for label in scene.labels)
+    bodies = [_outlined(placed(part, at)) for part in scene.parts if part.filled and part.role == "body"]
+    return ((label, any(_inside(label.centre, body) for body in bodies)) for label in scene.labels)
 
 
 def inside(point: tuple[float, float], drawn: list[Drawn]) -> bool:
     """Whether a point lies inside a circle or a closed shape in one pose; curves count as their chords."""
+    return _inside(point, _outlined(drawn))
+
+
+def _outlined(drawn: list[Drawn]) -> list[list[float]]:
+    """The corners of a closed shape, or the middle of a circle and its radius."""
     if len(drawn) == 1 and drawn[0][0] == "O":
-        x, y, r = drawn[0][1].tolist()
+        return [drawn[0][1].tolist()]
+    return [numbers[-2:].tolist() for _, numbers in drawn if numbers.size]
+
+
+def _inside(point: tuple[float, float], outline: list[list[float]]) -> bool:
+    if len(outline) == 1 and len(outline[0]) == 3:
+        x, y, r = outline[0]
         return (point[0] - x) ** 2 + (point[1] - y) ** 2 < r**2
-    corners = [numbers.tolist()[-2:] for _, numbers in drawn if numbers.size]
     crossed = False
-    for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True):
+    for (x0, y0), (x1, y1) in zip(outline, outline[1:] + outline[:1], strict=True):
         if (y0 > point[1]) != (y1 > point[1]) and point[0] < x0 + (x1 - x0) * (point[1] - y0) / (y1 - y0):
             crossed = not crossed
     return crossed

@@ -28,7 +28,10 @@ from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
 from lagrangian.quantities.units import BASE
 
-Exponents = tuple[Fraction, ...]
+Power = int | Fraction
+"""An exponent; whole ones are `int`, with which most dimensions are computed at once."""
+
+Exponents = tuple[Power, ...]
 
 
 @dataclass(frozen=True)
@@ -36,24 +39,28 @@ class Dim:
     """A dimension, the exponents of the SI base units, times powers of dimensions that are not known yet (``unknown``:
     symbol → power)."""
 
-    known: Exponents = (Fraction(0),) * len(BASE)
-    unknown: tuple[tuple[Any, Fraction], ...] = ()
+    known: Exponents = (0,) * len(BASE)
+    unknown: tuple[tuple[Any, Power], ...] = ()
 
     @classmethod
     def of_unit(cls, unit: answers.Unit) -> Dim:
         """That of a unit, by its exponents."""
         return _dim(*unit)
 
-    def times(self, other: Dim, power: Fraction = Fraction(1)) -> Dim:
+    def times(self, other: Dim, power: Power = 1) -> Dim:
         """self · other^power."""
+        known = tuple(_whole(a + power * b) if b else a for a, b in zip(self.known, other.known, strict=True))
+        if not other.unknown:
+            return Dim(known, self.unknown)
         table = dict(self.unknown)
         for symbol, p in other.unknown:
-            table[symbol] = table.get(symbol, Fraction(0)) + power * p
-        known = tuple(a + power * b for a, b in zip(self.known, other.known, strict=True))
-        left = tuple((s, p) for s, p in sorted(table.items(), key=lambda x: str(x[0])) if p)
-        return Dim(known, left)
+            table[symbol] = _whole(table.get(symbol, 0) + power * p)
+        left = [(s, p) for s, p in table.items() if p]
+        if len(left) > 1:
+            left.sort(key=lambda x: str(x[0]))
+        return Dim(known, tuple(left))
 
-    def power(self, exponent: Fraction) -> Dim:
+    def power(self, exponent: Power) -> Dim:
         """self^exponent."""
         return NONE.times(self, exponent)
 
@@ -68,7 +75,7 @@ class Dim:
 
 
 ELECTRIC: dict[Exponents, str] = {
-    tuple(map(Fraction, (*unit, *(0,) * (len(BASE) - len(unit))))): name
+    (*unit, *(0,) * (len(BASE) - len(unit))): name
     for unit, name in (
         (answers.CHARGE, "C"),
         (answers.VOLTAGE, "V"),
@@ -84,16 +91,20 @@ ELECTRIC: dict[Exponents, str] = {
 """The units of electricity that have a name of their own."""
 
 
-def _factor(unit: str, exponent: Fraction) -> str:
+def _whole(x: Power) -> Power:
+    return x.numerator if x.denominator == 1 else x
+
+
+def _factor(unit: str, exponent: Power) -> str:
     return unit if exponent == 1 else f"{unit}^{exponent}"
 
 
 def _dim(*exponents: int) -> Dim:
-    return Dim(tuple(map(Fraction, (*exponents, *(0,) * (len(BASE) - len(exponents))))))
+    return Dim((*exponents, *(0,) * (len(BASE) - len(exponents))))
 
 
 NONE, LENGTH, SECOND, ENERGY = _dim(0, 0, 0), _dim(0, 1, 0), _dim(0, 0, 1), _dim(*answers.ENERGY)
-RATE = NONE.times(SECOND, Fraction(-1))
+RATE = NONE.times(SECOND, -1)
 
 
 class Mismatch(Exception):
@@ -118,20 +129,22 @@ class Dimensions:
 
     def reduce(self, dim: Dim) -> Dim:
         """The dimension after all solved dimensions have been substituted."""
+        if not dim.unknown:
+            return dim
         result = Dim(dim.known)
         for symbol, power in dim.unknown:
             part = self.solved.get(symbol)
-            result = result.times(Dim(unknown=((symbol, Fraction(1)),)) if part is None else self.reduce(part), power)
+            result = result.times(Dim(unknown=((symbol, 1),)) if part is None else self.reduce(part), power)
         return result
 
     def equal(self, found: Dim, wanted: Dim) -> Dim:
         """Use the equation ``found`` = ``wanted``; raise `Mismatch` if it contradicts what is known."""
         found, wanted = self.reduce(found), self.reduce(wanted)
-        rest = found.times(wanted, Fraction(-1))
+        rest = found.times(wanted, -1)
         if rest.unknown:
             symbol, power = rest.unknown[0]
             other = Dim(rest.known, rest.unknown[1:])
-            self.solved[symbol] = other.power(-1 / power)
+            self.solved[symbol] = other.power(Fraction(-1) / power)
         elif any(rest.known):
             raise Mismatch(found, wanted)
         return self.reduce(wanted)
@@ -143,10 +156,10 @@ class Dimensions:
         if expr == time:
             return SECOND
         if isinstance(expr, (sp.Symbol, AppliedUndef)):
-            return self.reduce(Dim(unknown=((expr, Fraction(1)),)))
+            return self.reduce(Dim(unknown=((expr, 1),)))
         if isinstance(expr, sp.Derivative):
             base = self.of(cast("sp.Expr", expr.expr))
-            return None if base is None else base.times(SECOND, Fraction(-int(expr.derivative_count)))
+            return None if base is None else base.times(SECOND, -int(expr.derivative_count))
         if isinstance(expr, sp.Mul):
             factors = [d for d in map(self.of, expr.args) if d is not None]
             product = NONE
@@ -174,7 +187,7 @@ class Dimensions:
     def _power(self, expr: sp.Pow) -> Dim | None:
         base = self.of(expr.base)
         if isinstance(expr.exp, sp.Rational):
-            return None if base is None else self.reduce(base.power(Fraction(int(expr.exp.p), int(expr.exp.q))))
+            return None if base is None else self.reduce(base.power(_whole(Fraction(int(expr.exp.p), int(expr.exp.q)))))
         for part in (base, self.of(expr.exp)):
             if part is not None:
                 self.equal(part, NONE)
@@ -340,7 +353,7 @@ def _pressed(model: Model, friction: Friction, dims: Dimensions) -> Iterator[Cla
         return
     for named in named_conditions(model):
         if named.name in friction.pressing and (force := _multiplier(dims, named)) is not None:
-            unit = ENERGY.times(along, Fraction(-1)).times(force, Fraction(-1))
+            unit = ENERGY.times(along, -1).times(force, -1)
             yield "coefficient", friction.mu, unit
             if friction.static is not None:
                 yield "coefficient at rest", friction.static, unit
@@ -355,8 +368,8 @@ def _multiplier(dims: Dimensions, row: NamedCondition) -> Dim | None:
     found = _inside(dims, row.element, "expression", row.condition.value)
     if found is None:
         return None
-    whole = ENERGY.times(SECOND, Fraction(-1)) if row.condition.velocity else ENERGY
-    return whole.times(found, Fraction(-1))
+    whole = ENERGY.times(SECOND, -1) if row.condition.velocity else ENERGY
+    return whole.times(found, -1)
 
 
 def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:
@@ -365,7 +378,7 @@ def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:
         return unit
     what = measure.what if measure.along is measure.expr else "deflection"
     along = None if measure.along is None else _inside(dims, element, what, measure.along)
-    return unit.times(LENGTH if along is None else along, Fraction(measure.power))
+    return unit.times(LENGTH if along is None else along, measure.power)
 
 
 def check_terms(dims: Dimensions, terms: tuple[sp.Expr, ...], coordinate: sp.Expr) -> int:
@@ -373,7 +386,7 @@ def check_terms(dims: Dimensions, terms: tuple[sp.Expr, ...], coordinate: sp.Exp
 
     Numbers are pure here, because they come from the derivation, so every term counts.
     """
-    wanted = ENERGY.times(dims.of(coordinate) or NONE, Fraction(-1))
+    wanted = ENERGY.times(dims.of(coordinate) or NONE, -1)
     for term in terms:
         found = dims.of(term)
         if found is not None:
