@@ -132,6 +132,7 @@ shell = pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /d
 
 
 @shell
+@pytest.mark.slow
 def test_a_full_disk_is_one_message():
     with Path("/dev/full").open("wb") as full:
         command = [sys.executable, "-m", "lagrangian", "schema"]

@@ -103,6 +103,7 @@ def test_the_page_is_one_small_file_that_forbids_itself_every_request(file: Path
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_browser_that_cannot_unpack_says_so(browser: Any, file: Path) -> None:
     context = browser.new_context()
     context.add_init_script("delete globalThis.DecompressionStream")
@@ -115,6 +116,7 @@ def test_a_browser_that_cannot_unpack_says_so(browser: Any, file: Path) -> None:
 
 
 @in_browser
+@pytest.mark.slow
 def test_energy_is_kept_over_five_seconds(opened: Opened) -> None:
     opened.run_to(5.0)
     size = 4
@@ -205,6 +207,7 @@ def test_a_link_restores_the_state(browser: Any, file: Path) -> None:
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_page_in_a_frame_offers_no_link_to_it(browser: Any, file: Path) -> None:
     made = Opened(browser, file.as_uri())
     assert made.page.locator("#copy-link").is_visible()
@@ -230,6 +233,7 @@ def test_320_pixels_are_enough(browser: Any, file: Path, scheme: str) -> None:
 
 
 @in_browser
+@pytest.mark.slow
 def test_the_map_shows_where_starts_lead(opened: Opened, file: Path) -> None:
     """Near hanging at rest the pendulum stays near; the map's worker runs the same solver as the motion."""
     page = opened.page
@@ -249,6 +253,7 @@ def test_the_map_shows_where_starts_lead(opened: Opened, file: Path) -> None:
 
 
 @in_browser
+@pytest.mark.slow
 def test_the_sweep_draws_many_runs_and_follows_its_range(opened: Opened) -> None:
     page = opened.page
     page.click("#sweep summary")
@@ -273,6 +278,7 @@ SECTION = """async ([x, p]) => {
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_section_has_the_points_at_which_events_are_found_in_python(opened: Opened) -> None:
     """Through θ₁ = 0 upward, with the energy of (0.3, 0.2) at rest; θ₂ and its rate there are those of an event."""
     system = lg.example("double-pendulum")
@@ -292,6 +298,7 @@ def test_a_section_has_the_points_at_which_events_are_found_in_python(opened: Op
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_page_finds_the_events_that_it_is_given_with_their_resets(browser: Any, tmp_path: Path) -> None:
     """A ball that falls from 1 m and loses a tenth of its speed at the floor: it rises to 0.81 m."""
     ball = lg.System("ball")
@@ -313,6 +320,7 @@ def test_a_page_finds_the_events_that_it_is_given_with_their_resets(browser: Any
 
 
 @in_browser
+@pytest.mark.slow
 def test_without_webassembly_javascript_takes_over_and_says_so(browser: Any, file: Path, tmp_path: Path) -> None:
     path = tmp_path / "forbidden.html"
     path.write_text(file.read_text(encoding="utf-8").replace(" 'wasm-unsafe-eval'", ""), encoding="utf-8")
@@ -326,6 +334,7 @@ def test_without_webassembly_javascript_takes_over_and_says_so(browser: Any, fil
 
 
 @in_browser
+@pytest.mark.slow
 def test_print_shows_the_equations_and_no_controls(opened: Opened) -> None:
     opened.page.emulate_media(media="print")
     assert opened.page.locator("#equations").is_visible()
@@ -347,6 +356,7 @@ def test_copied_models_read_back_with_the_values_of_the_sliders(opened: Opened) 
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_loop_stays_closed_while_it_is_dragged(browser: Any, tmp_path: Path) -> None:
     path = tmp_path / "four-bar.html"
     lg.example("four-bar").look().save(path)
@@ -370,6 +380,7 @@ def test_a_loop_stays_closed_while_it_is_dragged(browser: Any, tmp_path: Path) -
 
 
 @in_browser
+@pytest.mark.slow
 def test_a_push_is_counted_as_supplied(browser: Any, tmp_path: Path) -> None:
     path = tmp_path / "cart-pole.html"
     lg.example("cart-pole").look().save(path)
@@ -398,6 +409,7 @@ HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>
 
 
 @in_browser
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", HOSTILE, ids=lambda name: name[:12])
 def test_hostile_names_run_nothing(browser: Any, tmp_path: Path, name: str) -> None:
     given, scene, program = double_pendulum()

@@ -30,7 +30,7 @@ def printed(code: str, names: dict[str, object]) -> str:
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
-@pytest.mark.parametrize("page", ["index.md", "tutorial.md"])
+@pytest.mark.parametrize("page", ["index.md", pytest.param("tutorial.md", marks=pytest.mark.slow)])
 def test_every_block_prints_what_the_page_shows(page: str) -> None:
     names: dict[str, object] = {}
     for code, output in shown(page):

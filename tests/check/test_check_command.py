@@ -50,6 +50,7 @@ def test_hints_give_away_more_and_more(tmp_path: Path, capsys: pytest.CaptureFix
     assert "k x_2r" not in said[2] and "−k x_2r has the wrong sign" in said[3]
 
 
+@pytest.mark.slow
 def test_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     answer = tmp_path / "answer.txt"
     answer.write_text(SPRING)

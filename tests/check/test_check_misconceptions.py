@@ -97,7 +97,7 @@ BY_HAND = [
 NAMES = [f"{n}-{m}-{k}" for k, (n, _, m) in enumerate(BY_HAND)]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @also_in_full
 @pytest.mark.parametrize(
     ("name", "lines", "mistake"), cases(BY_HAND, BY_HAND[::3]), ids=cases(NAMES, NAMES[::3])

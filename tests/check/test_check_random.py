@@ -52,7 +52,7 @@ def test_combinations_with_factors_in_other_identities(p: int, q: int, r: int, s
     assert verdict.status is not Status.WRONG
 
 
-@sized(25, 4)
+@sized(25, 2)
 @given(
     st.integers(0, 1),
     st.integers(0, 40),

@@ -42,6 +42,7 @@ def newton_and_euler(s: lg.System) -> list[sp.Eq]:
     return [sp.Eq(x, F if i == 0 else 0) for i, x in enumerate([*force, *turn])]
 
 
+@pytest.mark.slow
 def test_newton_and_euler_are_right_for_a_floating_body(floating: lg.System, floating_lines: Any) -> None:
     lines = newton_and_euler(floating)
     found = floating_lines.check(lines)

@@ -80,6 +80,7 @@ def slope() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_rate_too_much_in_an_angular_velocity() -> None:
     answer = "T = M*x'^2/2 + m*(x'^2 + 2*x'*s'*cos(beta) + s'^2)/2 + J*(s' + x')^2/(2*R^2)"
     (mistake,) = slope().check(answer).mistakes

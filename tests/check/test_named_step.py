@@ -64,6 +64,7 @@ def test_dampers_with_the_velocity_against_the_fixed_axes() -> None:
     assert "along x" in str(mistake.what) and "along y" in str(mistake.what)
 
 
+@pytest.mark.slow
 def test_a_force_along_fixed_axes() -> None:
     verdict = turntable().check(f"{X} + c*x' = f*cos(Omega*t)\n{Y} + c*y' = -f*sin(Omega*t)")
     assert {m.step for m in verdict.mistakes} == {6}

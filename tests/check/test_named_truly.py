@@ -204,6 +204,7 @@ def only(derivation: lg.Derivation, answer: str) -> tuple[str, str]:
     return mistake.name, str(mistake.what)
 
 
+@pytest.mark.slow
 def test_a_force_that_stands_in_both_equations_is_in_neither_in_place_of_the_other() -> None:
     name, words = only(pushed(), "m*x'' + k*x = F*sin(beta)\nm*y'' + k*y = F*cos(beta)")
     assert (name, words) == ("sine_for_cosine", "Sine and cosine are exchanged in what force 'push' adds to Xi.")
@@ -215,6 +216,7 @@ def test_a_force_that_stands_in_both_equations_is_in_neither_in_place_of_the_oth
     assert "in place of" not in words
 
 
+@pytest.mark.slow
 def test_one_factor_of_an_arm_is_not_the_whole_arm() -> None:
     rows = "m*(u''+w'')/4 - J*(w''-u'')/d^2 + k*u = F*(d-a)/d + {}\nm*(u''+w'')/4 + J*(w''-u'')/d^2 + k*w = F*a/d"
     for written, missing in (("tau/r", "n"), ("n*tau", "1/r")):

@@ -167,6 +167,7 @@ def test_errors_point_into_what_was_written() -> None:
     assert place.column == written.split("\n")[1].index("(x") + 1
 
 
+@pytest.mark.slow
 def test_a_turntable_that_turns_the_other_way_is_a_mistake_and_no_other_coordinate() -> None:
     turntable = loads(TURNTABLE).derive()
     rows = "m*(x'' - 2*W*y' - W^2*x) + k*x = 0\nm*(y'' + 2*W*x' - W^2*y) = 0"

@@ -36,6 +36,7 @@ def found() -> tuple[lg.System, lg.Derivation]:
     return s, s.derive()
 
 
+@pytest.mark.slow
 def test_the_equations_are_those_of_the_co_energy(found: tuple[lg.System, lg.Derivation]) -> None:
     s, d = found
     q, x, L0, a, i0, R, m, g, u = (s[n] for n in ("q", "x", "L0", "a", "i0", "R", "m", "g", "u"))

@@ -44,6 +44,7 @@ def test_a_rod_pendulum_in_x_and_y_is_the_pendulum_in_theta():
         assert "describe the same motion" in found.to_text() and found.to_dict()["same"] is True
 
 
+@pytest.mark.slow
 def test_two_ways_to_write_a_rod_are_the_same():
     assert lg.compare(bob("rod", "rod"), bob("circle", "square"))
 
@@ -63,6 +64,7 @@ def test_equal_equations_with_other_values_are_not_the_same_system():
     assert [p.name for p in found.parameters] == ["l"]
 
 
+@pytest.mark.slow
 def test_redundant_coordinates_change_no_motion_with_inputs_either():
     assert lg.compare(cart_pole(redundant=True), cart_pole(redundant=False))
 

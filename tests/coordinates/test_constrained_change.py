@@ -49,6 +49,7 @@ def test_a_fixed_coordinate_cannot_be_replaced() -> None:
     assert error.value.code == "E210"
 
 
+@pytest.mark.slow
 def test_a_system_in_other_coordinates_is_the_same_system() -> None:
     there = rod().in_coordinates({"x": "2*z"})
     assert rod().compare(there) and there.compare(rod())

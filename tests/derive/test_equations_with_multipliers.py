@@ -197,6 +197,7 @@ def test_multipliers_are_those_of_lagranges_method() -> None:
         assert float((mine.lhs - mine.rhs).xreplace(values)) == pytest.approx(expected, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_skate_with_a_rider_by_kanes_method() -> None:
     """A knife edge with a swinging mass and a force: u̇ of the minimal equations against SymPy's `KanesMethod`."""
     s = lg.System("skate with a pendulum")

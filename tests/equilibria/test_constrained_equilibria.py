@@ -20,6 +20,7 @@ def test_a_rod_pendulum_hangs_and_stands() -> None:
     assert np.abs(at.poles.imag - np.array([1, -1]) * np.sqrt(G / 1.5)).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_slider_crank_balances_a_weight_against_a_force() -> None:
     """F dx/dφ + m g r cos φ = 0 with x = r cos φ ± √(l² − r² sin² φ)."""
     r, l, m, F = 0.05, 0.15, 2.0 + 1e-6, 60.0

@@ -63,6 +63,7 @@ def test_a_plate_on_springs_rests_level_and_turned_over_about_each_axis() -> Non
     assert "Each was found from 5 starts" in found.to_text()
 
 
+@pytest.mark.slow
 def test_a_body_that_falls_has_no_equilibrium() -> None:
     found = hovering(thrust=1.0).equilibria(starts=64)
     assert len(found) == 0

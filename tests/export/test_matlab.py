@@ -93,6 +93,7 @@ def test_many_states_defaults_and_shapes(tmp_path: pathlib.Path) -> None:
 
 
 @needs_octave
+@pytest.mark.slow
 def test_the_script_of_the_steps_runs(tmp_path: pathlib.Path) -> None:
     """It shows every step, and its run with ode45 ends where ours does."""
     s = built_in.system("crane")
@@ -135,6 +136,7 @@ def test_where_there_is_no_derivation_the_script_says_why(monkeypatch: pytest.Mo
 
 
 @needs_octave
+@pytest.mark.slow
 def test_verify_runs_the_export_and_notices_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
     model, states = built_in.system("cart-pole").model, states_of("cart-pole")
     (sound,) = checks.foreign_checks(model, states, ["matlab"])

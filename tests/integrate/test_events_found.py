@@ -66,7 +66,7 @@ def in_numpy(function: str, x: np.ndarray) -> np.ndarray:
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", [0, *[pytest.param(k, marks=pytest.mark.slow) for k in range(1, 9)]])
-@pytest.mark.parametrize("name", rest_slow(METHODS, {"dop853", "taylor"}))
+@pytest.mark.parametrize("name", rest_slow(METHODS, {"taylor"}))
 def test_every_crossing_of_random_conditions_is_found(name: str, seed: int) -> None:
     rng = np.random.default_rng([seed, list(METHODS).index(name)])
     conditions = [condition(rng) for _ in range(8)]
@@ -100,6 +100,7 @@ def test_every_crossing_of_random_conditions_is_found(name: str, seed: int) -> N
 
 
 @pytest.mark.parametrize("name", ["dop853", "gauss4"])
+@pytest.mark.slow
 def test_states_too_long_for_registers_lose_none_either(name: str) -> None:
     program, matrix = chain(10)
     watched = events(

@@ -179,6 +179,7 @@ def test_limits_end_runs():
     assert found.status[0] == -5
 
 
+@pytest.mark.slow
 def test_a_deadline_is_kept_and_what_was_reached_too(monkeypatch):
     x0 = np.stack([start(e) for e in np.linspace(0, 0.5, 40)])
     looks = count(1)

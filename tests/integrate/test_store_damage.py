@@ -106,6 +106,7 @@ Damaging = Callable[[pathlib.Path, pathlib.Path], Iterator[None]]
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("damage", [deleted, cut_off, flipped, another_stores, another_chunks])
+@pytest.mark.slow
 def test_every_file_damaged(stores: dict[str, pathlib.Path], tmp_path: pathlib.Path, damage: Damaging) -> None:
     right, told = contents(stores["whole"]), 0
     for original in sorted(p for p in stores["whole"].rglob("*") if p.is_file()):

@@ -38,6 +38,7 @@ def test_a_ball_in_a_bowl_keeps_its_angular_momentum() -> None:
     assert all(c.drift is not None and c.drift < 1e-9 for c in found)
 
 
+@pytest.mark.slow
 def test_a_constraint_that_moves_with_time_drives() -> None:
     s = lg.System("driven")
     x, y = s.coordinate("x"), s.coordinate("y")

@@ -122,6 +122,7 @@ def test_constraints_that_move_leave_no_rest() -> None:
     assert s.linearize({"y": -1.5}, fixed=(), operating_point=True).states == ()
 
 
+@pytest.mark.slow
 def test_a_position_with_more_than_one_way_on_has_no_linearization() -> None:
     s = lg.System("parallelogram")
     l = s.parameter("l", 1.0)

@@ -65,6 +65,7 @@ def test_a_regulator_brings_a_quadrotor_back() -> None:
     assert regulator.law[system["F1"]].has(*(c.symbol for c in system.model.coordinates[3:7]))
 
 
+@pytest.mark.slow
 def test_a_body_that_spins_and_flies_against_difference_quotients() -> None:
     """A of δξ̇ = A δξ from the flow: back(x₁) (x₁(+) − x₁(−))/2ε = 1 + A h + O(h²), extrapolated."""
     system = quadrotor()

@@ -30,6 +30,7 @@ def test_the_least_effort_from_rest_to_rest_is_a_straight_line() -> None:
     assert again["x"][-1] == pytest.approx(1.0, abs=1e-7)
 
 
+@pytest.mark.slow
 def test_the_best_damping_of_an_oscillator() -> None:
     """∫ x² dt of ẍ + c ẋ + x = 0 from x = 1 is (c + 1/c)/2, least at c = 1."""
     system = cart()
@@ -136,6 +137,7 @@ def test_units_of_what_is_to_be_reached_are_checked() -> None:
         cart.optimize("F", 1.0, integral="F^2", inputs=push, tolerance="1 kg")  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_how_a_search_failed_is_said_in_words_of_its_own() -> None:
     cart = lg.example("cart-pole")
     push = {"F": ([0, 1], [0.0, 0.0])}

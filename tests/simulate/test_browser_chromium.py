@@ -61,6 +61,7 @@ def test_a_run_on_a_page_is_that_of_machine_code(name: str, browser: Any, tmp_pa
     np.testing.assert_allclose(np.array(found["states"]).T, system.simulate(1.0, samples=11).y, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_a_page_that_forbids_webassembly_makes_fixed_steps(browser: Any, tmp_path: Path) -> None:
     system = lg.example("double-pendulum")
     found = in_page(browser, browser_module(system), SOLVE, tmp_path, POLICY)
@@ -68,6 +69,7 @@ def test_a_page_that_forbids_webassembly_makes_fixed_steps(browser: Any, tmp_pat
     np.testing.assert_allclose(np.array(found["states"]).T, system.simulate(1.0, samples=11).y, atol=1e-7)
 
 
+@pytest.mark.slow
 def test_events_are_found_on_a_page_and_refused_without_webassembly(browser: Any, tmp_path: Path) -> None:
     s = ball(e=0.5)
     y = s["y"]

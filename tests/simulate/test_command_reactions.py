@@ -140,6 +140,7 @@ def test_the_command_adds_reactions_to_the_table_and_the_summary(capsys: pytest.
     assert code != 0 and "no joint 'elbow'" in err
 
 
+@pytest.mark.slow
 def test_sweeps_hold_coordinates_and_keep_multipliers(capsys: pytest.CaptureFixture[str], file: str) -> None:
     code, out, _ = said(
         capsys, "sweep", file, "crank=0.9,1.0", "--fixed", "crank", "--output-of", "max loop.x", "-o", "-"

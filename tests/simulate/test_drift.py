@@ -213,6 +213,7 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
         ({"method": "taylor"}, 2e-10),
     ],
 )
+@pytest.mark.slow
 def test_a_plate_on_three_cranks_moves_as_with_one_coordinate(options, within):
     """One of the six rows is spare, each at other angles; on its way the plate passes two flat positions."""
     run = plate_on_cranks().simulate(2.0, initial=START, **options)

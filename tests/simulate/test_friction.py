@@ -184,6 +184,7 @@ def swings(start: float, c: float) -> tuple[list[float], list[float]]:
     return times, angles
 
 
+@pytest.mark.slow
 def test_a_pendulum_with_a_dry_pivot() -> None:
     run = pendulum().simulate(duration=20, initial={"theta": 1.0}, **TIGHT)
     times, angles = swings(1.0, 0.5)
@@ -225,6 +226,7 @@ def rotor() -> lg.System:
     return s
 
 
+@pytest.mark.slow
 def test_runs_of_an_ensemble_stop_where_they_should() -> None:
     """J ω̇ = −c − b ω stops at (J/b) ln(1 + b ω₀/c), after the angle (J/b)(ω₀ − (c/b) ln(1 + b ω₀/c))."""
     J, b, speed = 0.2, 0.1, 4.0

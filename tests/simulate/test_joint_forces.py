@@ -44,6 +44,7 @@ def test_outputs_of_an_ensemble_are_the_reactions_of_its_runs():
         assert whole["reaction link"][k] == pytest.approx(np.linalg.norm(link.force, axis=1), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_reactions_of_a_run_are_entries_and_curves():
     run = arm().simulate(0.2, q1=0.4, q2=-0.6, fixed="q1", samples=11)
     pin = run.reaction("B")

@@ -14,6 +14,7 @@ TIGHT: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-13}
 G = 9.81
 
 
+@pytest.mark.slow
 def test_a_rope_over_a_peg_is_atwoods_machine() -> None:
     """ẍ = (m₁ − m₂) g/(m₁ + m₂), and the tension −λ is 2 m₁ m₂ g/(m₁ + m₂)."""
     s = lg.System("Atwood")

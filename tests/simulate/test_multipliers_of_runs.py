@@ -94,6 +94,7 @@ def test_names_that_are_no_row_say_which_there_are(run: lg.Trajectory) -> None:
         run.multipliers["rope"]
 
 
+@pytest.mark.slow
 def test_a_driven_constraint_supplies_its_force_times_the_speed_that_it_prescribes() -> None:
     """x = A sin ω t: λ = (k − m ω²) x, and the drive's power is λ A ω cos ω t."""
     s = lg.System("driven mass")

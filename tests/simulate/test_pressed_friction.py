@@ -30,6 +30,7 @@ def bead(alpha: float, mu: float = 0.3) -> lg.System:
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("alpha", [0.2, 0.6])
+@pytest.mark.slow
 def test_a_bead_on_a_rough_rod_goes_up_and_stops_or_comes_back(alpha: float) -> None:
     """Up with −g (sin α + μ cos α), then at rest if tan α < μ, else down with −g (sin α − μ cos α)."""
     run = bead(alpha).simulate(1.0, initial={"x'": 3 * np.cos(alpha), "y'": 3 * np.sin(alpha)}, **TIGHT)
@@ -149,6 +150,7 @@ def test_a_ladder_on_a_smooth_wall_slips_below_the_angle_whose_tangent_is_half_o
     assert set(run.modes["foot"]) == {1}
 
 
+@pytest.mark.slow
 def test_at_rest_two_rough_ends_share_the_load_in_a_way_that_nobody_knows() -> None:
     with pytest.raises(lg.Error, match="cannot be told") as caught:
         ladder(0.8, 0.8).simulate(0.5, initial=leaning(1.2), **TIGHT)
@@ -190,6 +192,7 @@ def test_friction_and_what_presses_on_it_are_solved_together_until_they_jam() ->
     assert runs.status.tolist() == [0, RunStatus.PARADOX]
 
 
+@pytest.mark.slow
 def test_the_derivation_shows_both_regimes_and_agrees_with_what_is_compiled() -> None:
     d = ladder(0.25, 0.2).derive()
     assert all(check.holds for check in d.verified) and len(d.verified) > 10

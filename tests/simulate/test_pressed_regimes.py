@@ -65,6 +65,7 @@ def test_in_a_regime_the_acceleration_is_the_drift_of_a_linearization_and_no_ene
     assert not slipping.conserved_quantities().found
 
 
+@pytest.mark.slow
 def test_a_bead_that_slips_and_one_that_is_pushed_are_the_same_motion_and_one_that_sticks_has_none() -> None:
     pushed = lg.System("pushed bead")
     z = pushed.coordinates("s")

@@ -159,6 +159,7 @@ def test_two_rough_pins_are_solved_together() -> None:
         assert (J * run[f"theta{k}''"])[slips] == pytest.approx((pins + friction)[slips], abs=1e-7)
 
 
+@pytest.mark.slow
 def test_what_presses_together_has_no_side_and_is_read_from_files() -> None:
     s = collar()
     text = s.to_toml()

@@ -57,6 +57,7 @@ def test_a_wrong_jacobian_of_a_fit_is_told() -> None:
     assert "DOES NOT HOLD" in repr(found)
 
 
+@pytest.mark.slow
 def test_an_optimum_is_held_against_ordinary_runs_and_quadrature() -> None:
     """With jumps of the velocity inside the run, between which the integrand is integrated by quadrature."""
     system, bounce = ball()
@@ -81,6 +82,7 @@ def test_a_wrong_gradient_of_an_optimum_is_told() -> None:
     assert "DOES NOT HOLD" in repr(found)
 
 
+@pytest.mark.slow
 def test_sensitivities_are_held_against_ordinary_runs() -> None:
     run = lg.example("double-pendulum").simulate(2.0, theta1=0.5, theta2=0.2, samples=101)
     (check,) = run.sensitivities(["m2", "L1", "theta1"]).verify()
@@ -100,6 +102,7 @@ def test_wrong_sensitivities_are_told() -> None:
     assert check.holds is False
 
 
+@pytest.mark.slow
 def test_where_quotients_do_not_settle_it_is_said() -> None:
     """Over a minute a double pendulum that turns over is chaotic: a change of a thousandth changes everything."""
     run = lg.example("double-pendulum").simulate(60.0, theta1=2.0, theta2=2.0, samples=61)

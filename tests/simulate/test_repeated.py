@@ -37,6 +37,7 @@ def nothing_new(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
+@pytest.mark.slow
 def test_a_second_ensemble_makes_nothing_that_the_first_one_made(monkeypatch: pytest.MonkeyPatch, way: dict) -> None:
     first, other = np.linspace(0.1, 0.4, 9), np.linspace(-0.5, 0.9, 9)
     wanted = pendulum().ensemble(0.5, theta=other, params={"L": 0.7}, **way)

@@ -100,6 +100,7 @@ CONSERVATIVE = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_examples_without_supply_are_listed() -> None:
     free = [name for name in examples.names() if not example(name).model.inputs]
     supplied = [n for n in free if dynamics.SUPPLY in dynamics.closed(example(n).model, {}, supply=True).inputs["x"]]

@@ -127,6 +127,7 @@ GAIN = 0.1 * np.sqrt(np.pi) + (1 - np.cos(300.0)) / 3
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "taylor", "Radau"])
+@pytest.mark.slow
 def test_a_smooth_pulse_of_a_millisecond_in_a_hundred_seconds_is_not_jumped_over(method: str) -> None:
     s = oscillator(m=1.0, k=0.0, b=0.0)
     alone = s.simulate(100.0, inputs={"F": "100*exp(-((t - 50)/0.001)^2)"}, method=method)

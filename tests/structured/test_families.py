@@ -40,6 +40,7 @@ def put(number: int, expr: sp.Expr) -> sp.Expr:
     return expr.xreplace(table)
 
 
+@pytest.mark.slow
 def test_every_line_that_is_left_out_follows_from_its_pattern(chain: Any) -> None:
     known = {put(0, d.symbol): put(0, d.expression) for d in chain.definitions}
     count = 0
@@ -55,6 +56,7 @@ def test_every_line_that_is_left_out_follows_from_its_pattern(chain: Any) -> Non
     assert count > 80
 
 
+@pytest.mark.slow
 def test_long_chains_have_the_pages_of_short_ones(chain: Any) -> None:
     lines = [len(d.to_text(width=200).splitlines()) for d in (chain, robots.chain(16, relative=True).derive())]
     assert lines[1] - lines[0] < 12  # the equations in the box, and nothing else

@@ -106,6 +106,7 @@ def test_all_formats_and_notations() -> None:
     assert set(data["Xi"]) >= {"base_vx", "q"}
 
 
+@pytest.mark.slow
 def test_letters_of_frames_never_look_like_others() -> None:
     s = lg.System("two")
     x = s.coordinate("x")

@@ -22,6 +22,7 @@ def test_a_rope_over_two_pegs() -> None:
     assert not failed(s)
 
 
+@pytest.mark.slow
 def test_a_floating_body_on_a_ball_joint() -> None:
     s = lg.System("body on a ball joint")
     b = s.floating_frame("b")

@@ -134,7 +134,7 @@ def test_an_answer_is_read_while_it_is_typed_and_judged_when_asked(page: Any) ->
     assert page.locator("#answer-lines .mark.wrong").count() == 1
     assert "This belongs to step" in page.locator("#answer-report").inner_text()
     assert page.locator(".numbers .wrong").last.inner_text().strip() == "2"
-    field.fill("m1*x1'' = k*(x2r")
+    field.fill("m1*x1'' = k*)x2r")
     page.wait_for_selector("#answer-error:not([hidden])")
     assert "Line 1, column" in page.locator("#answer-error").inner_text()
 

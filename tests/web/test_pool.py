@@ -86,6 +86,7 @@ def test_a_mistake_is_told_with_its_place(app: Served) -> None:
     assert error["message"].startswith("model.toml:3:7: [E402] wrong")
 
 
+@pytest.mark.slow
 def test_more_jobs_than_the_queue_holds_are_refused(app: Served) -> None:
     with (
         ThreadPoolExecutor(10) as threads,

@@ -245,6 +245,7 @@ def test_a_schematic_is_that_of_the_system(kind_app: Served, name: str) -> None:
     assert (found["description"], found["missing"]) == (picture.description, list(picture.missing))
 
 
+@pytest.mark.slow
 def test_a_page_that_moves_has_an_address_that_nobody_guesses_and_a_policy_of_its_own(kind_app: Served) -> None:
     addresses = [kind_app.ask("page", {"model": CART}).json()["address"] for _ in range(PAGES + 1)]
     assert len(set(addresses)) == PAGES + 1

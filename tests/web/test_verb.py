@@ -72,6 +72,7 @@ def test_a_file_that_cannot_be_read_is_told(capsys: pytest.CaptureFixture[str], 
     assert "[E702]" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_after_hours_without_a_request_the_app_asks_to_be_ended() -> None:
     async def waited() -> list[str]:
         desk, said = Desk(), []

@@ -61,6 +61,7 @@ def test_systems_with_forces_have_variants_that_differ_in_substance(name: str) -
     assert all(sheet(name, seed).substantial for seed in (1, 2, 3))
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_bytes() -> None:
     made, again = sheet("lecture-3b", 1), lg.example("lecture-3b").worksheet(seed=1)
     assert made.to_toml() == again.to_toml()
@@ -95,6 +96,7 @@ def test_words_follow_what_a_variant_changes() -> None:
     assert "relative" not in made.model.name and "pushes the carts apart" not in made.question()
 
 
+@pytest.mark.slow
 def test_a_coordinate_is_relative_to_one_that_stays() -> None:
     """q3 relative to mass 2 means that mass 3 is at q2 + q3, so q2 itself is not turned round."""
     made = sheet("three-masses", 2)

@@ -32,6 +32,7 @@ from lagrangian.page.formula import (
     Terms,
     Text,
     Variation,
+    Verbatim,
     formula,
     text,
 )
@@ -285,7 +286,7 @@ def _reason(model: Model, index: int, mine: list[Contribution], value: sp.Expr) 
     if not mine:
         return text(big_xi(index), f" = 0: no {nothing_acts(model)} was described")
     counted = [f for f in mine if not f.virtual.is_zero] or mine
-    parts: list[str | Left] = [big_xi(index), " = ", fit(value), ": "]
+    parts: list[str | Left | Verbatim] = [big_xi(index), " = ", fit(value), ": "]
     for f in counted:
         parts += [f"{f.element.title}: ", *f.story.parts, "; "]
     return text(*parts[:-1])

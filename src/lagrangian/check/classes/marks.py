@@ -74,8 +74,8 @@ def _forces_lacking(given: Sequence[Finding], derivation: Derived, *, moved: boo
 def _acted_on(derivation: Derived) -> list[str]:
     """The coordinates whose Ξ is not 0."""
     model = derivation.model
-    names = {x.symbol: x.name for x in (*model.coordinates, *model.velocities)}
-    return [names[q] for q, force in derivation.Xi.items() if force != 0]
+    moving = (*model.coordinates, *model.velocities)
+    return [x.name for x in moving if derivation.Xi.get(x.symbol, 0) != 0]
 
 
 def _independent(verdict: Verdict, equations: Sequence[Finding]) -> int:
