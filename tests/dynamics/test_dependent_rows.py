@@ -5,6 +5,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.dynamics import ordering
 from lagrangian.errors import ModelError
 
 
@@ -28,6 +29,15 @@ def test_a_row_given_twice_is_left_out_by_name() -> None:
     lam = dyn.multipliers([2.0, 0.0], [0.0, 1.0])
     assert lam["wall"] == pytest.approx(0.0) and lam["again"] == 0.0
     assert dyn.margin([2.0, 0.0]) == pytest.approx(1.0)
+
+
+def test_the_first_elimination_that_succeeds_tells_which_rows_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search for the cheapest one would count operations."""
+    s = bob()
+    s.constraint(s["x"] - s["l"], name="wall")
+    s.constraint(2 * s["x"] - 2 * s["l"], name="again")
+    monkeypatch.setattr(ordering, "count_operations", None)
+    assert [n.where for n in s.notices] == ["constraint 'again'"]
 
 
 def test_the_third_of_three_rows_on_two_coordinates_is_left_out() -> None:

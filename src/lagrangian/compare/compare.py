@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, TypeAlias, cast
+from typing import Any, Protocol, TypeAlias, cast, runtime_checkable
 
 import sympy as sp
 
@@ -29,6 +29,7 @@ from lagrangian.derive import Derived
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import Check, Name, Partial, text
+from lagrangian.structured.choose import AskedForm
 from lagrangian.structured.predict import is_long
 
 _log = logging.getLogger(__name__)
@@ -37,11 +38,12 @@ MOST_TERMS = 5000
 """Terms of the equations up to which two systems are compared row by row, exactly; longer ones by their motions."""
 
 
+@runtime_checkable
 class Derivable(Protocol):
     """Something that can be derived, such as a `System`."""
 
-    def derive(self) -> Derived:
-        """Return the derivation."""
+    def derive(self, *, form: AskedForm = "auto") -> Derived:
+        """Return the derivation, with its equations in a form."""
         ...
 
 
@@ -77,7 +79,7 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
 def _derived(thing: object, which: str) -> Derived:
     if isinstance(thing, Derived):
         return thing
-    if not hasattr(thing, "derive"):
+    if not isinstance(thing, Derivable):
         raise ModelError(
             f"the {which} of the two is not a system (got {type(thing).__name__})",
             fix="compare(System, System), or their derivations",
@@ -85,7 +87,7 @@ def _derived(thing: object, which: str) -> Derived:
         )
     model = getattr(thing, "model", None)
     exact = model is not None and not model.constraints and not model.floating and not is_long(model, MOST_TERMS)
-    return thing.derive(**({"form": "expanded"} if exact else {}))  # type: ignore[attr-defined]
+    return thing.derive(form="expanded" if exact else "auto")
 
 
 def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any, Any] | None) -> Comparison:

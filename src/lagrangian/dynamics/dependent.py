@@ -7,12 +7,12 @@ the row repeats others: it is left out, and its multiplier is 0. If not, no moti
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.dynamics.ordering import Order, cheapest_solution, solution_in
+from lagrangian.dynamics.ordering import Order, cheapest_solution, found_solutions, solution_in
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError
@@ -47,29 +47,49 @@ def without_dependent(
         left_out, order = known[asked]
         found = solution_in(order, problems([row for row in rows if row.name not in left_out]))
     if found is None:
-        found, order, left_out = _chosen(graph, rows, v, problems)
+        (found, order), left_out = _independent(graph, rows, v, lambda kept: cheapest_solution(problems(kept)))
         known[asked] = left_out, order
     return _filled(graph, found, [row.name not in left_out for row in rows]), left_out
 
 
-def _chosen(
+def dependent_among(
     graph: Graph,
     rows: Sequence[ConstraintRow],
     v: Sequence[int],
     problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
-) -> tuple[RowSolution, Order, tuple[str, ...]]:
-    """The cheapest solution, its order, and the names of the rows that depend on others."""
+    known: Mapping[tuple[str, ...], Known],
+) -> tuple[str, ...]:
+    """The names of the rows that are left out, from the first elimination that succeeds: none are compared.
+
+    Raises `ModelError` (E302) if a row contradicts the others.
+    """
+    asked = tuple(row.name for row in rows)
+    if asked in known:
+        return known[asked][0]
+    return _independent(graph, rows, v, lambda kept: next(found_solutions(problems(kept))))[1]
+
+
+Solved = TypeVar("Solved")
+
+
+def _independent(
+    graph: Graph,
+    rows: Sequence[ConstraintRow],
+    v: Sequence[int],
+    solve: Callable[[Sequence[ConstraintRow]], Solved],
+) -> tuple[Solved, tuple[str, ...]]:
+    """What ``solve`` makes of the rows that are independent, and the names of the others."""
     kept = list(rows)
     while True:
         try:
-            found, order = cheapest_solution(problems(kept))
+            found = solve(kept)
             break
         except DependentRow as dependent:
             if not _vanishes(graph, dependent, rows, v):
                 raise _contradiction(dependent.row, rows) from None
             kept.remove(dependent.row)
     names = {row.name for row in kept}
-    return found, order, tuple(row.name for row in rows if row.name not in names)
+    return found, tuple(row.name for row in rows if row.name not in names)
 
 
 def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelError:

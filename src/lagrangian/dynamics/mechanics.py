@@ -301,9 +301,10 @@ class Mechanics:
     @cached_property
     def settled(self) -> tuple[RowSolution, tuple[str, ...]]:
         """The solution, and the names of rows that say again, whatever the state, what others say."""
-        return without_dependent(self.graph, self.rows, self.v, self._constrained_problems, self.known)
+        return without_dependent(self.graph, self.rows, self.v, self.constrained_problems, self.known)
 
-    def _constrained_problems(self, rows: Sequence[ConstraintRow]) -> Iterator[Problem]:
+    def constrained_problems(self, rows: Sequence[ConstraintRow]) -> Iterator[Problem]:
+        """The eliminations worth trying for accelerations subject to some of the rows."""
         zero, few = zeros(self.graph, len(self.v)), len(self.v) <= SMALL
         references = ((False, True) if few else (True,)) if self.motion.free_rates() else (False,)
         for links in self.distinct_groupings:

@@ -16,6 +16,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.codes import Code
+from lagrangian.dynamics.dependent import dependent_among
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.friction import slips
@@ -64,8 +65,11 @@ def dependent_rows(model: Model) -> tuple[str, ...]:
     """
 
     def found() -> tuple[str, ...]:
+        if not model.constraints:
+            return ()
         graph = Graph()
-        return describe(slips(model), graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
+        m = describe(slips(model), graph, Inputs.of(graph, model))
+        return dependent_among(graph, m.rows, m.v, m.constrained_problems, m.known)
 
     return model.remembered("dependent rows", found)
 

@@ -13,7 +13,7 @@ from itertools import islice
 from lagrangian.dynamics.multipliers import RowElimination
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.errors import ModelError
-from lagrangian.graph import count_operations
+from lagrangian.graph import Graph, count_operations
 
 FEW = 12
 """Up to this number of rates, the orders are also tried without the pairs of rule 2."""
@@ -142,16 +142,15 @@ def solution_in(order: Order, problems: Iterable[Problem]) -> RowSolution | None
         return None
 
 
-def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> tuple[RowSolution, Order]:
-    """The solution with the fewest operations for v̇ and λ, or for v̇ alone, and its order; terms of parameters are not
-    counted.
+def found_solutions(problems: Iterable[Problem]) -> Iterator[tuple[RowSolution, Order, Graph]]:
+    """All solutions to be compared, one by one, each with its order and its graph.
 
     Where no order succeeds, rows are combined for rates without inertia (`massless`). Raises the `ModelError` of the
     first order if that fails too, and `DependentRow`.
     """
-    best: tuple[int, RowSolution, Order] | None = None
     failed: list[ModelError] = []
     tried: list[Problem] = []
+    succeeded = False
     for combining in (False, True):
         failed.clear()
         for at, problem in enumerate(tried if combining else problems):
@@ -160,10 +159,22 @@ def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) 
                 if isinstance(found, ModelError):
                     failed.append(found)
                     continue
-                wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
-                cost = count_operations(problem.graph, wanted, hoist=["p"]).operations
-                if best is None or cost < best[0]:
-                    best = cost, found, (at, way, pairs)
-        if best is not None:
-            return best[1:]
+                succeeded = True
+                yield found, (at, way, pairs), problem.graph
+        if succeeded:
+            return
     raise failed[0]
+
+
+def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> tuple[RowSolution, Order]:
+    """The solution with the fewest operations for v̇ and λ, or for v̇ alone, and its order; terms of parameters are not
+    counted. Raises as `found_solutions`.
+    """
+    best: tuple[int, RowSolution, Order] | None = None
+    for found, order, graph in found_solutions(problems):
+        wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
+        cost = count_operations(graph, wanted, hoist=["p"]).operations
+        if best is None or cost < best[0]:
+            best = cost, found, order
+    assert best is not None
+    return best[1:]
