@@ -35,14 +35,22 @@ def _keep_bytecode(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Of a test marked ``sampled`` only some cases are quick: the rest is run among the tests that take long."""
-    seen: Counter[str] = Counter()
-    for item in items:
-        if isinstance(item, pytest.Function) and (mark := item.get_closest_marker("sampled")):
-            name = item.nodeid.partition("[")[0]
-            if not size.in_sample(mark.args[0], seen[name], item.callspec.params.values()):
-                item.add_marker("slow")
-            seen[name] += 1
+    """Mark the cases that a sample leaves out.
+
+    Of a test marked ``sampled`` only some cases are quick: the rest is run among the tests that take long. Of those, a
+    test marked ``thinned`` has only some that are run for every change: the rest is ``exhaustive``.
+    """
+    for name, others in (("sampled", "slow"), ("thinned", "exhaustive")):
+        seen: Counter[str] = Counter()
+        for item in items:
+            if not isinstance(item, pytest.Function) or not (mark := item.get_closest_marker(name)):
+                continue
+            if name == "thinned" and not item.get_closest_marker("slow"):
+                continue
+            test = item.nodeid.partition("[")[0]
+            if not size.in_sample(mark.args[0], seen[test], item.callspec.params.values()):
+                item.add_marker(others)
+            seen[test] += 1
 
 
 def pytest_collection_finish() -> None:

@@ -59,6 +59,7 @@ def test_a_file_is_read_or_refused_in_a_bounded_number_of_calls(name: str) -> No
     assert bounded.searched(_or_a_word, lambda: lg.loads(FILES[name]).model, calls=READING) is not None
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["axis", "gravity", "max", "fractions", "nested"])
 def test_a_derivation_is_written_or_refused_in_a_bounded_number_of_calls(

@@ -81,6 +81,7 @@ def test_joints_and_friction_end_a_question_too(seed: int, verb: str, tmp_path: 
     check_ends(seed, verb, tmp_path)
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.slow
 @pytest.mark.parametrize("verb", [*VERBS, *METHODS])
 @pytest.mark.parametrize("seed", SEEDS)
@@ -105,6 +106,7 @@ def check_answered(seed: int) -> None:
             assert error.code
 
 
+@pytest.mark.thinned(5)
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", rest_slow(ANSWERS, {1, 7, 10}))
 def test_a_hostile_answer_is_judged_or_refused(seed: int) -> None:

@@ -97,6 +97,7 @@ BY_HAND = [
 NAMES = [f"{n}-{m}-{k}" for k, (n, _, m) in enumerate(BY_HAND)]
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.sampled(6)
 @also_in_full
 @pytest.mark.parametrize(

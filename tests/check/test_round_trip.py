@@ -75,11 +75,12 @@ def test_what_is_printed_of_some_examples_is_right(name: str) -> None:
 
 
 @pytest.mark.slow
-def test_what_is_printed_of_all_examples_is_right() -> None:
-    for turn, name in enumerate(n for n in examples.names() if n not in LARGE):
-        own = derivation(name)
-        for what, text in (*pages(own, turn), *printed(own)):
-            assert is_right(judged(own, text)), (name, what, text)
+@pytest.mark.thinned(4)
+@pytest.mark.parametrize(("turn", "name"), list(enumerate(n for n in examples.names() if n not in LARGE)))
+def test_what_is_printed_of_all_examples_is_right(turn: int, name: str) -> None:
+    own = derivation(name)
+    for what, text in (*pages(own, turn), *printed(own)):
+        assert is_right(judged(own, text)), (what, text)
 
 
 def test_matrices_that_are_drawn_are_read() -> None:

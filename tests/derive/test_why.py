@@ -227,6 +227,7 @@ def test_the_page_of_other_systems(name: str) -> None:
     assert "F = ma" in found.to_markdown()
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [n for n in NAMES if n not in LARGE or n == "andrews-squeezer"])
 def test_every_example_has_its_page_in_every_format(name: str) -> None:

@@ -80,6 +80,7 @@ def test_an_fmu_is_valid_and_runs_as_ours(tmp_path: pathlib.Path) -> None:
     assert validate_fmu(str(tmp_path / "fmu2.fmu")) == []
 
 
+@pytest.mark.thinned(4)
 @needs_fmpy
 @pytest.mark.slow
 @pytest.mark.parametrize("name", examples.names())

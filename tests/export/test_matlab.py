@@ -39,6 +39,7 @@ def test_functions_give_the_numbers_of_the_compiled_code(name: str, tmp_path: pa
     holds(name, "matlab", tmp_path)
 
 
+@pytest.mark.thinned(3)
 @needs_octave
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [n for n in examples.names() if n not in QUICK])

@@ -135,6 +135,7 @@ SMALL = "capacitive-actuator"
 """An example that Rumoca's solvers take no step of from random states: they are many orders too large for it."""
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.slow
 @needs_rumoca
 @pytest.mark.parametrize("name", [x for x in examples.names() if x != SMALL])

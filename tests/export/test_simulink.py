@@ -72,6 +72,7 @@ def test_an_s_function_runs_as_ours(tmp_path: pathlib.Path) -> None:
     check("cart-pole", tmp_path)
 
 
+@pytest.mark.thinned(3)
 @needs_compiler
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [n for n in examples.names() if n != "cart-pole"])

@@ -64,6 +64,7 @@ def in_numpy(function: str, x: np.ndarray) -> np.ndarray:
     return getattr(np, {"atan": "arctan"}.get(function, function))(x)
 
 
+@pytest.mark.thinned(4)
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", [0, *[pytest.param(k, marks=pytest.mark.slow) for k in range(1, 9)]])
 @pytest.mark.parametrize("name", rest_slow(METHODS, {"taylor"}))

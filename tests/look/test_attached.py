@@ -155,6 +155,7 @@ def test_nothing_is_missing_from_examples(name: str) -> None:
     assert not [x for x in picture(name).missing if MOVE in x or "turns" in x]
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", names())
 def test_bodies_of_examples_touch_what_holds_them(name: str) -> None:
