@@ -82,3 +82,18 @@ def test_digits_of_a_long_chain(relative):
     with mpmath.workdps(40):
         error = max(abs(x - float(y)) for x, y in zip(close, exact, strict=True))
     assert error < 1e-11 * max(abs(float(y)) for y in exact)
+
+
+@pytest.mark.parametrize(("n", "relative", "most"), [(6, True, 500), (6, False, 280), (14, True, 3_150)])
+def test_the_coriolis_matrix_of_a_chain_grows_with_the_square_of_its_length(n, relative, most):
+    """C_ij = μ_ij L_i L_j sin(θ_i − θ_j) θ̇_j in absolute angles θ = J q, and Jᵀ C J in relative ones."""
+    model = chain(n, relative=relative)
+    at, made = state(model, 1), programs.coriolis(model)
+    p = dict(zip([x.name for x in model.parameters], at["p"], strict=True))
+    m, L = (np.array([p[f"{letter}{i}"] for i in range(n)]) for letter in "mL")
+    J = np.tril(np.ones((n, n))) if relative else np.eye(n)
+    theta, omega = J @ at["q"], J @ at["v"]
+    i, j = np.indices((n, n))
+    C = np.cumsum(m[::-1])[::-1][np.maximum(i, j)] * L[i] * L[j] * np.sin(theta[i] - theta[j]) * omega[j]
+    assert run(made, at)["C"] == pytest.approx(J.T @ C @ J, rel=1e-11, abs=1e-11)
+    assert count_program(made).operations <= most  # 7 792 for the longest, if M v is multiplied out

@@ -45,6 +45,39 @@ def puma() -> lg.System:
     return arm("zyyxyx", offsets, "PUMA 560")
 
 
+def armstrongs_puma() -> lg.System:
+    """The same arm as its source has it: its axes, centres of mass and inertias, motors, a symmetric last link."""
+    s = lg.System("PUMA 560")
+    quarter, at, frame = sp.pi / 2, s.origin, None
+    twists = (0, -quarter, 0, quarter, -quarter, quarter)
+    offsets = ("", "", "a2", "a3", "", ""), ("", "d2", "d3", "d4", "", "")
+    centres = ("", "", ""), ("x2", "y2", "z2"), ("", "y3", "z3"), ("", "", "z4"), ("", "", ""), ("", "", "z6")
+    values: dict[str, float] = {"a2": 0.4318, "a3": -0.0203, "d2": 0.2435, "d3": -0.0934, "d4": 0.4331}
+    values |= {"m2": 17.40, "m3": 4.80, "m4": 0.82, "m5": 0.34, "m6": 0.09}
+    values |= {"x2": 0.068, "y2": 0.006, "z2": -0.016, "y3": -0.070, "z3": 0.014, "z4": -0.019, "z6": 0.032}
+    values |= {"C1": 0.35, "A2": 0.130, "B2": 0.524, "C2": 0.539, "A3": 0.066, "B3": 0.0125, "C3": 0.086, "A4": 1.8e-3}
+    values |= {"B4": 1.8e-3, "C4": 1.3e-3, "A5": 0.3e-3, "B5": 0.3e-3, "C5": 0.4e-3, "A6": 0.15e-3, "C6": 0.04e-3}
+    values |= {"J1": 1.14, "J2": 4.71, "J3": 0.827, "J4": 0.200, "J5": 0.179, "J6": 0.193}
+
+    def known(name: str) -> object:
+        return s.parameter(name, values[name]) if name else 0
+
+    for k in range(6):
+        q, number = s.coordinate(f"q{k + 1}"), k + 1
+        twisted = s.frame(twists[k], axis=AXES["x"], parent=frame)
+        along, d = known(offsets[0][k]), known(offsets[1][k])
+        at = at + (along, 0, 0) if frame is None else frame.point(along, 0, 0, at=at)
+        at = twisted.point(0, 0, d, at=at)
+        frame = s.frame(q, axis=AXES["z"], parent=twisted)
+        across, axial = known(f"A{number}") if k else 0, known(f"C{number}")
+        other = known(f"B{number}") if 0 < k < 5 else across
+        mass = known(f"m{number}") if k else 0
+        s.rigid_body(mass, (across, other, axial), frame.point(*map(known, centres[k]), at=at), frame)
+        s.kinetic(known(f"J{number}") * q.diff() ** 2 / 2)
+    s.gravity(direction=(0, 0, -1))
+    return s
+
+
 def seven_joints() -> lg.System:
     """Seven joints and full inertias, with the offsets of a Franka Panda."""
     offsets = (

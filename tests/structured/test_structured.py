@@ -12,10 +12,12 @@ import sympy as sp
 
 import built_in
 import lagrangian as lg
+from lagrangian import dynamics
 from lagrangian.derivation import verify_lines
 from lagrangian.errors import ModelError
-from lagrangian.graph import PrimePoint
+from lagrangian.graph import PrimePoint, evaluate
 from lagrangian.structured.choose import refusal
+from lagrangian.structured.constants import constants
 from lagrangian.structured.derive import derive_structured
 from lagrangian.structured.listing import listing
 from lagrangian.structured.predict import is_long
@@ -267,3 +269,58 @@ def test_a_single_equation_of_long_systems_has_its_matrices(puma: lg.System, pum
     values = {**{p.symbol: p.value for p in puma.model.parameters}, **q}
     numbers = np.array([[float(M[i, j].xreplace(values)) for j in range(6)] for i in range(6)])
     assert np.allclose(numbers, puma.compile().mass_matrix(list(q.values())), rtol=1e-12)
+
+
+def test_the_constants_of_the_puma_are_those_of_the_paper() -> None:
+    """22 of T* and 5 of the weights, and four motors by themselves (Armstrong, Khatib, Burdick 1986, their table)."""
+    model = robots.armstrongs_puma().model
+    found = constants(listing(model))
+    values = {p.symbol: p.value for p in model.parameters}
+    weights = [abs(float(c.xreplace(values))) for c in found if "g" in map(str, c.free_symbols)]
+    assert len(found) == 22 + 5 + 4
+    assert sorted(weights, reverse=True) == pytest.approx([37.2, 8.44, 1.02, 0.249, 0.0282], rel=5e-3)
+    others = [abs(float(c.xreplace(values))) for c in found]
+    for published in (0.69, 0.372, 0.134, 0.0238, 0.011, 0.00379, 0.00125, 0.00124, 6.42e-4, 4.31e-4, 4e-5):
+        assert any(x == pytest.approx(published, rel=6e-3) for x in others)
+
+
+def test_constants_of_a_chain_are_sums_of_the_masses_further_out() -> None:
+    m1, m2, m3, L1, L2, L3, g = sp.symbols("m1 m2 m3 L1 L2 L3 g", real=True)
+    outer = {L1: m1 + m2 + m3, L2: m2 + m3, L3: m3}
+    pairs = [(L1, L1), (L1, L2), (L1, L3), (L2, L2), (L2, L3), (L3, L3)]
+    wanted = {sp.expand(a * b * outer[b]) for a, b in pairs} | {sp.expand(g * a * outer[a]) for a in outer}
+    model = robots.chain(3, relative=True).model
+    plain = {p.symbol: sp.Symbol(p.name, real=True) for p in model.parameters}
+    found = constants(listing(model))
+    assert {sp.expand(c.xreplace(plain)) for c in found} == wanted and len(found) == len(wanted)
+
+
+def test_energies_are_as_many_functions_of_their_parameters_as_there_are_constants() -> None:
+    """T* - V at random parameters (rows) and states (columns): the constants span the rows, and none is spare."""
+    model = robots.arm("zyx", (("", "", ""), ("d2", "", "a2"), ("", "e3", "")), "three joints").model
+    found = constants(listing(model))
+    program, source = dynamics.energy(model), np.random.default_rng(1)
+    count = len(found) + 6
+    states = [source.uniform(-2, 2, (2, 3)) for _ in range(count)]
+    drawn = [source.uniform(0.4, 1.6, len(model.parameters)) for _ in range(count)]
+    L = np.array([[_lagrangian(program, p, *x) for x in states] for p in drawn])
+    L -= L[:, :1]  # a constant adds nothing to the motion
+    names = [p.symbol for p in model.parameters]
+    C = np.array([[float(c.xreplace(dict(zip(names, p, strict=True)))) for c in found] for p in drawn])
+    F = np.linalg.lstsq(C, L, rcond=None)[0]
+    assert np.abs(C @ F - L).max() < 1e-9 * np.abs(L).max()
+    singular = np.linalg.svd(L / np.abs(L).max(axis=0, initial=1e-300), compute_uv=False)
+    assert singular[len(found) - 1] > 1e-9 * singular[0] > 1e4 * singular[len(found)]
+
+
+def _lagrangian(program: Any, p: Any, q: Any, v: Any) -> float:
+    found = evaluate(program, {"q": q, "v": v, "u": [0.0] * 3, "p": p, "t": [0.0]})
+    return float(found["T"]) - float(found["V"])
+
+
+def test_what_is_no_polynomial_in_the_parameters_has_no_constants() -> None:
+    s = lg.System("crank")
+    q, a, b = s.coordinate("q"), *s.parameters("a b")
+    s.particle(s.parameter("m"), at=s.origin + (a * sp.cos(q) + sp.sqrt(b**2 - (a * sp.sin(q)) ** 2), 0))
+    assert constants(listing(s.model)) == ()
+    assert constants(listing(robots.chain(10, relative=True).model)) == ()  # 65 of them

@@ -230,19 +230,22 @@ def _carriers(model: Model, symbols: list[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
 
 def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     """The coordinates that occur in a position outside any sine or cosine."""
-    outside: set[sp.Expr] = set()
-    for body in model.bodies:
-        for x in _where(model, body):
-            bare = bounded.replaced(x, {turning: sp.Dummy() for turning in x.atoms(sp.sin, sp.cos)})
-            there = bounded.names(bare)
-            outside |= {s for s in symbols if s in there}
-    return outside
+    known, outside = set(symbols), set[sp.Basic]()
+    waiting: list[sp.Basic] = [x for body in model.bodies for x in _where(model, body)]
+    while waiting:
+        part = waiting.pop()
+        if part in outside or isinstance(part, (sp.sin, sp.cos)):
+            continue
+        outside.add(part)
+        if part not in known:
+            waiting += part.args
+    return {s for s in symbols if s in outside}
 
 
 def _turns(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     """The coordinates that are the angle of a frame: these are angles, even if something rolls along by R φ."""
     angles = [model.expand(f.total_angle if f.axis is None else f.angle) for f in _frames(model)]
-    return {s for s in symbols if any(bounded.diff(a, s) in (1, -1) for a in angles)}
+    return {s for s in symbols if any(a.has(s) and bounded.diff(a, s) in (1, -1) for a in angles)}
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:

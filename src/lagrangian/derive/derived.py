@@ -148,6 +148,8 @@ class Derived(Brief):
     ``form`` is "expanded" or "structured". Structured equations, and T, V, L and Ξ with them, are written in named
     quantities, the ``definitions``, each in the coordinates and earlier quantities; of an expanded derivation there are
     none. ``patterns`` are the names that lines which stand for several have on a page, with k for a number.
+    ``constants`` are those in which parameters enter T* and the weights, none of an expanded derivation, and of a
+    structured one where they are very many.
 
     With constraints the equations are ``Eq(left-hand side, Ξ_i + Σ λ ∂c/∂ξ̇_i)``, and M ξ̈ + C ξ̇ + G = Ξ + Aᵀ λ.
     ``multipliers`` has a `Multiplier` for every row, by the row's name; ``constraint_equations`` are the conditions of
@@ -178,6 +180,7 @@ class Derived(Brief):
     form: WrittenForm = "expanded"
     definitions: tuple[NamedQuantity, ...] = ()
     patterns: tuple[NamedQuantity, ...] = field(default=(), repr=False)
+    constants: tuple[sp.Expr, ...] = ()
 
     @property
     def mass_matrix(self) -> sp.ImmutableMatrix:

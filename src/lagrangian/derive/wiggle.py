@@ -9,7 +9,7 @@ whether the coordinates are independent; if a column is not zero, the body is in
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeAlias
@@ -195,16 +195,33 @@ def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     return expr.has(symbol) and bounded.diff(expr, symbol) != 0 if found is None else symbol in found
 
 
+class _Point:
+    """A random point of a prime field, with what several expressions share evaluated once."""
+
+    def __init__(self) -> None:
+        self.graph = Graph()
+        self.table: dict[sp.Basic, int] = {}
+        self.made: dict[sp.Basic, int] = {}
+        self.point = PrimePoint(self.graph)
+
+    def slopes(self, expr: sp.Expr, names: Iterable[sp.Basic], symbols: Sequence[sp.Expr]) -> list[int] | NotAlgebraic:
+        """The derivatives of an expression by some of its names."""
+        for x in names:
+            self.table.setdefault(x, self.graph.input("x", len(self.table)))
+        node = from_sympy(self.graph, expr, self.table, self.made)
+        return self.point.values(gradient(self.graph, node, [self.table[x] for x in symbols]))
+
+
 def _changes_with(model: Model, expr: sp.Expr) -> frozenset[sp.Expr] | None:
     """The coordinates whose derivatives are not identically 0: not 0 at a random point of a prime field.
 
     None if the field has no value for a part of the expression.
     """
-    graph = Graph()
-    table = {x: graph.input("x", i) for i, x in enumerate(sorted(bounded.names(expr), key=str))}
-    there = [c.symbol for c in model.coordinates if c.symbol in table]
-    slopes = gradient(graph, from_sympy(graph, expr, table), [table[x] for x in there])
-    values = PrimePoint(graph).values(slopes)
+    names = sorted(bounded.names(expr), key=str)
+    shared = model.remembered("point of the field", _Point)
+    values = shared.slopes(expr, names, there := [c.symbol for c in model.coordinates if c.symbol in names])
+    if isinstance(values, NotAlgebraic):  # perhaps only beside what others contain
+        values = _Point().slopes(expr, names, there)
     if isinstance(values, NotAlgebraic):
         return None
     return frozenset(x for x, value in zip(there, values, strict=True) if value)

@@ -158,6 +158,15 @@ class Echelon:
                     lost[name] = (lost.get(name, 0) + factor * share) % p
         return left, {name: share for name, share in lost.items() if share}
 
+    def reduced(self) -> dict[int, list[int]]:
+        """Return the rows by the columns of their leading entries, which are the only entries of those columns."""
+        p, rows = self.p, {pivot: row for pivot, row, _ in self._rows}
+        for pivot, below in rows.items():
+            for other, row in rows.items():
+                if other != pivot and (factor := row[pivot]):
+                    rows[other] = [(a - factor * b) % p for a, b in zip(row, below, strict=True)]
+        return rows
+
     def take(self, name: int, row: Sequence[int]) -> bool:
         """Store a row under a name if it is independent."""
         left, lost = self.reduce(row)

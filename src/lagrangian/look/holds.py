@@ -188,8 +188,9 @@ class Motions:
         d, D = self.local(k, holder, None)
         if _one_direction(D):
             return Hold(k, holder, HoldKind.SLIDE, moving, moving[0] if len(moving) == 1 else None)
+        steady = _steady(D)
         for s in moving:
-            if self._telescope(d, D, s):
+            if steady[s] and self._telescope(d, D, s):
                 return Hold(k, holder, HoldKind.TELESCOPE, moving, s)
         track = self._track(k, holder, moving)
         if track is not None:
@@ -197,6 +198,11 @@ class Motions:
         if len(moving) == 1:
             return Hold(k, holder, HoldKind.WIRE, moving, moving[0])
         return Hold(k, holder, HoldKind.FREE, moving)
+
+    def slides(self, k: int, holder: int) -> bool:
+        """Whether a point moves along one constant direction as seen from another."""
+        D = self.views.J[:, k] - self.views.J[:, holder]
+        return _one_direction(D) and self.relation(k, holder).how is HoldKind.SLIDE
 
     # -- rules --------------------------------------------------------------------------------------------------
 
@@ -211,12 +217,9 @@ class Motions:
         return bool(self._rods[k][holder])
 
     def _telescope(self, d: Array, D: Array, s: int) -> bool:
-        """d = s u, where |u| is constant and the other coordinates turn u."""
+        """d = s u, where |u| is constant, see `_steady`, and the other coordinates turn u."""
         u = D[:, :, s]
-        lengths = np.linalg.norm(u, axis=1)
-        if lengths.min() < SAME or np.ptp(lengths) > 1e-8 * lengths.max():
-            return False
-        unit = u / lengths[:, None]
+        unit = u / np.linalg.norm(u, axis=1)[:, None]
         along = np.einsum("sd,sd->s", d, unit)
         across = np.abs(d - along[:, None] * unit).max()
         others = np.delete(np.einsum("sd,sdn->sn", unit, D), s, axis=1)
@@ -288,6 +291,12 @@ class Motions:
             if not self.coordinates(k, h) and float(np.abs(rt[:, k] - rt[:, h]).max()) > SAME * self.size:
                 return h
         return None
+
+
+def _steady(D: Array) -> NDArray[np.bool_]:
+    """Which columns have one length at all states, and not 0."""
+    lengths = np.linalg.norm(D, axis=1)
+    return (lengths.min(axis=0) >= SAME) & (np.ptp(lengths, axis=0) <= 1e-8 * lengths.max(axis=0))
 
 
 def _one_direction(D: Array) -> bool:

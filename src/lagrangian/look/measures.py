@@ -34,6 +34,11 @@ def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> bool:
     return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
 
 
+def _alike(slopes: Array, unit: Array) -> NDArray[np.bool_]:
+    """Which rows of slopes, up to their signs, are those of a coordinate itself."""
+    return np.asarray(np.all(np.abs(np.abs(slopes) - unit) < 1e-8 + 1e-5 * unit, axis=-1))
+
+
 class MeasureArtist:
     """Draws the coordinates of a system."""
 
@@ -87,7 +92,7 @@ class MeasureArtist:
 
     def _turned_by(self, i: int) -> bool:
         """Whether a body turns by a coordinate itself, not by a multiple of it."""
-        return any(turn.frame is not None and self._is(turn.slopes, np.eye(len(turn.slopes))[i]) for turn in self.turns)
+        return any(turn.frame is not None and _alike(turn.slopes, np.eye(len(turn.slopes))[i]) for turn in self.turns)
 
     def _length(self, i: int, name: str, k: int, h: int, e: Array, part: Player | None) -> None:
         board = self.board
@@ -199,23 +204,19 @@ class MeasureArtist:
 
     def _angle(self, i: int, name: str) -> bool:
         """An arc from the direction at 0 to the direction now: absolute, or against another turn."""
-        turns = self.turns
-        unit = np.zeros(len(self.board.q))
-        unit[i] = 1.0
-        for turn in turns:
-            if self._is(turn.slopes, unit):
-                self._arc(i, name, turn, float(turn.slopes[i]))
-                return True
-        for turn in turns:
-            others = sorted((t for t in turns if t is not turn), key=lambda t: -float(np.abs(t.slopes).sum()))
-            for other in others:
-                if other.slopes[i] == 0.0 and self._is(turn.slopes - other.slopes, unit):
-                    self._arc(i, name, turn, float(turn.slopes[i]))
-                    return True
-        return False
-
-    def _is(self, slopes: Array, unit: Array) -> bool:
-        return bool(np.allclose(np.abs(slopes), unit, atol=1e-8))
+        if not self.turns:
+            return False
+        slopes = np.array([turn.slopes for turn in self.turns])
+        unit = np.eye(len(self.board.q))[i]
+        found = np.flatnonzero(_alike(slopes, unit))
+        if not found.size:
+            others = slopes[slopes[:, i] == 0.0]
+            found = np.flatnonzero([_alike(own - others, unit).any() for own in slopes])
+        if not found.size:
+            return False
+        turn = self.turns[found[0]]
+        self._arc(i, name, turn, float(turn.slopes[i]))
+        return True
 
     def _arc(self, i: int, name: str, turn: Turn, sense: float) -> None:
         board = self.board

@@ -149,8 +149,7 @@ def _ends(motions: Motions, points: list[int], holder: int, down: Array) -> Iter
     """The ends that points may be of strings over a pulley at rest with ``holder``, hanging down if they can."""
     v = motions.views
     for k in points:
-        hold = motions.relation(k, holder)
-        if hold.how is HoldKind.SLIDE:
+        if motions.slides(k, holder):
             J = v.J[:, k] - v.J[:, holder]
             e = direction(J[0])
             e = -e if float(e @ down) < -FLAT else e

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import cast
 
@@ -15,7 +15,8 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive import Derived, LedgerRow, Step
 from lagrangian.derive.algebra import Algebra
-from lagrangian.derive.constraints.page import Constraints, constraints
+from lagrangian.derive.constraints.page import Constraints
+from lagrangian.derive.constraints.page import constraints as step_of_constraints
 from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.forces import contributions, forces
@@ -26,6 +27,7 @@ from lagrangian.derive.wiggle import study
 from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.model import Model
 from lagrangian.page.formula import Elided, EquationTerm, Heading, Item, Left, formula, text
+from lagrangian.structured.constants import constants
 from lagrangian.structured.floating import by_power, check_speeds, free, held_floating, moved_by, speeds
 from lagrangian.structured.listing import Listing, listing
 from lagrangian.structured.shares import ListedShares
@@ -41,7 +43,7 @@ def derive_structured(model: Model) -> Derived:
     Raises `ModelError` where a row of a constraint contradicts others; `refusal` says which models it does not take.
     """
     _log.info("deriving: which coordinates move what")
-    known = constraints(model, _as_given) if model.constraints else None
+    known = step_of_constraints(model, _as_given) if model.constraints else None
     early = _in_speeds(model, known) if model.floating else _in_coordinates(model, known)
     step0, step1 = early[:2]
     _log.info("deriving: velocities, momenta and forces")
@@ -53,6 +55,7 @@ def derive_structured(model: Model) -> Derived:
     step6 = early[2] or by_power(found, write)
     book = _ledger(steps)
     equations = equalities(found, write)
+    lasting = constants(found) if not found.ties else ()
     return Derived(
         model=model,
         steps=(step0, steps.families.step(step1), step2, step3, step4, step5, steps.families.step(step6)),
@@ -63,11 +66,16 @@ def derive_structured(model: Model) -> Derived:
         equations=equations,
         terms=tuple(_terms(found, equation) for equation in equations),
         matrices=ListedMatrices(found),
-        result=(*_closing(steps, equations), *steps.families([item] for item in ledger_items(book))),
+        result=(
+            *_closing(steps, equations),
+            *_lasting(steps, lasting),
+            *steps.families([item] for item in ledger_items(book)),
+        ),
         ledger=book,
         shares=ListedShares(found, write),
         form="structured",
         definitions=steps.definitions(),
+        constants=lasting,
         patterns=steps.families.patterns(steps.definitions()),
         multipliers=steps.multipliers,
         no_minimal=text("the equations are written in named quantities") if found.ties else None,
@@ -140,6 +148,21 @@ def _closing(steps: ListedSteps, equations: Sequence[sp.Eq]) -> list[Item]:
             f"of {rate} in these lines."
         ),
     ]
+
+
+def _lasting(steps: ListedSteps, constants: Sequence[sp.Expr]) -> Iterator[Item]:
+    """The constants of T* and of the weights under their heading."""
+    if not constants:
+        return
+    many = len(constants) > 1
+    yield Heading(text("Constants of the motion's equations"))
+    yield text(
+        f"Masses, inertias and lengths enter T* and the weights in {'these' if many else 'this'} {len(constants)} "
+        f"constant{'s' if many else ''} alone. Bodies that have other masses and lengths, but the same constants, move "
+        "in the same way, and no measured motion tells more about them."
+    )
+    lines = [sp.Symbol(steps.write.names.take("kappa", str(k)), real=True) for k in range(1, len(constants) + 1)]
+    yield from steps.families([formula(name, x)] for name, x in zip(lines, constants, strict=True))
 
 
 def _ledger(steps: ListedSteps) -> tuple[LedgerRow, ...]:

@@ -7,6 +7,7 @@ solve them, and M, C and the energy must obey their laws.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -108,7 +109,7 @@ def _measured(model: Model, states: int, seed: int) -> _Worst:
     forward, inverse = dynamics.forward(model), dynamics.inverse(model)
     second, bias = dynamics.inverse_from_lagrangian(model), dynamics.bias(model)
     potential_force = dynamics.potential_force(model)
-    matrices, balance, rhs = _matrices(model), _balance(model), dynamics.rhs(model)
+    matrices, balance, rhs = _matrices(model, forward.inputs), _balance(model), dynamics.rhs(model)
     worst, onto = _Worst(), OnRows(model) if model.constraints else None
     multipliers = None if onto is None else dynamics.multipliers(model)
     for drawn in random_states(model, forward, states, seed):
@@ -150,7 +151,7 @@ def _allowed(A: Array, n: int) -> Array:
     return turned[int((singular > RANK * singular.max(initial=0.0)).sum()) :].T
 
 
-def _matrices(model: Model) -> Program:
+def _matrices(model: Model, names: Mapping[str, tuple[str, ...]]) -> Program:
     """q, v, u, p, t → M, Ṁ along the motion, C, and the applied forces Ξ."""
     g = Graph()
     inputs = dynamics.Inputs.of(g, model)
@@ -159,7 +160,6 @@ def _matrices(model: Model) -> Program:
     along = {**dict(zip(inputs.q, m.motion.rates, strict=True)), inputs.t: g.one}
     made = {"M": M, "Mdot": jvp(g, M, along), "C": [x for row in coriolis(m) for x in row]}
     made["Xi"] = m.gathered(m.efforts)
-    names = dynamics.forward(model).inputs
     return Program("matrices", g, names, {k: Output(tuple(ids), (len(ids),)) for k, ids in made.items()})
 
 
