@@ -1,6 +1,7 @@
 """Circuits in pictures: closed loops of wire, every branch in its loop, and windings on what they move."""
 
 from collections import Counter
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -101,16 +102,36 @@ def test_coils_that_share_flux_face_each_other() -> None:
     assert {x for label in found.scene.labels for x in label.names} == {"q1", "q2", "L1", "L2", "M"}
 
 
+def test_a_bridge_has_a_loop_below_two_others() -> None:
+    """Maxwell's: three wires meet at its four corners, and the source's loop is below the others."""
+    system, (q1, q2, q3), (L1, L2, R3, R4, R5, L0) = _circuit(3, letters="L1 L2 R3 R4 R5 L0")
+    system.voltage_source(system.input("u", unit="V"), q3)
+    for L, charge in ((L1, q1), (L2, q2), (L0, q3)):
+        system.inductor(L, charge)
+    for R, charge in ((R3, q1 - q3), (R4, q2 - q3), (R5, q1 - q2)):
+        system.resistor(R, charge)
+    found = system.look()
+    assert not found.missing
+    meetings = _meetings(found.scene)
+    counts = [what.total() for what in meetings.values()]
+    assert set(counts) == {2, 3} and counts.count(3) == 4 == sum(part.kind == "node" for part in found.scene.parts)
+    assert all(sum(what[e.name] for what in meetings.values()) == 2 for e in system.model.branches)
+    height = {name: float(_middle(found.scene, name)[1]) for name in ("L1", "L2", "R3", "R4", "R5", "L0")}
+    assert height["R5"] < height["R3"] == height["R4"] < height["L0"]
+    assert max(height["L1"], height["L2"]) < height["R3"]
+
+
 def test_loops_that_do_not_lie_in_a_row_are_told() -> None:
-    system, (q1, q2, q3), (L, R) = _circuit(3, letters="L R")
-    for q in (q1, q2, q3):
+    """Four loops of which each meets the three others: K₅ with the outside, which no plane holds."""
+    system, qs, (L, R) = _circuit(4, letters="L R")
+    for q in qs:
         system.inductor(L, q)
-    for a, b in ((q1, q2), (q2, q3), (q3, q1)):
+    for a, b in combinations(qs, 2):
         system.resistor(R, a - b)
     found = system.look()
     assert found.missing == (
-        "the circuit of charges q1, q2, q3 is not drawn: its loops do not lie in a row, each branch in one of them or "
-        "between two",
+        "the circuit of charges q1, q2, q3, q4 is not drawn: its loops do not lie in a row, with at most one more "
+        "below it, each branch in one loop or between two",
     )
     assert not any(part.kind == "wire" for part in found.scene.parts)
 

@@ -12,7 +12,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.look.board import BODY, EFFORT, JOINT, TIE, Board
-from lagrangian.look.circuit_loops import LAWS, CircuitLoop, PlacedBranch, moved_by, rows_of_loops
+from lagrangian.look.circuit_loops import LAWS, CircuitLoop, CircuitRow, PlacedBranch, moved_by, rows_of_loops
 from lagrangian.look.shapes import arc, box, head, joined, line, lines, turned
 from lagrangian.look.tie_glyphs import LOCAL
 from lagrangian.model import CircuitBranch, MutualInductance, Transducer, VoltageSource
@@ -52,8 +52,9 @@ def draw_circuits(board: Board, beside: Array) -> None:
     heights = [_height(row) for row in rows]
     y = float(beside[1]) - (sum(heights) + BELOW * (len(rows) - 1)) / 2
     for row, height in zip(rows, heights, strict=True):
-        x = float(beside[0]) - BESIDE - sum(_width(loop) + (APART if loop.coupled else 0.0) for loop in row)
-        _draw_row(board, row, x, y, height)
+        widths = _widths(row)
+        gaps = sum(APART for loop in row.loops if loop.coupled)
+        _draw_row(board, row, widths, float(beside[0]) - BESIDE - sum(widths) - gaps, y)
         y += height + BELOW
 
 
@@ -61,29 +62,62 @@ def _width(loop: CircuitLoop) -> float:
     return max(NARROW + (INWARD if loop.labelled_inside else 0.0), CELL * len(loop.top), CELL * len(loop.bottom))
 
 
-def _height(row: list[CircuitLoop]) -> float:
-    return max(LOW, *(CELL * len(side) for loop in row for side in (loop.left, loop.right, loop.shared)))
+def _widths(row: CircuitRow) -> list[float]:
+    """The widths of the loops of a row, together as wide as what lies below them."""
+    found = [_width(loop) for loop in row.loops]
+    wider = 1.0 if row.below is None else max(1.0, _width(row.below) / sum(found))
+    return [wider * x for x in found]
 
 
-def _draw_row(board: Board, row: list[CircuitLoop], x: float, y: float, height: float) -> None:
+def _height(row: CircuitRow) -> float:
+    return _depth(row.loops) + (0.0 if row.below is None else _depth([row.below]))
+
+
+def _depth(loops: list[CircuitLoop]) -> float:
+    return max(LOW, *(CELL * len(side) for loop in loops for side in (loop.left, loop.right, loop.shared)))
+
+
+def _draw_row(board: Board, row: CircuitRow, widths: list[float], x: float, y: float) -> None:
     """Loops from left to right; neighbours have a wire in common, or a gap between two coils."""
-    wired = False
-    for n, loop in enumerate(row):
-        a, b = x, x + _width(loop)
+    wired, height, start = False, _depth(row.loops), x
+    corners: list[Pair] = []
+    for n, (loop, width) in enumerate(zip(row.loops, widths, strict=True)):
+        a, b = x, x + width
         if not wired:
             _side(board, (a, y + height), (a, y), loop.left, (1.0 if n else -1.0, 0.0))
         _side(board, (a, y), (b, y), loop.top, (0.0, -1.0))
         _side(board, (b, y + height), (a, y + height), loop.bottom, (0.0, 1.0))
-        wired = n + 1 < len(row) and loop.coupled is None
+        corners += [(a, y + height), (b, y + height)]
+        wired = n + 1 < len(row.loops) and loop.coupled is None
         inward = (-1.0 if loop.coupled is not None else 1.0, 0.0)
         _side(board, (b, y), (b, y + height), loop.shared if wired else loop.right, inward)
         for corner in ((b, y), (b, y + height)) if wired else ():
-            board.put(Disc(corner, 2.6), "rod", width=0.0, solid=True, kind="node", layer=JOINT, moves=False)
+            _node(board, corner)
         _mesh(board, loop, ((a + b) / 2, y + height / 2))
         x = b
         if loop.coupled is not None:
             _flux(board, loop.coupled, (b + APART / 2, y + height / 2))
+            if row.below is not None:
+                _wire(board, np.array((b, y + height)), np.array((b + APART, y + height)))
             x += APART
+    if row.below is not None:
+        for corner in dict.fromkeys(c for c in corners if corners.count(c) == 1):
+            _node(board, corner)
+        _draw_below(board, row.below, (start, x), y + height)
+
+
+def _draw_below(board: Board, loop: CircuitLoop, ends: Pair, y: float) -> None:
+    """The loop below a row, whose lower sides are its upper one."""
+    a, b = ends
+    low = y + _depth([loop])
+    _side(board, (b, y), (b, low), loop.right, (1.0, 0.0))
+    _side(board, (b, low), (a, low), loop.bottom, (0.0, 1.0))
+    _side(board, (a, low), (a, y), loop.left, (-1.0, 0.0))
+    _mesh(board, loop, ((a + b) / 2, (y + low) / 2))
+
+
+def _node(board: Board, at: Pair) -> None:
+    board.put(Disc(at, 2.6), "rod", width=0.0, solid=True, kind="node", layer=JOINT, moves=False)
 
 
 def _mesh(board: Board, loop: CircuitLoop, centre: Pair) -> None:

@@ -1,6 +1,7 @@
 """Finds the loops of a circuit that lie in a row, as they are drawn: which branches lie on which side of which loop.
 
 A charge q of the description is that of a loop; a branch with the charge q₁ − q₂ lies on the wire between two loops.
+One more loop may lie below the row and have wires in common with all of it, as in a bridge.
 """
 
 # SymPy has no type stubs:
@@ -8,6 +9,7 @@ A charge q of the description is that of a loop; a branch with the charge q₁ �
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
@@ -80,6 +82,14 @@ class CircuitLoop:
         return self.follows or self.coupled is not None
 
 
+@dataclass
+class CircuitRow:
+    """The loops of a circuit from left to right, and the one that lies below all of them, if there is one."""
+
+    loops: list[CircuitLoop]
+    below: CircuitLoop | None = None
+
+
 @dataclass(frozen=True)
 class _Branch:
     """A branch with the factors of its charges, by the number of the charge."""
@@ -97,27 +107,80 @@ class _Branch:
         return all(len(x) <= one and all(abs(k) == 1.0 for k in x.values()) for x in self.factors)
 
 
-def rows_of_loops(board: Board) -> list[list[CircuitLoop]]:
+def rows_of_loops(board: Board) -> list[CircuitRow]:
     """The circuits, each as its loops from left to right; circuits that cannot be drawn so are told."""
     model = board.stage.model
     charges = [c for c in model.charges if c.name not in board.hidden]
     supplied: list[sp.Expr] = []
     branches = [_factored(board, e, charges, supplied) for e in model.branches if e.name not in board.hidden]
-    known = [*(CircuitLoop(c) for c in charges), *(CircuitLoop(None, x) for x in supplied)]
-    rows: list[list[CircuitLoop]] = []
+    known: list[Coordinate | sp.Expr] = [*charges, *supplied]
+    rows: list[CircuitRow] = []
     for group in _connected(len(known), branches):
-        mine = [b for b in branches if b.loops & set(group)]
-        order = _row(group, mine) if all(b.in_a_row() for b in mine) else None
-        loops = None if order is None else _filled(board, order, [known[i] for i in order], mine)
-        if loops is None:
-            names = ", ".join(known[i].name for i in group)
+        row = _laid(board, group, [b for b in branches if b.loops & set(group)], known)
+        if row is None:
+            names = ", ".join(_loop_of(known[i]).name for i in group)
             board.lacks(
                 f"the circuit of {'charges' if len(group) > 1 else 'charge'} {names} is not drawn",
-                "its loops do not lie in a row, each branch in one of them or between two",
+                "its loops do not lie in a row, with at most one more below it, each branch in one loop or between two",
             )
         else:
-            rows.append(loops)
+            rows.append(row)
     return rows
+
+
+def _loop_of(charge: Coordinate | sp.Expr) -> CircuitLoop:
+    return CircuitLoop(charge) if isinstance(charge, Coordinate) else CircuitLoop(None, charge)
+
+
+def _laid(
+    board: Board, group: list[int], branches: list[_Branch], known: Sequence[Coordinate | sp.Expr]
+) -> CircuitRow | None:
+    """The loops of a group as a row, or as a row with one loop below it; None if they are neither."""
+    senses = _senses(group, branches)
+    if senses is None or not all(b.in_a_row() for b in branches):
+        return None
+    driven = {i for b in branches if isinstance(b.element, VoltageSource) for i in b.loops}
+    others = sorted(group, key=lambda i: i not in driven) if len(group) > 2 else []
+    for below in (None, *others):
+        inner = [b for b in branches if below not in b.loops]
+        outer = [b for b in branches if below in b.loops and len(b.loops) == 2]
+        order = _row([i for i in group if i != below], inner, joined=below is None)
+        if order is None or any(len(b.factors) > 1 for b in outer):
+            continue
+        loops = {i: _loop_of(known[i]) for i in group}
+        for i, loop in loops.items():
+            loop.sense = senses[i] * senses[order[0]]
+        for b in outer:
+            (i,) = b.loops - {below}
+            loops[i].bottom.append(PlacedBranch(b.element, b.factors[0][i] * loops[i].sense))
+        if not _filled(board, order, [loops[i] for i in order], inner, free=below is None):
+            continue
+        if below is None:
+            return CircuitRow([loops[i] for i in order])
+        own = [b for b in branches if b.loops == {below}]
+        _lay_below(loops[below], [PlacedBranch(b.element, b.factors[0][below] * loops[below].sense) for b in own])
+        return CircuitRow([loops[i] for i in order], loops[below])
+    return None
+
+
+def _senses(group: Sequence[int], branches: Sequence[_Branch]) -> dict[int, float] | None:
+    """The sense of every loop in which the charges on all common wires are differences; None if there are none."""
+    found: dict[int, float] = {}
+    for start in group:
+        waiting = [] if start in found else [start]
+        found.setdefault(start, 1.0)
+        while waiting:
+            i = waiting.pop()
+            for b in branches:
+                if len(b.factors) != 1 or len(b.loops) != 2 or i not in b.loops:
+                    continue
+                (j,) = b.loops - {i}
+                sense = -found[i] * b.factors[0][i] * b.factors[0][j]
+                if j not in found:
+                    waiting.append(j)
+                if found.setdefault(j, sense) != sense:
+                    return None
+    return found
 
 
 def _factored(board: Board, element: CircuitBranch, charges: list[Coordinate], supplied: list[sp.Expr]) -> _Branch:
@@ -147,39 +210,43 @@ def _connected(count: int, branches: list[_Branch]) -> list[list[int]]:
     return [[i for i in range(count) if group[i] == g] for g in sorted(set(group))]
 
 
-def _row(group: list[int], branches: list[_Branch]) -> list[int] | None:
-    """The loops of a group in an order in which only neighbours have something in common, if there is one."""
+def _row(group: list[int], branches: list[_Branch], *, joined: bool) -> list[int] | None:
+    """The loops of a group in an order in which only neighbours have something in common, if there is one.
+
+    ``joined``: all neighbours must have something in common; otherwise a wire without a branch may lie between them.
+    """
     pairs = {frozenset(b.loops) for b in branches if len(b.loops) == 2}
     beside = {i: sorted(next(iter(p - {i})) for p in pairs if i in p) for i in group}
-    if len(pairs) != len(group) - 1 or any(len(x) > 2 for x in beside.values()):
+    if any(len(x) > 2 for x in beside.values()) or (joined and len(pairs) != len(group) - 1):
         return None
-    at = next(i for i in group if len(beside[i]) < 2)
-    order = [at]
+    order: list[int] = []
     while len(order) < len(group):
-        at = next(i for i in beside[at] if i not in order)
-        order.append(at)
+        at = next((i for i in group if i not in order and len(beside[i]) < 2), None)
+        if at is None:  # the others are a ring
+            return None
+        while at is not None:
+            order.append(at)
+            at = next((i for i in beside[at] if i not in order), None)
     return order
 
 
-def _filled(
-    board: Board, order: list[int], loops: list[CircuitLoop], branches: list[_Branch]
-) -> list[CircuitLoop] | None:
-    """The loops with their branches; None if no senses of the loops agree with all of them."""
+def _filled(board: Board, order: list[int], loops: list[CircuitLoop], branches: list[_Branch], *, free: bool) -> bool:
+    """Lay the branches on the sides of a row of loops; False if two loops share flux and wire, or too few coils.
+
+    ``free``: the lower sides of the loops are their own.
+    """
     coils: set[CircuitBranch] = set()
     for n, (one, two) in enumerate(pairwise(loops)):
-        pair = {order[n], order[n + 1]}
-        common = [b for b in branches if b.loops == pair]
+        common = [b for b in branches if b.loops == {order[n], order[n + 1]}]
         shared = [b for b in common if len(b.factors) == 1]
-        senses = {-one.sense * b.factors[0][order[n]] * b.factors[0][order[n + 1]] for b in shared} or {1.0}
         mutual = [b.element for b in common if isinstance(b.element, MutualInductance)]
-        if len(senses) > 1 or len(mutual) > 1 or (mutual and shared):
-            return None
-        two.sense = senses.pop()
+        if len(mutual) > 1 or (mutual and shared):
+            return False
         one.shared = [PlacedBranch(b.element, b.factors[0][order[n]] * one.sense) for b in shared]
         for element in mutual:
             ends = [_coil(branches, i, coils) for i in (order[n], order[n + 1])]
             if None in ends:
-                return None
+                return False
             one.coupled, two.follows = element, True
             for loop, side, end in ((one, one.right, ends[0]), (two, two.left, ends[1])):
                 assert end is not None
@@ -188,8 +255,8 @@ def _filled(
     for n, loop in enumerate(loops):
         own = [b for b in branches if b.loops == {order[n]} and b.element not in coils]
         placed = [PlacedBranch(b.element, b.factors[0][order[n]] * loop.sense) for b in own]
-        _lay(board, loop, placed, first=n == 0, last=n == len(loops) - 1)
-    return loops
+        _lay(board, loop, placed, first=n == 0, last=n == len(loops) - 1, free=free)
+    return True
 
 
 def _coil(branches: list[_Branch], loop: int, taken: set[CircuitBranch]) -> _Branch | None:
@@ -199,8 +266,22 @@ def _coil(branches: list[_Branch], loop: int, taken: set[CircuitBranch]) -> _Bra
     )
 
 
-def _lay(board: Board, loop: CircuitLoop, placed: list[PlacedBranch], *, first: bool, last: bool) -> None:
-    """Branches of one loop alone: sources on the left, what moves on the right, then a capacitor, others above."""
+def _lay_below(loop: CircuitLoop, placed: list[PlacedBranch]) -> None:
+    """Branches of the loop below a row: sources on the left, what moves on the right, others below."""
+    if loop.supplied is not None:
+        loop.left.append(PlacedBranch(None, loop.sense, loop.supplied))
+    for x in placed:
+        source, moves = isinstance(x.element, VoltageSource), isinstance(x.element, Transducer)
+        (loop.left if source else loop.right if moves else loop.bottom).append(x)
+
+
+def _lay(
+    board: Board, loop: CircuitLoop, placed: list[PlacedBranch], *, first: bool, last: bool, free: bool = True
+) -> None:
+    """Branches of one loop alone: sources on the left, what moves on the right, then a capacitor, others above.
+
+    ``free``: others lie on the lower side, too, where there are many.
+    """
     rest: list[PlacedBranch] = []
     if loop.supplied is not None:
         side = loop.left if first else loop.right if last else loop.top
@@ -215,7 +296,7 @@ def _lay(board: Board, loop: CircuitLoop, placed: list[PlacedBranch], *, first: 
     for x in rest:
         if last and not loop.right and isinstance(x.element, Capacitor):
             loop.right.append(x)
-        elif len(loop.top) < WIDE or len(loop.top) <= len(loop.bottom):
+        elif not free or len(loop.top) < WIDE or len(loop.top) <= len(loop.bottom):
             loop.top.append(x)
         else:
             loop.bottom.append(x)

@@ -92,10 +92,9 @@ def _keeps_on_floor(board: Board, element: Element) -> bool:
     if not isinstance(element, Constraint) or element.expression is None:
         return False
     contacts = [stage.index(e.at) for e in stage.model.elements if isinstance(e, Rolling)]
-    rng = np.random.default_rng(9)
-    states = [rng.uniform(0.4, 1.3, len(board.q)) for _ in range(2)]
-    slopes = [stage.slopes(element.expression, q, board.p) for q in states]
-    heights = np.einsum("skdn,d->skn", stage.views(states, board.p).J, up_axis(board.motions))
+    motions = board.motions
+    slopes = motions.slopes(element.expression)
+    heights = np.einsum("skdn,d->skn", motions.two_views.J, up_axis(motions))
     return any(
         all(min(np.abs(h[k] - g).max(), np.abs(h[k] + g).max()) < 1e-9 for h, g in zip(heights, slopes, strict=True))
         for k in contacts
