@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy.physics.vector import dynamicsymbols
 
+from lagrangian import ParseError
 from lagrangian.model.names import time
 from lagrangian.page.plain import plain
 from lagrangian.read.expression import parse_expression
@@ -141,10 +142,31 @@ def _grow(children: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
         children.map(sp.sin),
         children.map(lambda e: sp.sqrt(e**2 + 1)),
         children.map(sp.Abs),
-        children.map(sp.exp),
+        children.map(lambda e: e if e.is_number and e > 700 else sp.exp(e)),
         pairs.map(lambda p: sp.atan2(p[0], p[1] ** 2 + m)),
         pairs.map(lambda p: sp.Piecewise((p[0], x > 1), (p[1], True))),
     )
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x + exp(exp(exp(20)))",
+        "2^exp(exp(7))*x",
+        "x^2*sinh(cosh(10))",
+        "sin(exp(exp(exp(9)))) + x",
+        "x*pi^(pi^(pi^pi))",
+    ],
+)
+def test_a_number_beyond_those_of_a_computer_is_refused_before_it_is_printed(text: str) -> None:
+    """SymPy orders terms by the values of their factors: of a tower of exponentials it would never have one."""
+    with pytest.raises(ParseError, match="the number is too large"):
+        parse_expression(text, SCOPE)
+
+
+def test_numbers_that_a_computer_holds_are_read_and_printed() -> None:
+    for text in ("x*exp(700) + 1", "x*exp(-3*exp(exp(6))) + 1", "x + exp(exp(6)/2)"):
+        assert plain(parse_expression(text, SCOPE)) == text
 
 
 @sized(150, 30)

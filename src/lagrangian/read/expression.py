@@ -1,11 +1,13 @@
 """Converts the syntax tree of an expression to SymPy; the text is never executed.
 
 Decimal numbers become exact rationals (0.5 → 1/2). ``x'`` and ``x''`` are the rate and the acceleration of a name that
-changes with time. Sizes are limited before anything is computed: numbers by their bits, powers by their exponent.
+changes with time. Sizes are limited before anything is computed: numbers by their bits or, of exp(exp(20)) and
+its like, by their value, powers by their exponent.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from typing import Any, NoReturn, TypeAlias
 
@@ -209,6 +211,8 @@ class ExpressionReader:
                 self.fail("the number is too large", node, fix=f"numbers go up to {MAX_BITS} bits", code="E703")
             if factor.is_Pow and factor.exp.is_Rational and abs(factor.exp) > MAX_EXPONENT:
                 self.fail("the power is too large", node, fix=f"powers go up to {MAX_EXPONENT}", code="E703")
+        if value.is_number and not value.is_Rational and abs(value.evalf(15)) > sys.float_info.max:
+            self.fail("the number is too large", node, fix="numbers go up to 1.8e308", code="E703")
         return value
 
     def _real(self, value: sp.Expr, node: Node) -> sp.Expr:
