@@ -39,7 +39,8 @@ class Compiled(Differentiated):
 
     Every method takes arrays of shape ``(..., n)``, whose leading dimensions broadcast together, in the declared order
     of ``coordinates`` and ``velocities``. v contains the rates of q and has as many entries, except for floating
-    frames: for each of these q has seven entries, among them a quaternion of any length but 0, and v has six.
+    frames: for each of these q has seven entries, among them a quaternion of any length but 0, and v has six; for a
+    ball joint q has the four of the quaternion, and v has three.
     Accelerations, forces, M, C, G and J correspond to the entries of v; `rates` returns q̇.
 
     ``u`` are the inputs, 0 unless given; ``p`` are the parameters, with their declared values unless given. Both may be
@@ -204,10 +205,10 @@ class Compiled(Differentiated):
             return trouble
         q, n = self._placed(q), len(self.coordinates)
         for floating in self._floats:
-            first = self.coordinates.index(floating.coordinates[3].name)
+            first = self.coordinates.index(floating.orientation[0].name)
             lengths = np.linalg.norm(q[..., first : first + 4], axis=-1)
             if lengths.min() < NO_LENGTH:
-                listed = ", ".join(c.name for c in floating.coordinates[3:])
+                listed = ", ".join(c.name for c in floating.orientation)
                 return RunError(
                     f"the quaternion {listed} has the length {lengths.min():.3g}, so it does not define an orientation",
                     fix="use a quaternion of any length other than 0; (0, 0, 0, 1) means not rotated",

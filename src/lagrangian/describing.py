@@ -36,6 +36,7 @@ from lagrangian.model import (
     time,
 )
 from lagrangian.page.plain import plain
+from lagrangian.placed import PointsAndFrames
 from lagrangian.quantities.quantity import parse_quantity
 
 STANDARD_GRAVITY = 9.81
@@ -46,7 +47,7 @@ MOST_NAMES = 10_000
 
 
 @worded
-class Described(Constrained, Circuits):
+class Described(PointsAndFrames, Constrained, Circuits):
     """The methods that describe a system: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
 
     _guide = SYSTEM
@@ -151,36 +152,6 @@ class Described(Constrained, Circuits):
     def define(self, name: str, expression: object) -> Any:
         """Give an expression a name. Use the returned symbol in its place, and the derivation shows the name."""
         return self._builder.define(name, expression).symbol
-
-    # -- geometry -----------------------------------------------------------------------------------------------
-
-    def point(
-        self, name: str, offset: object, *, relative_to: Point | None = None, frame: Frame | None = None
-    ) -> Point:
-        """Return a named point, ``offset`` from ``relative_to`` (default: the origin) along the axes of ``frame``."""
-        return self._builder.point(name, offset, parent=relative_to, frame=frame)
-
-    def frame(
-        self,
-        angle: object,
-        *,
-        axis: object = None,
-        parent: Frame | None = None,
-        origin: Point | None = None,
-        name: str | None = None,
-    ) -> Frame:
-        """Return a frame turned by ``angle`` relative to ``parent``; in space, about ``axis``."""
-        return self._builder.frame(name, angle, axis=axis, parent=parent, origin=origin)
-
-    def floating_frame(self, name: str) -> Frame:
-        """Return a frame that moves and turns freely in space; ``base = floating_frame("base")`` also makes
-        ``base.origin``.
-
-        Coordinates: base_x, base_y, base_z (the origin, in fixed axes) and the quaternion base_qx, base_qy, base_qz,
-        base_qw. Velocities: base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz (angular), along
-        the frame's axes. ``base.origin`` is the point base_origin. `compile` supports such a frame; `derive` does not.
-        """
-        return self._builder.floating_frame(name)
 
     # -- elements -----------------------------------------------------------------------------------------------
 

@@ -31,6 +31,7 @@ BAD = [
     (f'<!DOCTYPE r [<!ENTITY a0 "ha">{EXPANDING}]><robot name="&a8;"/>', "a document type is not read", 1),
     ("<robot>\n&secret;</robot>", "this is not XML: undefined entity", 2),
     ("<a>" * 70 + "</a>" * 70, "[E703] elements are nested more than 64 deep", 1),
+    ("<robot" + "".join(f" a{k}='1'" for k in range(201)) + "/>", "[E703] an element has more than 200 attributes", 1),
     ("<html>\n</html>", "[E405] <html>: the outermost element is <html>, which is not a robot's", 1),
     # links and joints
     ("<robot name='a'>\n</robot>", "[E401] robot 'a': the robot has no links", 1),

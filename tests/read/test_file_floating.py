@@ -163,9 +163,14 @@ def test_the_schema_wants_an_angle_or_floating() -> None:
 @pytest.mark.parametrize(
     ("before", "after", "message", "line"),
     [
-        ('after = "s"', 'after = "ss"', "no coordinate or floating frame 'ss'", "after"),
+        ('after = "s"', 'after = "ss"', "no coordinate or frame with a quaternion 'ss'", "after"),
         ('angle = "s"\n', "", "the field 'angle' is missing", "[[frame]]"),
-        ('angle = "s"\n', 'angle = "s"\nafter = "z"\n', "it does not float, so it needs no 'after'", "after"),
+        (
+            'angle = "s"\n',
+            'angle = "s"\nafter = "z"\n',
+            "it has no coordinates of its own, so it needs no 'after'",
+            "after",
+        ),
         ('after = "s"', "angle = 0", "it floats, so it has no 'angle'", "angle"),
         ('after = "s"', 'parent = "hull"', "it floats, so it has no 'parent'", "parent"),
         ('name = "second"', 'name = "hull"', "frame 'hull' is defined twice", "[[frame]]"),

@@ -127,9 +127,30 @@ def test_what_is_not_mechanics_is_listed_with_its_line():
     ).replace("<axis", '<safety_controller k_velocity="1"/><dynamics damping="0" spring="3"/><axis', 1)
     said = lg.loads(text).notices[-1]
     assert said.code == "E108" and said.where == "robot 'two-link arm'"
-    for part in ("<material> (line 8)", "<transmission> (2 times, first in line 9)", "<gazebo> (line 10)"):
+    for part in ("<material> (line 8)", "<gazebo> (line 10)"):
         assert part in said.text
     assert "<safety_controller> (line 5)" in said.text and "'spring' of <dynamics> (line 5)" in said.text
+
+
+def test_a_transmission_multiplies_the_effort_of_its_motor():
+    simple = "<type>transmission_interface/SimpleTransmission</type>"
+    gear = "<mechanicalReduction> 50 </mechanicalReduction>"
+    text = TWO.replace(
+        "</robot>",
+        f'<transmission name="a">{simple}<joint name="joint1"/><actuator name="m1">{gear}</actuator></transmission>\n'
+        f'<transmission name="b">{simple}<joint name="joint2"/><actuator name="m2"/></transmission>\n'
+        f'<transmission name="c">{simple}<joint name="joint1"/><actuator name="m3"/></transmission>\n'
+        '<transmission name="d"><type>DifferentialTransmission</type></transmission></robot>',
+    )
+    system = lg.loads(text)
+    assert [u.name for u in system.model.inputs] == ["tau_joint2", "m1"]
+    assert system.model.values[system["gear_m1"]] == 50
+    assert system["gear_m1"] * system["m1"] in [getattr(e, "value", None) for e in system.elements]
+    said = " ".join(n.text for n in system.notices)
+    assert "m1 drives joint1" in said and "transmission 'c' (line 10): another transmission drives joint joint1" in said
+    assert "transmission 'd' (line 11): its type is DifferentialTransmission" in said
+    with pytest.raises(lg.ModelError, match="the text of <mechanicalReduction> is '5O', not a number"):
+        lg.loads(text.replace(" 50 ", "5O"))
 
 
 def test_dry_friction_and_damping_act_on_the_joint():

@@ -288,7 +288,7 @@ def _states(model: Model, count: int, *, spread: float | None = None, still: boo
     With a ``spread`` those that have a value are drawn near it: all different, though their values may be equal.
     """
     forward, source, found = dynamics.forward(model), np.random.default_rng(11), 0
-    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
+    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.orientation}
     positive = np.array([c.positive for c in model.coordinates])
     p, t = [0.0], 0.0
     for _ in range(DRAWS + count):

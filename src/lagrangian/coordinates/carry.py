@@ -14,7 +14,7 @@ from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
 from lagrangian.coordinates.pose import carried_look
 from lagrangian.coordinates.signals import carried_signals
-from lagrangian.model import Builder, Element, Frame, GeneralizedForce, Model, Point, is_hard
+from lagrangian.model import Builder, Element, Floating, Frame, GeneralizedForce, Model, Point, is_hard
 from lagrangian.page.plain import plain
 
 
@@ -46,6 +46,7 @@ class Carrier:
     def __init__(self, model: Model, change: Change, name: str) -> None:
         self.model, self.change, self.builder = model, change, Builder(name)
         self._things: dict[int, Point | Frame] = {id(model.origin): self.builder.origin}
+        self._held: dict[int, Floating] = {}
         self._bodies: dict[int, Element] = {}
 
     def built(self) -> Builder:
@@ -70,7 +71,7 @@ class Carrier:
         floating = {c.name: f for f in model.floating if f.floating is not None for c in f.floating.coordinates}
         for c in self.change.new:
             if c.name in floating:
-                self._floating(floating[c.name])
+                self._quaternion(floating[c.name])
             else:
                 b.coordinate(c.name, description=c.description, unit=c.unit, positive=c.positive, place=c.place)
         for p in model.parameters:
@@ -86,11 +87,16 @@ class Carrier:
             b.settings["inputs"] = carried_signals(model, self.change, inputs)
         b.look.update(carried_look(model, self.change, [e.name for e in b.elements]))
 
-    def _floating(self, frame: Frame) -> None:
-        if id(frame) not in self._things:
-            assert frame.name is not None
-            made = self.builder.floating_frame(frame.name, place=frame.place)
-            self._things.update({id(frame): made, id(frame.origin): made.origin})
+    def _quaternion(self, frame: Frame) -> None:
+        """Declare a floating frame, or the variables of one in a ball joint, at the first of its coordinates."""
+        assert frame.name is not None and frame.floating is not None
+        if id(frame) in self._things or id(frame) in self._held:
+            return
+        if frame.floating.held:
+            self._held[id(frame)] = self.builder.quaternion(frame.name, held=True, place=frame.place)
+            return
+        made = self.builder.floating_frame(frame.name, place=frame.place)
+        self._things.update({id(frame): made, id(frame.origin): made.origin})
 
     def point(self, point: Point) -> Point:
         """The point in the new coordinates, with its parent."""
@@ -111,14 +117,14 @@ class Carrier:
         """The frame in the new coordinates, with its parent and origin."""
         made = self._things.get(id(frame))
         if not isinstance(made, Frame):
-            made = self.builder.frame(
-                frame.name,
-                self.change.put_in(frame.angle),
-                axis=frame.axis,
-                parent=None if frame.parent is None else self.frame(frame.parent),
-                origin=self.point(frame.origin),
-                place=frame.place,
-            )
+            parent = None if frame.parent is None else self.frame(frame.parent)
+            origin, place = self.point(frame.origin), frame.place
+            if (held := self._held.get(id(frame))) is not None:
+                assert frame.name is not None
+                made = self.builder.ball_frame(frame.name, parent=parent, origin=origin, declared=held, place=place)
+            else:
+                angle = self.change.put_in(frame.angle)
+                made = self.builder.frame(frame.name, angle, axis=frame.axis, parent=parent, origin=origin, place=place)
             self._things[id(frame)] = made
         return made
 

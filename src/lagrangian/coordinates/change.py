@@ -290,8 +290,8 @@ def _checked(model: Model, change: Change) -> Change:
     for c, _ in change.replaced:
         if c.name in floating:
             raise ModelError(
-                f"'{c.name}' belongs to frame '{floating[c.name].name}', which floats",
-                fix="keep its seven coordinates: they belong together and cannot be replaced",
+                f"'{c.name}' belongs to frame '{floating[c.name].name}', which has a quaternion",
+                fix="keep the coordinates of the frame: they belong together and cannot be replaced",
                 code="E210",
             )
     if change.replaced:

@@ -125,7 +125,7 @@ def _bodies(blocks: Sequence[Rows], seen: np.ndarray) -> tuple[Element, ...]:
 def _refuse_quaternion(frame: Frame) -> None:
     """Raise the error for the four dependent entries of a quaternion."""
     assert frame.floating is not None
-    listed = ", ".join(c.name for c in frame.floating.coordinates[3:])
+    listed = ", ".join(c.name for c in frame.floating.orientation)
     raise ModelError(
         f"frame '{frame.name}' floats with a quaternion: its four entries {listed} tell three angles, so they are "
         "dependent, and its velocities are not the rates of its coordinates",

@@ -74,8 +74,8 @@ def _by(m: Mechanics, M: Matrix, change: Vector, momentum: Vector) -> Matrix:
     columns = _along_velocities(m, momentum)
     total = [[g.add(change[i * n + j], g.sub(columns[j][i], columns[i][j])) for j in range(n)] for i in range(n)]
     for at in m.floats:
-        own = range(at.v, at.v + 6)
-        basis = [[g.one if i == k else g.zero for i in range(6)] for k in range(6)]
+        own = at.velocities
+        basis = [[g.one if i == k else g.zero for i in own] for k in own]
         u, h = [m.v[i] for i in own], [momentum[i] for i in own]
         A = [bracket(g, u, e) for e in basis]  # A[j] is column j
         for j, column in zip(own, A, strict=True):

@@ -336,14 +336,14 @@ def tangent(model: Model) -> Program:
     back = transposed(N)
     ad = [zeros(g, n) for _ in range(n)]
     for at in m.floats:
-        e = m.q[at.q + 3 : at.q + 7]
+        e = m.q[at.orientation]
         over = g.div(g.const(4.0), dot(g, e, e))  # the columns of N that turn have the length |e|/2
-        for i in range(at.v + 3, at.v + 6):
+        for i in at.turning:
             back[i] = scaled(g, over, back[i])
-        own = slice(at.v, at.v + 6)
-        for k in range(6):
-            unit = [g.one if i == k else g.zero for i in range(6)]
-            for i, x in enumerate(bracket(g, m.v[own], unit)):
-                ad[at.v + i][at.v + k] = x
+        own = at.velocities
+        for k in own:
+            unit = [g.one if i == k else g.zero for i in own]
+            for i, x in zip(own, bracket(g, [m.v[j] for j in own], unit), strict=True):
+                ad[i][k] = x
     outputs = {"qdot": _vector(rates), "N": _matrix(N), "Nq": _matrix(Nq), "back": _matrix(back), "ad": _matrix(ad)}
     return _program(model, "tangent", g, outputs)

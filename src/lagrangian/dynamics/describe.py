@@ -16,7 +16,7 @@ from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.constraints import rows, slip_rate
 from lagrangian.dynamics.description import Description, Inputs
-from lagrangian.dynamics.floating import Float, floating_body, floating_rates
+from lagrangian.dynamics.floating import Float, floating_body, floating_rates, quaternion_rotation
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.rotations import along_axis
@@ -86,8 +86,9 @@ def velocities(model: Model, graph: Graph, inputs: Inputs) -> tuple[list[int], d
     for frame in model.floating:
         assert frame.floating is not None
         i, k = q_at[frame.floating.coordinates[0].name], v_at[frame.floating.velocities[0].name]
-        floats[frame] = Float(i, k)
-        rates[i : i + 7] = floating_rates(graph, inputs.q[i : i + 7], inputs.v[k : k + 6])
+        at = floats[frame] = Float(i, k, frame.floating.held)
+        own = [inputs.v[j] for j in at.velocities]
+        rates[at.coordinates] = floating_rates(graph, inputs.q[at.coordinates], own)
     return rates, floats
 
 
@@ -111,9 +112,10 @@ def _symbols(model: Model, inputs: Inputs, rates: Sequence[int]) -> dict[Any, in
 
 def _geometry(d: Description, floats: Mapping[Frame, Float]) -> None:
     """All points and frames that are named in the model or used by its elements, parents first."""
-    q, v = d.inputs.q, d.inputs.v
     for frame, at in floats.items():
-        d.axes[frame], d.places[frame.origin] = floating_body(d.motion, q[at.q : at.q + 7], v[at.v : at.v + 6])
+        if not at.held:
+            u = [d.inputs.v[j] for j in at.velocities]
+            d.axes[frame], d.places[frame.origin] = floating_body(d.motion, d.inputs.q[at.coordinates], u)
     things: dict[int, Any] = {}
     waiting: list[Any] = [*d.model.points, *d.model.frames]
     for element in d.model.elements:
@@ -129,12 +131,19 @@ def _geometry(d: Description, floats: Mapping[Frame, Float]) -> None:
         if thing in d.axes or thing in d.places:
             continue
         if hasattr(thing, "angle"):
-            d.axes[thing] = _axes(d, thing)
+            d.axes[thing] = _held(d, thing, floats[thing]) if thing in floats else _axes(d, thing)
         elif thing.is_origin:
             d.places[thing] = d.motion.ground
         else:
             axes = d.motion.root if thing.frame is None else d.axes[thing.frame]
             d.places[thing] = d.motion.place(d.places[thing.parent], axes, d.nodes(thing.offset))
+
+
+def _held(d: Description, frame: Frame, at: Float) -> Axes:
+    """The axes of a frame in a ball joint."""
+    parent = d.motion.root if frame.parent is None else d.axes[frame.parent]
+    turn = quaternion_rotation(d.graph, d.inputs.q[at.orientation])
+    return d.motion.turned_axes(parent, turn, [d.inputs.v[j] for j in at.turning])
 
 
 def _axes(d: Description, frame: Any) -> Axes:

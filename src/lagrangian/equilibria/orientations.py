@@ -44,7 +44,7 @@ class SoughtOrientations:
                 fix="describe its orientation by three angles instead (frames about axes)",
                 code="E202",
             )
-        return cls(tuple(names.index(f.coordinates[3].name) for f in floating), len(model.velocities))
+        return cls(tuple(names.index(f.orientation[0].name) for f in floating), len(model.velocities))
 
     def __bool__(self) -> bool:
         return bool(self.places)

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class FloatingStates:
-    """The minimal states of a model with floating frames: their names, Z as ``basis``, Z⁺ as ``back``, and Z⁺ Ż."""
+    """The minimal states of a model with quaternions: their names, Z as ``basis``, Z⁺ as ``back``, and Z⁺ Ż."""
 
     names: tuple[str, ...]
     basis: Array
@@ -38,7 +38,7 @@ class FloatingStates:
         """Those at a state x, which moves with ẋ."""
         names = [*(c.name for c in model.coordinates), *(v.name for v in model.velocities)]
         quaternions = {
-            f.floating.coordinates[3].name: f.floating.coordinates[0].name.removesuffix("_x")
+            f.floating.orientation[0].name: f.floating.orientation[0].name.removesuffix("_qx")
             for f in model.floating
             if f.floating is not None
         }

@@ -191,7 +191,7 @@ class Kinematics:
         names = [c.name for c in self.model.coordinates]
         for frame in self.model.floating:
             assert frame.floating is not None
-            k = names.index(frame.floating.coordinates[3].name)
+            k = names.index(frame.floating.orientation[0].name)
             q[k : k + 4] /= np.linalg.norm(q[k : k + 4])
         return q
 

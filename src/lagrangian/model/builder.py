@@ -9,9 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
-from lagrangian import bounded
 from lagrangian.errors import ModelError, NoSuchEntry, Place
 from lagrangian.model.body_checks import check_body
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use
@@ -20,11 +18,10 @@ from lagrangian.model.declarations import Declarations
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Body, Element, FieldKind, Level
 from lagrangian.model.floating import Floating
-from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
+from lagrangian.model.geometry import Frame, Point, as_axis, as_expr, as_vector, is_listed
 from lagrangian.model.model import Model
-from lagrangian.model.names import check_name, is_text, time
+from lagrangian.model.names import check_name, is_text
 from lagrangian.model.rows import check_rows, with_pressing_rows
-from lagrangian.model.symbols import Coordinate, Velocity
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000
@@ -137,7 +134,7 @@ class Builder(Declarations):
         check_kind(parent, Frame, f"the parent of {what}", place)
         check_kind(origin, Point, f"the origin of {what}", place)
         expr = as_expr(angle, f"the angle of {what}", place=place)
-        turned = None if axis is None else self._axis(axis, what, place)
+        turned = None if axis is None else as_axis(axis, what, place=place)
         if parent is not None and (parent.dimension == 2) != (turned is None):
             raise ModelError(
                 f"{what} and its parent must both have an axis (space) or both have none (plane)",
@@ -161,35 +158,38 @@ class Builder(Declarations):
         """
         name = self._claim_place(name, "frame", self._frames, place)
         self._fit(3, f"frame '{name}'", place)
-        made = Floating.named(name, place)
         at = self._claim_place(f"{name}_origin", "point", self._points, place)
-        for x in (*made.coordinates, *made.velocities):
-            self._claim(x.name, "coordinate" if x in made.coordinates else "velocity", place)
-        self._coordinates.update((c.name, c) for c in made.coordinates)
-        self._velocities.update((v.name, v) for v in made.velocities)
-        self._symbols.update(x.symbol for x in (*made.coordinates, *made.velocities))
+        made = self.quaternion(name, place=place)
         origin = self._points[at] = Point(at, self.origin, made.position, None, self, place)
         frame = self._frames[name] = Frame(name, None, None, sp.S.Zero, origin, self, place, floating=made)
         self._checked.update({id(origin): origin, id(frame): frame})
         return frame
 
-    @staticmethod
-    def _axis(axis: object, what: str, place: Place | None) -> tuple[sp.Expr, ...]:
-        vector = as_vector(axis, f"the axis of {what}", place=place)
-        if len(vector) != 3:
-            raise ModelError(f"the axis of {what} needs three components", place=place, code="E414")
-        if any(v.has(AppliedUndef, time) for v in vector):
-            raise ModelError(
-                f"the axis of {what} moves",
-                place=place,
-                fix="an axis is fixed in its parent; turn the parent instead",
-                code="E409",
-            )
-        norm2 = bounded.expand(sp.Add(*(v**2 for v in vector)))
-        if norm2 == 0:
-            raise ModelError(f"the axis of {what} is (0, 0, 0)", place=place, fix="axis=(0, 0, 1)", code="E409")
-        norm = sp.S.One if bounded.is_one(norm2) else sp.sqrt(norm2)
-        return tuple(v / norm for v in vector)
+    def ball_frame(
+        self,
+        name: str,
+        *,
+        parent: Frame | None = None,
+        origin: Point | None = None,
+        declared: Floating | None = None,
+        place: Place | None = None,
+    ) -> Frame:
+        """Add a frame that turns freely about ``origin``, which moves with ``parent``: four coordinates, three
+        quasi-velocities (`Floating`), unless they were ``declared`` before.
+        """
+        what = f"frame '{name}'" if is_text(name) else "a frame"
+        name = self._claim_place(name, "frame", self._frames, place)
+        check_kind(parent, Frame, f"the parent of {what}", place)
+        check_kind(origin, Point, f"the origin of {what}", place)
+        self._fit(3, what, place)
+        base = origin if origin is not None else (parent.origin if parent is not None else self.origin)
+        self._check_point(base, f"the origin of {what}", place)
+        if parent is not None:
+            self._check_frame(parent, f"the parent of {what}", place)
+        made = declared or self.quaternion(name, held=True, place=place)
+        frame = self._frames[name] = Frame(name, parent, None, sp.S.Zero, base, self, place, floating=made)
+        self._checked[id(frame)] = frame
+        return frame
 
     def _claim_place(self, name: str, what: str, table: Mapping[str, Any], place: Place | None) -> str:
         self._frozen = None
@@ -254,8 +254,8 @@ class Builder(Declarations):
         for key, entry in element.entries.items():
             value: Any = getattr(element, key)
             if entry.kind is FieldKind.COORDINATE:
-                floats = [f.floating for f in self._frames.values() if f.floating is not None]
-                check_acted_on(element, value, (*self.coordinates, *self._velocities.values()), floats)
+                known = (*self.coordinates, *self._velocities.values())
+                check_acted_on(element, value, known, self._quaternions)
             elif entry.kind in (FieldKind.VECTOR, FieldKind.EXPRESSION_OR_VECTOR) and is_listed(value):
                 self._fit(len(value), f"the {key} of {element.title}", element.place)
         for use in element.uses():
@@ -310,12 +310,6 @@ class Builder(Declarations):
     def is_free(self, name: str) -> bool:
         """Whether no symbol has this name."""
         return not any(name in table for table in self._symbol_tables)
-
-    @property
-    def floating(self) -> tuple[Coordinate | Velocity, ...]:
-        """The coordinates and velocities of floating frames, in order."""
-        frames = [f.floating for f in self._frames.values() if f.floating is not None]
-        return tuple(x for f in frames for x in (*f.coordinates, *f.velocities))
 
     @property
     def elements(self) -> tuple[Element, ...]:

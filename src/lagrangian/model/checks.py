@@ -150,7 +150,7 @@ def check_acted_on(
                 f"'{name}' is an entry of a quaternion: no force acts along it alone",
                 element=element.title,
                 place=element.place,
-                fix=f"act on {' or '.join(v.name for v in floating.velocities[3:])}, moments about its own axes",
+                fix=f"act on {' or '.join(v.name for v in floating.turning)}, moments about its own axes",
                 code="E402",
             )
     if coordinate not in [x.symbol for x in known]:

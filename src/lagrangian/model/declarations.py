@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.errors import ModelError, Notice, Place, did_you_mean
 from lagrangian.model.body_checks import ConstantValues
 from lagrangian.model.checks import checked_number
+from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
@@ -35,6 +36,7 @@ class Declarations:
     def __init__(self) -> None:
         self._coordinates: dict[str, Coordinate] = {}
         self._velocities: dict[str, Velocity] = {}  # quasi-velocities; rates of coordinates need no declaration
+        self._quaternions: list[Floating] = []
         self._parameters: dict[str, Parameter] = {}
         self._values: dict[Any, float] = {}  # of the parameters that have one
         self._inputs: dict[str, Input] = {}
@@ -49,6 +51,11 @@ class Declarations:
     def coordinates(self) -> tuple[Coordinate, ...]:
         """The coordinates declared so far, in order."""
         return tuple(self._coordinates.values())
+
+    @property
+    def floating(self) -> tuple[Coordinate | Velocity, ...]:
+        """The coordinates and velocities of frames with a quaternion, in order."""
+        return tuple(x for f in self._quaternions for x in (*f.coordinates, *f.velocities))
 
     def _claim(self, name: str, what: str, place: Place | None) -> str:
         self._frozen = None
@@ -120,6 +127,17 @@ class Declarations:
         made = Input(name, moving_symbol(name), description, unit, place)
         self._inputs[name] = made
         self._symbols.add(made.symbol)
+        return made
+
+    def quaternion(self, name: str, *, held: bool = False, place: Place | None = None) -> Floating:
+        """Declare the coordinates and quasi-velocities of a frame that floats, or is ``held`` by a ball joint."""
+        made = Floating.named(name, place, held=held)
+        for x in (*made.coordinates, *made.velocities):
+            self._claim(x.name, "coordinate" if x in made.coordinates else "velocity", place)
+        self._coordinates.update((c.name, c) for c in made.coordinates)
+        self._velocities.update((v.name, v) for v in made.velocities)
+        self._symbols.update(x.symbol for x in (*made.coordinates, *made.velocities))
+        self._quaternions.append(made)
         return made
 
     def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:

@@ -22,6 +22,7 @@ from numbers import Rational, Real
 from typing import TYPE_CHECKING, Any, TypeGuard, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
@@ -118,6 +119,25 @@ def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple
     return tuple(as_expr(v, f"component {i} of {what}", place=place) for i, v in enumerate(components, 1))
 
 
+def as_axis(axis: object, what: str, *, place: Place | None = None) -> tuple[sp.Expr, ...]:
+    """Return the direction of an axis of rotation in space, with length 1; it must not move."""
+    vector = as_vector(axis, f"the axis of {what}", place=place)
+    if len(vector) != 3:
+        raise ModelError(f"the axis of {what} needs three components", place=place, code="E414")
+    if any(v.has(AppliedUndef, time) for v in vector):
+        raise ModelError(
+            f"the axis of {what} moves",
+            place=place,
+            fix="an axis is fixed in its parent; turn the parent instead",
+            code="E409",
+        )
+    norm2 = bounded.expand(sp.Add(*(v**2 for v in vector)))
+    if norm2 == 0:
+        raise ModelError(f"the axis of {what} is (0, 0, 0)", place=place, fix="axis=(0, 0, 1)", code="E409")
+    norm = sp.S.One if bounded.is_one(norm2) else sp.sqrt(norm2)
+    return tuple(v / norm for v in vector)
+
+
 @dataclass(frozen=True, eq=False)
 class Point(Brief):
     """A point, given by an offset from its parent along the axes of a frame (the fixed axes if ``frame`` is None).
@@ -185,7 +205,8 @@ class Frame(Brief):
     """Axes turned by ``angle`` from the parent's axes, about ``axis`` (given in the parent's axes; None in the plane).
 
     ``origin`` is the point from which ``frame.point`` measures; by default it is that of the parent. A floating frame
-    has no angle or axis but ``floating``, and its origin moves with it.
+    has no angle or axis but ``floating``, and its origin moves with it; so has one that turns in a ball joint, whose
+    origin is a point that the parent carries.
     """
 
     name: str | None
@@ -263,15 +284,16 @@ class Frame(Brief):
     def angular_velocity(self) -> tuple[sp.Expr, ...]:
         """The angular velocity: ``(ω,)`` in the plane; in space three components in this frame's own axes.
 
-        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes); for a floating
-        frame, the components are its own quasi-velocities.
+        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes); with a quaternion,
+        the frame's own quasi-velocities take the place of n φ̇.
         """
         if self.floating is not None:
-            return self.floating.angular_velocity
-        rate = bounded.diff(self.angle, time)
-        if self.axis is None:
-            return (bounded.diff(self.total_angle, time),)
-        own = tuple(n * rate for n in self.axis)
+            own = self.floating.angular_velocity
+        else:
+            rate = bounded.diff(self.angle, time)
+            if self.axis is None:
+                return (bounded.diff(self.total_angle, time),)
+            own = tuple(n * rate for n in self.axis)
         if self.parent is None:
             return own
         before = turned(cast("sp.MatrixBase", self.local_rotation.T), self.parent.angular_velocity)

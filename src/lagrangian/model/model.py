@@ -124,12 +124,18 @@ class Model(Brief):
 
     @cached_property
     def floating(self) -> tuple[Frame, ...]:
-        """The frames that float, in order."""
+        """The frames with a quaternion, which float or turn in a ball joint, in order."""
         return tuple(f for f in self.frames if f.floating is not None)
 
-    @cached_property
+    @property
     def velocities(self) -> tuple[Velocity, ...]:
-        """The velocities v in the order of the coordinates: their rates, and six quasi-velocities a floating frame."""
+        """The velocities v in the order of the coordinates: their rates, and six quasi-velocities of each floating
+        frame, three of each frame in a ball joint.
+        """
+        return self._velocities
+
+    @cached_property
+    def _velocities(self) -> tuple[Velocity, ...]:
         floats = {c.name: f.floating for f in self.floating if f.floating is not None for c in f.floating.coordinates}
         found: dict[str, Velocity] = {}
         for c in self.coordinates:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import sympy as sp
 
 from lagrangian.errors import ParseError, did_you_mean
-from lagrangian.model import Frame, Point
+from lagrangian.model import Floating, Frame, Point
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
 from lagrangian.read.toml_index import Path
@@ -34,6 +34,7 @@ class Geometry:
         self.loader, self.file, self.index, self.data = loader, loader.file, loader.index, loader.data
         self.points: dict[str, Point] = {"origin": loader.builder.origin}
         self.frames: dict[str, Frame] = {}  # floating frames and their origins already exist
+        self.held: dict[str, Floating] = {}  # so do the variables of ball joints
         self.frame_numbers: dict[str, int] = {}
         self.making: list[str] = []
 
@@ -111,25 +112,39 @@ class Geometry:
         self._enter(f"frame '{name}'", path)
         own = ("frame", self.frame_numbers[name])
         table = self.file.frame[self.frame_numbers[name]]
-        what = f"frame '{name}'"
         parent = self.frame(table.parent, (*own, "parent")) if table.parent is not None else None
         origin = self.named_point(table.origin, (*own, "origin")) if table.origin is not None else None
+        if (held := self.held.get(name)) is not None:
+            made = self._ball(name, own, parent, origin, held)
+        else:
+            made = self._turned(table, own, parent, origin)
+        self.frames[name] = made
+        self.making.pop()
+        return made
+
+    def _ball(self, name: str, own: Path, parent: Frame | None, origin: Point | None, held: Floating) -> Frame:
+        builder, place = self.loader.builder, self.index.of_key(own)
+        return self.loader.placed(
+            lambda: builder.ball_frame(name, parent=parent, origin=origin, declared=held, place=place), place
+        )
+
+    def _turned(self, table: schema.FrameTable, own: Path, parent: Frame | None, origin: Point | None) -> Frame:
+        """A frame that is turned by an angle."""
+        name, what = table.name, f"frame '{table.name}'"
         if table.angle is None:
             raise ParseError(
                 "the field 'angle' is missing",
                 element=what,
                 place=self.index.of_key(own),
-                fix="write angle = …: the angle from its parent's axes; or floating = true",
+                fix="write angle = …: the angle from its parent's axes; or ball = true, or floating = true",
                 code="E401",
             )
         angle = self.loader.expression(table.angle, (*own, "angle"), f"angle of {what}")
         axis = self.loader.vector(table.axis, (*own, "axis"), f"the axis of {what}") if table.axis is not None else None
         place = self.index.of_key(own)
-        self.frames[name] = self.loader.placed(
+        return self.loader.placed(
             lambda: self.loader.builder.frame(name, angle, axis=axis, parent=parent, origin=origin, place=place), place
         )
-        self.making.pop()
-        return self.frames[name]
 
     def frame_or_angle(self, value: Any, path: Path, what: str) -> Frame | sp.Expr:
         """Return the frame with a name, or otherwise the expression of an angle."""

@@ -43,7 +43,8 @@ def load(path: str | FilePath) -> Builder:
         raise _unreadable(name, "the file may not be read", "check its permissions") from None
     except (OSError, ValueError) as error:
         raise _unreadable(name, f"the file cannot be read ({error})", "check the path") from None
-    return loads(decode(data, name), name)
+    text = decode(data, name)
+    return read_robot(text, name, FilePath(path).parent) if is_markup(text) else loads(text, name)
 
 
 def _unreadable(name: str, what: str, fix: str) -> ModelError:

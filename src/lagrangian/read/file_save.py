@@ -183,7 +183,7 @@ class _Writer:
         )
         for key, frame in self.frame_table.items():
             self._frame_table(self.frames[key], frame)
-        given = {id(f.origin) for f in model.floating}
+        given = {id(f.origin) for f in model.floating if f.floating is not None and not f.floating.held}
         points = [p for p in self._all_points() if id(p) in self.points and id(p) not in given]
         self._section("points", ((self.points[id(p)], self.offset(p, f"point '{p.name}'")) for p in points))
         for element in model.elements:
@@ -200,17 +200,17 @@ class _Writer:
         what = f"frame '{name}'"
         rows = [("name", _text(name))]
         if frame.floating is not None:
-            rows += [("floating", "true"), *self._after(frame.floating)]
-            self.lines += ["", "[[frame]]", *(f"{key} = {value}" for key, value in rows)]
-            return
-        rows.append(("angle", self.expression(frame.angle, f"the angle of {what}")))
+            rows += [("ball" if frame.floating.held else "floating", "true"), *self._after(frame.floating)]
+        else:
+            rows.append(("angle", self.expression(frame.angle, f"the angle of {what}")))
         if frame.axis is not None:
             rows.append(("axis", self.vector(frame.axis, f"the axis of {what}")))
-        if frame.parent is not None:
-            rows.append(("parent", _text(self.frames[id(frame.parent)])))
-        default = frame.parent.origin if frame.parent is not None else self.model.origin
-        if frame.origin is not default:
-            rows.append(("origin", self.point(frame.origin, what)))
+        if frame.floating is None or frame.floating.held:
+            if frame.parent is not None:
+                rows.append(("parent", _text(self.frames[id(frame.parent)])))
+            default = frame.parent.origin if frame.parent is not None else self.model.origin
+            if frame.origin is not default:
+                rows.append(("origin", self.point(frame.origin, what)))
         self.lines += ["", "[[frame]]", *(f"{key} = {value}" for key, value in rows)]
 
     def _after(self, floating: Floating) -> list[tuple[str, str]]:

@@ -103,11 +103,15 @@ PointReference: TypeAlias = Annotated[_Text | _List | _Point, _ByForm]
 
 
 class FrameTable(_Table):
-    """Axes that turn, or float."""
+    """Axes that turn about an axis, in a ball joint, or float."""
 
     model_config = ConfigDict(
         json_schema_extra={
-            "anyOf": [{"required": ["angle"]}, {"required": ["floating"], "properties": {"floating": {"const": True}}}]
+            "anyOf": [
+                {"required": ["angle"]},
+                {"required": ["floating"], "properties": {"floating": {"const": True}}},
+                {"required": ["ball"], "properties": {"ball": {"const": True}}},
+            ]
         }
     )
 
@@ -121,9 +125,20 @@ class FrameTable(_Table):
         description="It floats in space, instead of an angle: coordinates NAME_x, NAME_y, NAME_z and the quaternion "
         "NAME_qx … NAME_qw; velocities NAME_vx … and NAME_wx … in its own axes; its origin is the point NAME_origin.",
     )
-    after: str | None = Field(
-        None, description="The coordinate, or the floating frame, that its coordinates follow; first if left out."
+    ball: bool = Field(
+        False,
+        description="It turns freely about its origin, instead of by an angle: the coordinates are the quaternion "
+        "NAME_qx … NAME_qw, from its axes to its parent's; velocities NAME_wx … in its own axes, against its parent.",
     )
+    after: str | None = Field(
+        None,
+        description="The coordinate, or the frame with a quaternion, that its coordinates follow; first if left out.",
+    )
+
+    @property
+    def has_quaternion(self) -> bool:
+        """Whether it has coordinates of its own."""
+        return self.floating or self.ball
 
 
 class ElementTable(_Table):

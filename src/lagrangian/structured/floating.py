@@ -1,4 +1,4 @@
-"""What a floating frame adds to a derivation: speeds that are not the rates of coordinates, and their equations.
+"""What a frame with a quaternion adds to a derivation: speeds that are not rates of coordinates, and their equations.
 
 The position and the quaternion e of a frame say where it is; the six quasi-velocities u, its velocity v and its angular
 velocity ω in its own axes, say how it moves: q̇ = N(q) u. Lagrange's equations for such speeds are those of Boltzmann
@@ -8,7 +8,9 @@ and Hamel,
     d/dt ∂L/∂ω + ω × ∂L/∂ω + v × ∂L/∂v − ∂L/∂π_ω = Ξ_ω
 
 with ∂/∂π_k = Σ_j N_jk ∂/∂q_j, the change along the motion that u_k alone makes; π_k is called a quasi-coordinate, and
-has no value. Source: L. Meirovitch, Methods of Analytical Dynamics, McGraw-Hill 1970, §4.12; signs checked by tests.
+has no value. A frame in a ball joint has no velocity v of its own: ω is its angular velocity relative to the frame that
+carries it, and v × ∂L/∂v falls away. Source: L. Meirovitch, Methods of Analytical Dynamics, McGraw-Hill 1970, §4.12;
+signs checked by tests.
 """
 
 # SymPy has no type stubs:
@@ -51,14 +53,14 @@ NEXT = {0: (1, 2), 1: (2, 0), 2: (0, 1)}
 
 
 def floats(model: Model) -> Iterator[tuple[str, Floating]]:
-    """The names of the floating frames of a model, with their variables."""
+    """The names of the frames of a model that float or turn in a ball joint, with their variables."""
     for frame in model.floating:
         assert frame.floating is not None and frame.name is not None
         yield frame.name, frame.floating
 
 
 def quasi_velocities(model: Model) -> dict[sp.Expr, tuple[Floating, int]]:
-    """For the symbol of every quasi-velocity, the frame's variables and its place among the six."""
+    """For the symbol of every quasi-velocity, the frame's variables and its place among them."""
     return {v.symbol: (f, k) for _, f in floats(model) for k, v in enumerate(f.velocities)}
 
 
@@ -73,9 +75,11 @@ def moved_by(model: Model) -> dict[Velocity, sp.Expr]:
 
 def free(model: Model) -> Step:
     """Step 0: nothing restricts the velocities, and the quaternions' lengths say nothing."""
-    names = [name for name, _ in floats(model)]
-    GC, DDOF = len(model.coordinates) - len(names), len(model.velocities)
-    which = f"frame {names[0]} floats" if len(names) == 1 else f"frames {', '.join(names)} float"
+    count = len(list(floats(model)))
+    GC, DDOF = len(model.coordinates) - count, len(model.velocities)
+    which = _which([n for n, f in floats(model) if not f.held], "floats", "float")
+    turning = _which([n for n, f in floats(model) if f.held], "turns in a ball joint", "turn in ball joints")
+    which = " and ".join(x for x in (which, turning) if x)
     return Step(
         0,
         "Holonomic?",
@@ -97,6 +101,11 @@ def free(model: Model) -> Step:
         {"holonomic": True, "GC": GC, "DDOF": DDOF},
         (text(f"holonomic: #GC = #DDOF = {GC}, because no constraint on velocities was described"),),
     )
+
+
+def _which(names: Sequence[str], one: str, many: str) -> str:
+    """``frame base floats``, ``frames a, b float``; nothing without names."""
+    return f"frame {names[0]} {one}" if len(names) == 1 else f"frames {', '.join(names)} {many}" if names else ""
 
 
 def held_floating(model: Model, known: Constraints) -> Step:
@@ -144,13 +153,19 @@ def speeds(model: Model) -> Step:
         Table((text("speed"), text("what it is")), tuple(rows)),
         text(
             "Complete: the coordinates (and t) determine the position of every mass; nothing else in the system moves. "
-            "Independent: every speed can be chosen while the others are 0. The speeds of a floating frame are called "
-            "quasi-velocities, because they are not the rates of coordinates."
+            "Independent: every speed can be chosen while the others are 0. The speeds of a frame with a quaternion "
+            "are called quasi-velocities, because they are not the rates of coordinates."
         ),
     ]
     shown: dict[sp.Expr, sp.Expr] = {}
-    for k, (name, f) in enumerate(floats(model)):
-        items += list(_kinematics(name, f)) if k == 0 else [text(f"The same holds for {name}.")]
+    carriers = {frame.name: frame.parent for frame in model.floating}
+    explained: set[bool] = set()
+    for name, f in floats(model):
+        parent = carriers[name]
+        around = "the fixed axes" if parent is None else f"the axes of {parent.name}" if parent.name else "its parent's"
+        known = f.held in explained and parent is None
+        items += [text(f"The same holds for {name}.")] if known else list(_kinematics(name, f, around))
+        explained.add(f.held)
         shown |= rates(f)
     return Step(
         1,
@@ -169,7 +184,7 @@ def speeds(model: Model) -> Step:
 
 def rates(f: Floating) -> dict[sp.Expr, sp.Expr]:
     """q̇ = N(q) u by coordinate: ṗ = R v and ė = ½ e ∘ (ω, 0)."""
-    moved = f.rotation * sp.Matrix(f.velocity)
+    moved = [] if f.held else f.rotation * sp.Matrix(f.velocity)
     return dict(zip((c.symbol for c in f.coordinates), [*moved, *_turning(f)], strict=True))
 
 
@@ -185,8 +200,8 @@ def _turning(f: Floating) -> list[sp.Expr]:
     ]
 
 
-def _kinematics(name: str, f: Floating) -> Iterator[Item]:
-    """How position and quaternion follow from the speeds."""
+def _kinematics(name: str, f: Floating, around: str) -> Iterator[Item]:
+    """How position and quaternion follow from the speeds; ``around`` are the axes against which the frame turns."""
     x, y, z, w = f.quaternion
     turned = [
         [1 - 2 * (y**2 + z**2), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -194,12 +209,13 @@ def _kinematics(name: str, f: Floating) -> Iterator[Item]:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x**2 + y**2)],
     ]
     yield text(
-        f"The matrix R turns the axes of {name} into the fixed axes (a quaternion of another length than 1 is divided "
+        f"The matrix R turns the axes of {name} into {around} (a quaternion of another length than 1 is divided "
         "by its length first):"
     )
     yield formula(Name("R"), Matrix(tuple(tuple(row) for row in turned)))
-    yield text(f"The rates of the position of {name} are R times its velocity; those of its quaternion are")
-    for c, rate in zip(f.coordinates[3:], _turning(f), strict=True):
+    position = "" if f.held else f"The rates of the position of {name} are R times its velocity; "
+    yield text(position + ("The rates of its quaternion are" if f.held else "those of its quaternion are"))
+    for c, rate in zip(f.orientation, _turning(f), strict=True):
         yield formula(c.rate, rate)
 
 
@@ -219,24 +235,28 @@ def check_speeds(model: Model) -> None:
 # -- step 5 ------------------------------------------------------------------------------------------------------------
 
 
-def laws() -> Iterator[Item]:
+def laws(model: Model) -> Iterator[Item]:
     """Lagrange's equations for quasi-velocities, and why they have more terms."""
     v, w, L = Name("v"), Name("omega"), Name("L")
     by_v, by_w = Partial(L, v), Partial(L, w)
+    kinds = {f.held for _, f in floats(model)}
+    whose = {False: "The six speeds of a floating frame", True: "The three speeds of a frame in a ball joint"}
     yield text(
-        "The six speeds of a floating frame are not the rates of coordinates: a frame that is turned about x and then "
-        "about y ends in another orientation than one that is turned in the other order. So d/dt and δ cannot be "
-        "interchanged as they can for a coordinate; the difference is a product with ",
-        w,
-        " or ",
-        v,
+        f"{whose[min(kinds)]} are not the rates of coordinates: a frame that is turned about x and then about y ends "
+        "in another orientation than one that is turned in the other order. So d/dt and δ cannot be interchanged as "
+        "they can for a coordinate; the difference is a product with ",
+        *((w,) if kinds == {True} else (w, " or ", v)),
         ". The equations that contain it are those of Boltzmann and Hamel:",
     )
-    yield text(Total(by_v), " + ", w, " × ", by_v, " − ", _along("v"), " = ", Name("Xi", "v"), ",")
-    yield text(
-        *(Total(by_w), " + ", w, " × ", by_w, " + ", v, " × ", by_v),
-        *(" − ", _along("omega"), " = ", Name("Xi", "omega"), "."),
-    )
+    turning = (Total(by_w), " + ", w, " × ", by_w)
+    end = (" − ", _along("omega"), " = ", Name("Xi", "omega"))
+    if False in kinds:
+        yield text(Total(by_v), " + ", w, " × ", by_v, " − ", _along("v"), " = ", Name("Xi", "v"), ",")
+        yield text(*turning, " + ", v, " × ", by_v, *end, ".")
+    if kinds == {False, True}:
+        yield text("A frame in a ball joint has no velocity of its own:")
+    if True in kinds:
+        yield text(*turning, *end, ".")
     yield text(
         "All vectors are in the axes of the frame. ",
         _along("k"),
@@ -273,6 +293,8 @@ def _bracket(f: Floating, k: int) -> list[Left]:
         second = Product((a[j], Partial(Name("L"), b[i])))
         return [Product((a[i], Partial(Name("L"), b[j]))), Minus(second)]
 
+    if f.held:
+        return crossed(w, w)
     return crossed(w, v) if k < 3 else [*crossed(w, w), *crossed(v, v)]
 
 

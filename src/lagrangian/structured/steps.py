@@ -303,7 +303,7 @@ class ListedSteps:
             if by_rows
             else formula(law, Name("Xi", "i"), brief=True)
         ]
-        items += [*laws()] if self.model.floating else []
+        items += [*laws(self.model)] if self.model.floating else []
         items += self._reason()
         items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
         shown: dict[str, dict[sp.Expr, sp.Expr]] = {"momenta": {}, "gradients": {}, "left_hand_sides": {}}

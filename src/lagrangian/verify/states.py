@@ -55,7 +55,7 @@ def random_states(model: Model, forward: Program, count: int, seed: int) -> Iter
     Quaternions may have any length. Raises `ModelError` if `TRIES` states have no finite accelerations.
     """
     source, missed = random.Random(seed), 0
-    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
+    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.orientation}
     while count:
         state = {
             "q": [source.gauss() if c.name in quaternions else source.uniform(-1, 1) for c in model.coordinates],

@@ -75,7 +75,7 @@ INWARD = "_out"
 
 _POSITION = tuple(Letter(x) for x in "xyz")
 _QUATERNION = tuple(Letter("epsilon", (x,)) for x in "xyzw")
-_SPEEDS = tuple(Letter(base, (x,)) for base in ("v", "omega") for x in "xyz")
+_MOVING, _TURNING = (tuple(Letter(base, (x,)) for x in "xyz") for base in ("v", "omega"))
 
 
 def _floating(model: Model, others: Mapping[str, Letter]) -> dict[str, Letter]:
@@ -90,7 +90,8 @@ def _floating(model: Model, others: Mapping[str, Letter]) -> dict[str, Letter]:
     for frame, f in floats:
         names = [x.name for x in (*f.coordinates, *f.velocities)]
         for index in ((), (frame,)) if len(floats) == 1 else ((frame,),):
-            made = [replace(x, sub=(*x.sub, *index)) for x in (*_POSITION, *_QUATERNION, *_SPEEDS)]
+            own_letters = (*_QUATERNION, *_TURNING) if f.held else (*_POSITION, *_QUATERNION, *_MOVING, *_TURNING)
+            made = [replace(x, sub=(*x.sub, *index)) for x in own_letters]
             if not any((x.base, x.sub) in taken for x in made):
                 found |= dict(zip(names, made, strict=True))
                 break

@@ -20,7 +20,7 @@ from lagrangian.model.elements.answers import ActsOn, Entry, Measure, MovingMass
 from lagrangian.model.elements.vectors import diagonal, norm
 from lagrangian.model.geometry import Frame, Point, is_listed
 from lagrangian.model.names import is_text, time
-from lagrangian.model.symbols import Coordinate
+from lagrangian.model.symbols import Coordinate, Velocity
 from lagrangian.page.formula import Name
 from lagrangian.viewed import Brief
 
@@ -42,6 +42,11 @@ class Surroundings(Protocol):
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """The generalized coordinates."""
+        ...
+
+    @property
+    def velocities(self) -> tuple[Velocity, ...]:
+        """The velocities: rates of coordinates, and quasi-velocities."""
         ...
 
     @property

@@ -80,7 +80,7 @@ class Kinetic(Energy):
 
     def masses(self, model: Surroundings) -> Iterator[MovingMass]:
         """Its momenta ∂T*/∂ξ̇, each by itself: what changes none of them moves no mass."""
-        momenta = tuple(bounded.diff(self.kinetic(model), c.rate) for c in model.coordinates)
+        momenta = tuple(bounded.diff(self.kinetic(model), v.symbol) for v in model.velocities)
         yield MovingMass(momenta, diagonal((sp.S.One,) * len(momenta)))
 
 
@@ -102,10 +102,10 @@ class Dissipation(Energy):
     def works(self, model: Surroundings) -> tuple[Action, ...]:
         """−∂D/∂ξ̇_i on each coordinate."""
         d = model.expand(self.value)
+        rates: dict[sp.Expr, sp.Expr] = {c.rate: c.symbol for c in model.coordinates}
+        moved = [(v.symbol, rates.get(v.symbol, v.symbol)) for v in model.velocities]
         return tuple(
-            Action(-effort, c.rate, (c.symbol,), c.symbol)
-            for c in model.coordinates
-            if (effort := bounded.diff(d, c.rate)) != 0
+            Action(-effort, rate, (symbol,), symbol) for rate, symbol in moved if (effort := bounded.diff(d, rate)) != 0
         )
 
     def dissipation(self, model: Surroundings) -> sp.Expr | None:

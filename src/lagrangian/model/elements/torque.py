@@ -69,7 +69,7 @@ class Torque(Element):
             self._vector()
         elif isinstance(self.on, Frame) and self.on.floating is not None:
             raise self._error(
-                f"frame '{self.on.name}' floats, so a single value does not say about which axis the torque acts",
+                f"frame '{self.on.name}' turns freely, so a single value does not say about which axis the torque acts",
                 fix="give three components: torque((tx, ty, tz), on=frame, axes=frame)",
                 code="E414",
             )

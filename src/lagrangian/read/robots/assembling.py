@@ -6,15 +6,14 @@ values of the file, zeros stay zeros. What a fixed joint carries belongs to the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import sympy as sp
 
 from lagrangian.errors import Place
 from lagrangian.model import (
     Builder,
     Damper,
-    Force,
+    Dissipation,
+    Floating,
     Frame,
     Friction,
     Gravity,
@@ -23,9 +22,9 @@ from lagrangian.model import (
     Point,
     RigidBody,
     Spring,
-    Torque,
 )
 from lagrangian.model.names import time
+from lagrangian.read.robots.driving import CarriedBy, Drives
 from lagrangian.read.robots.naming import Identifiers
 from lagrangian.read.robots.remarks import described, remarks
 from lagrangian.read.robots.robot import Inertial, Robot, RobotJoint, RobotLink
@@ -34,22 +33,11 @@ from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector,
 SHOWN = 0.7
 """Where the picture shows a joint with limits, as a part of its range."""
 
+QUATERNION = [c.name.removeprefix("_") for c in (*Floating.named("").coordinates, *Floating.named("").velocities)]
+"""The ends of the names that a frame with a quaternion makes."""
+
 NEAR = 0.3
 """An angle [rad] that a joint must reach on both sides of 0 for the picture to choose its pose freely."""
-
-
-@dataclass(frozen=True)
-class CarriedBy:
-    """Where a link is: its origin ``at``, and its axes after ``turns`` from a frame's; no frame is the ground."""
-
-    frame: Frame | None
-    at: Point
-    turns: tuple[FixedTurn, ...] = ()
-
-    @property
-    def moves(self) -> bool:
-        """Whether the link moves."""
-        return self.frame is not None
 
 
 def assembled(robot: Robot) -> Builder:
@@ -65,29 +53,32 @@ class Assembly:
         self.builder = Builder(robot.name)
         self.names = Identifiers()
         self.floating: dict[str, Frame] = {}
+        self.held: dict[str, Floating] = {}
+        self.frames: dict[str, Frame] = {}
         self.coordinates: dict[str, tuple[sp.Expr, ...]] = {}
         self.order = robot.outwards()
+        self.carriers = {robot.root: CarriedBy(None, self.builder.origin)}
 
     def build(self) -> Builder:
         """Coordinates first, because joints may follow later ones; then links from the root outwards."""
         for joint in self.order:
             self._declare(joint)
-        ground = CarriedBy(None, self.builder.origin)
-        carriers = {self.robot.root: ground}
+        carriers = self.carriers
         for joint in self.order:
             carriers[joint.child] = self._carried(joint, carriers[joint.parent])
             self._mass(self.robot.links[joint.child], carriers[joint.child])
         for joint in self.order:
             self._resistance(joint)
             self._spring(joint)
-            self._drive(joint)
+            self._resist_turning(joint)
+        driven = Drives(self).add()
         if strength := length(self.robot.gravity):
             g = self.builder.standard_gravity(strength)
             self.builder.add(Gravity(direction=self.robot.gravity, g=g, place=self.robot.place))
         still = [name for name, carrier in carriers.items() if not carrier.moves and self.robot.links[name].inertial]
         if pose := self._pose():
             self.builder.look["pose"] = pose
-        self.builder.remarks.extend(remarks(self.robot, still, self.names.changed))
+        self.builder.remarks.extend(remarks(self.robot, still, self.names.changed, driven))
         return self.builder
 
     # -- coordinates --------------------------------------------------------------------------------------------
@@ -97,10 +88,12 @@ class Assembly:
         if joint.kind == "fixed" or joint.mimic is not None:
             return
         if joint.kind == "floating":
-            name = self.names.of(joint.child)
-            made = self.floating[joint.name] = self.builder.floating_frame(name, place=joint.place)
-            own = [x.name for x in self.builder.floating]
-            self.names.reserve(*own, made.origin.name or "")
+            name = self.names.of(joint.child, ends=("", "_origin", *(f"_{key}" for key in QUATERNION)))
+            self.floating[joint.name] = self.builder.floating_frame(name, place=joint.place)
+            return
+        if joint.kind == "ball":
+            name = self.names.of(joint.child, ends=("", *(f"_{key}" for key in QUATERNION if "q" in key or "w" in key)))
+            self.held[joint.name] = self.builder.quaternion(name, held=True, place=joint.place)
             return
         if joint.kind == "planar":
             names = [self.names.of(f"{joint.name}_{key}") for key in ("x", "y", "angle")]
@@ -147,13 +140,13 @@ class Assembly:
             if joint.pose.offset != ZERO:
                 name = self.names.of(joint.child, also="_point")
                 words = ("{}_" + name, f"{joint.child} on {joint.parent}")
-                at = self._point(carrier, joint.pose.offset, words, joint.place, name)
+                at = self.point(carrier, joint.pose.offset, words, joint.place, name)
             return CarriedBy(carrier.frame, at, turns)
         if joint.kind == "floating":
-            frame = self.floating[joint.name]
+            frame = self.frames[joint.name] = self.floating[joint.name]
             return CarriedBy(frame, frame.origin)
         own = self.names.known(joint.name)
-        at = self._point(carrier, joint.pose.offset, ("{}_" + own, f"joint {joint.name}"), joint.place)
+        at = self.point(carrier, joint.pose.offset, ("{}_" + own, f"joint {joint.name}"), joint.place)
         turns = FixedPose(ZERO, carrier.turns + joint.pose.turns).short.turns
         angle: sp.Expr = sp.S.Zero
         axis = _unit(joint.axis)
@@ -167,6 +160,11 @@ class Assembly:
         for turn in turns:
             fixed = self._angle(turn, own, joint)
             parent = self.builder.frame(None, fixed, axis=turn.axis, parent=parent, origin=at, place=joint.place)
+        if joint.kind == "ball":
+            name, held = self.names.known(joint.child), self.held[joint.name]
+            frame = self.builder.ball_frame(name, parent=parent, origin=at, declared=held, place=joint.place)
+            self.frames[joint.name] = frame
+            return CarriedBy(frame, at)
         if joint.kind == "prismatic":
             at = self._moved(at, parent, [n * (self.coordinate(joint) - self._start(joint, own)) for n in axis])
         elif joint.kind == "planar":
@@ -180,7 +178,7 @@ class Assembly:
     def _moved(self, at: Point, frame: Frame | None, offset: list[sp.Expr]) -> Point:
         return at + tuple(offset) if frame is None else frame.point(*offset, at=at)
 
-    def _point(
+    def point(
         self, carrier: CarriedBy, offset: Vector, words: tuple[str, str], place: Place, name: str | None = None
     ) -> Point:
         """The point at ``offset`` in the axes of a link; its lengths are parameters, named and described by words."""
@@ -188,7 +186,7 @@ class Assembly:
             return carrier.at
         pattern, what = words
         lengths = [
-            self._parameter(pattern.format(key), value, "m", f"{key} of {what}", place)
+            self.parameter(pattern.format(key), value, "m", f"{key} of {what}", place)
             for key, value in zip("xyz", FixedPose(ZERO, carrier.turns).along(offset), strict=True)
         ]
         return self.builder.point(name, lengths, parent=carrier.at, frame=carrier.frame, place=place)
@@ -198,11 +196,11 @@ class Assembly:
         if (exact := turn.exact).has(sp.pi):
             return exact
         key = {X: "roll", Y: "pitch", Z: "yaw"}.get(turn.axis, "angle")
-        return self._parameter(f"{key}_{name}", turn.angle, "rad", f"{key} of joint {joint.name}", joint.place)
+        return self.parameter(f"{key}_{name}", turn.angle, "rad", f"{key} of joint {joint.name}", joint.place)
 
     # -- elements -----------------------------------------------------------------------------------------------
 
-    def _parameter(self, name: str, value: float, unit: str, what: str, place: Place) -> sp.Expr:
+    def parameter(self, name: str, value: float, unit: str | None, what: str, place: Place) -> sp.Expr:
         """A new parameter, or 0 where the value is 0."""
         if value == 0:
             return sp.S.Zero
@@ -214,9 +212,9 @@ class Assembly:
         if given is None or carrier.frame is None:
             return
         name = self.names.known(link.name)
-        mass = self._parameter(f"m_{name}", given.mass, "kg", f"mass of {link.name}", given.place)
+        mass = self.parameter(f"m_{name}", given.mass, "kg", f"mass of {link.name}", given.place)
         centre = ("c{}_" + name, f"centre of mass of {link.name}")
-        at = self._point(carrier, given.centre, centre, given.place)
+        at = self.point(carrier, given.centre, centre, given.place)
         if not any(any(row) for row in given.inertia):
             self.builder.add(Particle(mass=mass, at=at, name=link.name, place=given.place))
             return
@@ -233,28 +231,41 @@ class Assembly:
             for j in range(i, 3):
                 key = "xyz"[i] + "xyz"[j]
                 what = f"inertia of {link} about its centre of mass, {key}"
-                made = self._parameter(f"I{key}_{name}", rows[i][j], "kg*m^2", what, given.place)
+                made = self.parameter(f"I{key}_{name}", rows[i][j], "kg*m^2", what, given.place)
                 entries[i, j] = entries[j, i] = made
         return [[entries[i, j] for j in range(3)] for i in range(3)]
 
     def _resistance(self, joint: RobotJoint) -> None:
         """Add a damper and dry friction on the coordinate of a joint."""
-        if joint.kind in ("fixed", "floating", "planar"):
+        if joint.kind in ("fixed", "floating", "planar", "ball"):
             return
         q, name, along = self.coordinate(joint), self.names.known(joint.name), joint.kind == "prismatic"
         if joint.damping:
             unit = "N*s/m" if along else "N*m*s"
-            b = self._parameter(f"b_{name}", joint.damping, unit, f"damping of {joint.name}", joint.place)
+            b = self.parameter(f"b_{name}", joint.damping, unit, f"damping of {joint.name}", joint.place)
             self.builder.add(Damper(b=b, deflection=q, name=f"damping of {joint.name}", place=joint.place))
         if joint.friction:
             unit = "N" if along else "N*m"
-            limit = self._parameter(f"f_{name}", joint.friction, unit, f"dry friction of {joint.name}", joint.place)
+            limit = self.parameter(f"f_{name}", joint.friction, unit, f"dry friction of {joint.name}", joint.place)
             self.builder.add(Friction(limit=limit, deflection=q, name=f"friction of {joint.name}", place=joint.place))
+
+    def _resist_turning(self, joint: RobotJoint) -> None:
+        """Add D = ½ b |ω|² and T* = ½ J |ω|² to a ball joint, ω its angular velocity."""
+        if joint.kind != "ball":
+            return
+        square = sp.Add(*(w**2 for w in self.held[joint.name].angular_velocity))
+        name, place = self.names.known(joint.child), joint.place
+        if joint.damping:
+            b = self.parameter(f"b_{name}", joint.damping, "N*m*s", f"damping of {joint.name}", place)
+            self.builder.add(Dissipation(value=b * square / 2, name=f"damping of {joint.name}", place=place))
+        if joint.armature:
+            J = self.parameter(f"J_{name}", joint.armature, "kg*m^2", f"armature of {joint.name}", place)
+            self.builder.add(Kinetic(value=J * square / 2, name=f"armature of {joint.name}", place=place))
 
     def _start(self, joint: RobotJoint, name: str) -> sp.Expr:
         """The value of the coordinate at the pose of the file."""
         unit = "m" if joint.kind == "prismatic" else "rad"
-        return self._parameter(f"ref_{name}", joint.start, unit, f"value of {joint.name} as described", joint.place)
+        return self.parameter(f"ref_{name}", joint.start, unit, f"value of {joint.name} as described", joint.place)
 
     def _spring(self, joint: RobotJoint) -> None:
         """Add a spring and the inertia of a rotor on the coordinate of a joint."""
@@ -263,34 +274,16 @@ class Assembly:
         q, name, along = self.coordinate(joint), self.names.known(joint.name), joint.kind == "prismatic"
         if joint.stiffness:
             unit = "N/m" if along else "N*m/rad"
-            k = self._parameter(f"k_{name}", joint.stiffness, unit, f"stiffness of {joint.name}", joint.place)
+            k = self.parameter(f"k_{name}", joint.stiffness, unit, f"stiffness of {joint.name}", joint.place)
             unit = "m" if along else "rad"
-            rest = self._parameter(f"rest_{name}", joint.rest, unit, f"where {joint.name} relaxes", joint.place)
+            rest = self.parameter(f"rest_{name}", joint.rest, unit, f"where {joint.name} relaxes", joint.place)
             said = f"spring of {joint.name}"
             self.builder.add(Spring(k=k, deflection=q, rest=rest, name=said, place=joint.place))
         if joint.armature:
             unit = "kg" if along else "kg*m^2"
-            J = self._parameter(f"J_{name}", joint.armature, unit, f"armature of {joint.name}", joint.place)
+            J = self.parameter(f"J_{name}", joint.armature, unit, f"armature of {joint.name}", joint.place)
             rate = sp.Derivative(q, time)
             self.builder.add(Kinetic(value=J * rate**2 / 2, name=f"armature of {joint.name}", place=joint.place))
-
-    def _drive(self, joint: RobotJoint) -> None:
-        """Add an input for every coordinate of a joint that moves by itself."""
-        for q in self.coordinates.get(joint.name, ()):
-            coordinate = next(c for c in self.builder.coordinates if c.symbol == q)
-            name, along = coordinate.name, coordinate.unit == "m"
-            unit, letter, what = ("N", "F", "force") if along else ("N*m", "tau", "torque")
-            bound = "" if joint.limits.effort is None else f", at most {joint.limits.effort:g} {unit.replace('*', ' ')}"
-            u = self.builder.input(
-                self.names.free(f"{letter}_{name}"),
-                unit=unit,
-                description=f"{what} on {name}{bound}",
-                place=joint.place,
-            ).symbol
-            effect = (
-                Force(value=u, deflection=q, place=joint.place) if along else Torque(value=u, on=q, place=joint.place)
-            )
-            self.builder.add(effect)
 
 
 def _unit(axis: Vector) -> list[sp.Expr]:

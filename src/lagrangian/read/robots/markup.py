@@ -23,6 +23,12 @@ MAX_TAGS = 50_000
 MAX_DEPTH = 64
 """The largest depth of elements within elements, above which a chain of MuJoCo's bodies is too deep, too."""
 
+MAX_ATTRIBUTES = 200
+"""The largest number of attributes of an element."""
+
+MAX_TEXT = 200
+"""The length of a text between tags, beyond which it is no number."""
+
 MAX_ANGLE = 1000.0
 """The largest angle [rad] of a pose: what is far above a turn is a mistake, and its digits do not say where it ends."""
 
@@ -34,8 +40,9 @@ _SURROGATE = re.compile("[\ud800-\udfff]")
 class Tag:
     """An element of the markup: its name, attributes and children in order, and ``start``, its offset in the text.
 
-    ``seen`` are the attributes that the reader asked for, ``read`` whether it asked for the element at all: what it did
-    not ask for is listed at the end, so that nothing is left out in silence.
+    ``text`` is what stands between its tags, if it has no children. ``seen`` are the attributes that the reader asked
+    for, ``read`` whether it asked for the element at all: what it did not ask for is listed at the end, so that nothing
+    is left out in silence.
     """
 
     name: str
@@ -45,6 +52,7 @@ class Tag:
     children: list[Tag] = field(default_factory=list["Tag"], repr=False)
     seen: set[str] = field(default_factory=set[str], repr=False)
     read: bool = field(default=False, repr=False)
+    text: str = field(default="", repr=False)
 
     @property
     def title(self) -> str:
@@ -106,6 +114,10 @@ class Tag:
             return default
         return self._number(value.strip(), key, "one number")
 
+    def content(self) -> float:
+        """The number between the element's tags."""
+        return self._number(self.text.strip(), None, "one number")
+
     def vector(self, key: str, default: tuple[float, ...], sizes: tuple[int, ...] = (3,)) -> tuple[float, ...]:
         """The numbers in an attribute, separated by spaces."""
         value = self.get(key)
@@ -125,15 +137,16 @@ class Tag:
                 what = f"an angle in '{key}' is {angle:.4g} rad; at most {MAX_ANGLE:g} rad are read"
                 raise self.error(what, "give it within a turn, −π to π", "E703", key)
 
-    def _number(self, text: str, key: str, wanted: str) -> float:
+    def _number(self, text: str, key: str | None, wanted: str) -> float:
+        what = f"'{key}'" if key else f"the text of {self.title}"
         if _NUMBER.match(text) and math.isfinite(value := float(text)):
             return value
         if "$" in text:
             fix = "this is a macro of xacro: expand the file first, with the command xacro"
-            raise self.error(f"'{key}' is {shown(text)}, which is not a number", fix, "E406", key)
+            raise self.error(f"{what} is {shown(text)}, which is not a number", fix, "E406", key)
         infinite = re.fullmatch(r"[+-]?(inf|infinity|nan)", text, re.IGNORECASE) or _NUMBER.match(text)
-        what = f"'{key}' must be finite (got {shown(text)})" if infinite else f"'{key}' is {shown(text)}, not a number"
-        raise self.error(what, f"write {wanted}, such as 0.25 or 1e-3", "E101" if infinite else "E406", key)
+        said = f"{what} must be finite (got {shown(text)})" if infinite else f"{what} is {shown(text)}, not a number"
+        raise self.error(said, f"write {wanted}, such as 0.25 or 1e-3", "E101" if infinite else "E406", key)
 
     def error(self, what: str, fix: str, code: CodeText, key: str | None = None) -> ParseError:
         """Return an error about this element, at the place of an attribute if one is named."""
@@ -170,6 +183,8 @@ class MarkupFile:
         parser = self._parser = expat.ParserCreate()
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
+        parser.CharacterDataHandler = self._characters
+        parser.buffer_text = True
         parser.StartDoctypeDeclHandler = self._refuse_doctype
         parser.EntityDeclHandler = self._refuse_entity
         parser.ExternalEntityRefHandler = self._refuse_entity
@@ -213,6 +228,8 @@ class MarkupFile:
             deep = len(self._open) >= MAX_DEPTH
             what = f"elements are nested more than {MAX_DEPTH} deep" if deep else f"more than {MAX_TAGS} elements"
             self._refuse(what, "split the file: is this a robot?", "E703")
+        if len(attributes) > MAX_ATTRIBUTES:  # classes of defaults hand them on
+            self._refuse(f"an element has more than {MAX_ATTRIBUTES} attributes", "is this a robot?", "E703")
         made = Tag(name, attributes, self._here(), self)
         if self._open:
             self._open[-1].children.append(made)
@@ -222,6 +239,10 @@ class MarkupFile:
 
     def _end(self, name: str) -> None:
         self._open.pop()
+
+    def _characters(self, text: str) -> None:
+        if self._open and not self._open[-1].children and len(self._open[-1].text) < MAX_TEXT:
+            self._open[-1].text += text[:MAX_TEXT]
 
     def _refuse_doctype(self, *_: object) -> NoReturn:
         self._refuse("a document type is not read", "remove <!DOCTYPE …>: a robot's file needs none", "E701")

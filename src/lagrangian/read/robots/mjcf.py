@@ -7,51 +7,86 @@ mass.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from pathlib import Path
 
 from lagrangian.quantities.source import shown
+from lagrangian.read.robots.actuators import Actuators
 from lagrangian.read.robots.left_out import left_out
 from lagrangian.read.robots.markup import Tag
-from lagrangian.read.robots.mjcf_tags import Defaults, Orientations, between
-from lagrangian.read.robots.robot import Inertial, JointKind, JointLimits, Robot, RobotJoint, RobotLink
-from lagrangian.read.robots.rotations import FixedPose, Vector, X, Z, length, turned_tensor
-from lagrangian.read.robots.solids import Solid, solid, together, volume
+from lagrangian.read.robots.meshes import Meshes
+from lagrangian.read.robots.mjcf_masses import Masses, scaled
+from lagrangian.read.robots.mjcf_tags import Defaults, Orientations
+from lagrangian.read.robots.robot import JointKind, JointLimits, Robot, RobotJoint, RobotLink
+from lagrangian.read.robots.rotations import FixedPose, Vector, X, Z, length
 from lagrangian.read.robots.tree import checked_tree
 
 GROUND = "world"
-DENSITY = 1000.0
-"""The density of a geom [kg/m³] unless it is given."""
-
-KINDS: dict[str, JointKind] = {"hinge": "revolute", "slide": "prismatic", "free": "floating"}
-SIZES = {"sphere": 1, "capsule": 2, "cylinder": 2, "box": 3, "ellipsoid": 3}
-WITHOUT_MASS = ("plane", "hfield")
+KINDS: dict[str, JointKind] = {"hinge": "revolute", "slide": "prismatic", "free": "floating", "ball": "ball"}
 REFUSED = {
     "include": "nothing outside the file is read: put the text of that file in its place",
     "equality": "constraints are not read from a file: add them with system.constraint, pin, ball or weld",
-    "tendon": "tendons are not read: add their springs and constraints to the system",
     "frame": "put its position and orientation into what it contains",
     "replicate": "write the copies out",
     "composite": "write the bodies out",
     "flexcomp": "bodies that bend are not read",
     "attach": "put the other model in its place",
 }
-CHANGING = ("settotalmass", "balanceinertia", "boundmass", "boundinertia", "inertiagrouprange", "coordinate")
+CHANGING = ("balanceinertia", "boundmass", "boundinertia", "inertiagrouprange", "coordinate")
 
 
-def read_mjcf(root: Tag) -> Robot:
-    """Return the robot in the tree of a file; raises `ParseError` with the place of what is wrong."""
+DISABLING = ("spring", "damper", "passive", "actuation", "clampctrl")
+"""Flags that change the motion where they are disabled."""
+
+TENDON = ("stiffness", "damping", "frictionloss", "armature")
+"""What makes a tendon more than data."""
+
+
+def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
+    """Return the robot in the tree of a file; raises `ParseError` with the place of what is wrong.
+
+    Meshes whose mass is asked for are read from the file's ``folder``; without one they are refused.
+    """
     root.read = True
     for key, fix in REFUSED.items():
         for tag in root.all(key):
             raise tag.error(f"<{key}> is not supported", fix, "E405")
-    reader = Reader.of(root)
+    _check_tendons(root)
+    reader = Reader.of(root, folder)
     world = root.need("worldbody", "<worldbody> … </worldbody>")
     reader.links[GROUND] = RobotLink(GROUND, None, world.place)
     reader.below(world, GROUND, "main")
+    if reader.total:
+        scaled(reader.links, reader.total)
     top = checked_tree(root, reader.links, reader.joints)
-    name = (root.get("model") or "").strip() or "robot"
-    return Robot(name, reader.links, reader.joints, top, tuple(left_out(root)), reader.gravity, root.place)
+    drives = Actuators(root, reader.joints, reader.sites, reader.orientations)
+    return Robot(
+        (root.get("model") or "").strip() or "robot",
+        reader.links,
+        reader.joints,
+        top,
+        tuple(left_out(root)),
+        reader.gravity,
+        root.place,
+        actuators=tuple(drives.found),
+        unread=tuple(drives.unread),
+        passive=bool(drives.found),
+    )
+
+
+def _check_tendons(root: Tag) -> None:
+    """Raise an error for a tendon that acts; one that only names a length is data."""
+    waiting = [tag for tag in root.children if tag.name in ("tendon", "default")]
+    for tag in waiting:
+        for child in tag.children:
+            if child.name == "default":
+                waiting.append(child)
+            elif tag.name == "tendon" or child.name == "tendon":
+                for key in TENDON:
+                    if any(child.vector(key, (0.0,), (1, 2, 3))):
+                        fix = "add its springs and dampers to the system"
+                        raise child.error(f"'{key}' of a tendon is not supported", fix, "E405", key)
 
 
 @dataclass
@@ -61,14 +96,18 @@ class Reader:
     defaults: Defaults
     orientations: Orientations
     gravity: Vector
-    from_geoms: str
-    links: dict[str, RobotLink]
-    joints: dict[str, RobotJoint]
+    masses: Masses
+    total: float = 0.0
+    links: dict[str, RobotLink] = field(default_factory=dict[str, RobotLink])
+    joints: dict[str, RobotJoint] = field(default_factory=dict[str, RobotJoint])
+    sites: dict[str, tuple[Tag, str]] = field(default_factory=dict[str, "tuple[Tag, str]"])
 
     @classmethod
-    def of(cls, root: Tag) -> Reader:
+    def of(cls, root: Tag, folder: Path | None) -> Reader:
         """Read what the file says of all its bodies."""
-        degree, sequence, from_geoms = math.pi / 180, "xyz", "auto"
+        degree, sequence, from_geoms, total = math.pi / 180, "xyz", "auto", 0.0
+        defaults = Defaults.of(root)
+        meshes = Meshes(defaults, folder)
         for tag in root.all("compiler"):
             for key in CHANGING:
                 if tag.get(key) not in (None, "-1", "0", "false", "local"):
@@ -79,6 +118,11 @@ class Reader:
             sequence, from_geoms = tag.get("eulerseq") or sequence, tag.get("inertiafromgeom") or from_geoms
             if len(sequence) != 3 or (set(sequence) - set("xyz") and set(sequence) - set("XYZ")):
                 raise tag.error("'eulerseq' is not three of x, y, z or X, Y, Z", 'eulerseq="xyz"', "E406", "eulerseq")
+            total = max(0.0, tag.number("settotalmass", total))
+            meshes.directory = tag.get("meshdir") or tag.get("assetdir") or meshes.directory
+            meshes.base_name_only = tag.get("strippath") == "true" or meshes.base_name_only
+            meshes.exact = tag.get("exactmeshinertia") == "true" or meshes.exact
+        meshes.collect(root)
         gravity = (0.0, 0.0, -9.81)
         for tag in root.all("option"):
             x, y, z = tag.vector("gravity", gravity)
@@ -86,7 +130,14 @@ class Reader:
             for key in ("wind", "density", "viscosity"):
                 if any(tag.vector(key, (0.0,), (1, 3))):
                     raise tag.error(f"'{key}' is not supported", "add the force of the air to the system", "E405", key)
-        return cls(Defaults.of(root), Orientations(degree, sequence), gravity, from_geoms, {}, {})
+            for flag in tag.all("flag"):
+                for key in DISABLING:
+                    if flag.get(key) == "disable":
+                        raise flag.error(f"'{key}' cannot be disabled", "leave it out of the file", "E405", key)
+                gravity = (0.0, 0.0, 0.0) if flag.get("gravity") == "disable" else gravity
+        orientations = Orientations(degree, sequence)
+        masses = Masses(defaults, orientations, meshes, from_geoms)
+        return cls(defaults, orientations, gravity, masses, total)
 
     def below(self, tag: Tag, parent: str, inherited: str) -> None:
         """Read the bodies within a tag, whose class of defaults they inherit."""
@@ -98,6 +149,8 @@ class Reader:
                 raise body.error("'gravcomp' is not supported", "add the force to the system", "E405", "gravcomp")
             own = body.get("childclass") or inherited
             name = self._new(body, body.get("name") or f"body{len(self.links)}", self.links, "body")
+            for site in (x for x in body.children if x.name == "site" and x.attributes.get("name")):
+                self.sites[self._new(site, site.attributes["name"], self.sites, "site")] = site, name
             self._chain(body, name, parent, own)
             self.below(body, name, own)
 
@@ -112,7 +165,7 @@ class Reader:
         tags = [self.defaults.put_into(tag, inherited) for tag in body.all("joint")]
         free = body.all("freejoint")
         moving = [(tag, tag.get("type") or "hinge") for tag in tags] + [(tag, "free") for tag in free]
-        self.links[name] = RobotLink(name, self._inertial(body, inherited), body.place)
+        self.links[name] = RobotLink(name, self.masses.inertial(body, inherited), body.place)
         if any(kind == "free" for _, kind in moving) and (len(moving) > 1 or parent != GROUND):
             what = "a body that floats has one joint, and no body carries it"
             raise moving[0][0].error(what, "put it at the top, without other joints", "E405")
@@ -120,15 +173,13 @@ class Reader:
             self._add(RobotJoint(f"{name}_fixed", "fixed", parent, name, at, X, body.place), body)
         for number, (tag, kind) in enumerate(moving, 1):
             if kind not in KINDS:
-                fix = "three hinges about x, y and z at the same point move likewise, but for one position"
-                what = "a ball joint is not supported yet" if kind == "ball" else f"there is no joint {shown(kind)}"
-                raise tag.error(what, fix if kind == "ball" else "known: hinge, slide, free", "E405", "type")
+                raise tag.error(f"there is no joint {shown(kind)}", f"known: {', '.join(KINDS)}", "E405", "type")
             joint = (tag.get("name") or "").strip() or (
                 f"{name}_joint" if len(moving) == 1 else f"{name}_joint{number}"
             )
             child = name if number == len(moving) else f"{name}_{joint}"
             x, y, z = tag.vector("pos", (0.0, 0.0, 0.0))
-            shifted = any((x, y, z)) and kind == "hinge"
+            shifted = any((x, y, z)) and kind in ("hinge", "ball")
             if shifted:  # the joint is elsewhere than the origin of the body, which follows it
                 at = FixedPose(self._sum(at, (x, y, z)), at.turns)
             end = f"{child}_on_{joint}" if shifted else child
@@ -155,9 +206,9 @@ class Reader:
         if tag.get("springdamper") is not None:
             raise tag.error("'springdamper' is not supported", "give stiffness and damping", "E405", "springdamper")
         x, y, z = tag.vector("axis", Z)
-        if kind != "floating" and length((x, y, z)) == 0:
+        if kind not in ("floating", "ball") and length((x, y, z)) == 0:
             raise tag.error("the axis is (0, 0, 0)", 'axis="0 0 1"', "E409", "axis")
-        unit = self.orientations.degree if kind == "revolute" else 1.0
+        unit = self.orientations.degree if kind in ("revolute", "ball") else 1.0
         values = {key: tag.number(key, 0.0) for key in ("damping", "frictionloss", "stiffness", "armature")}
         for key, value in values.items():
             if value < 0:
@@ -165,6 +216,9 @@ class Reader:
         if kind == "floating" and any(values.values()):
             what = "damping, friction, springs and armature of a body that floats are not supported"
             raise tag.error(what, "write <freejoint/>, which has none", "E405")
+        if kind == "ball" and (values["stiffness"] or values["frictionloss"]):
+            what = "springs and friction of a ball joint are not supported"
+            raise tag.error(what, "leave them out, and add their energy or force to the system", "E405")
         limits = JointLimits()
         if tag.get("range") is not None:
             lower, upper = tag.vector("range", (0.0, 0.0), (2,))
@@ -185,73 +239,3 @@ class Reader:
             start=tag.number("ref", 0.0) * unit,
             armature=values["armature"],
         )
-
-    # -- masses -------------------------------------------------------------------------------------------------
-
-    def _inertial(self, body: Tag, inherited: str) -> Inertial | None:
-        """The mass of a body, from <inertial> or from its geoms."""
-        given = body.one("inertial")
-        if given is not None and self.from_geoms != "true":
-            return self._given(given)
-        geoms = [self.defaults.put_into(tag, inherited) for tag in body.all("geom")]
-        solids = [] if self.from_geoms == "false" else list(self._solids(geoms))
-        if not solids:
-            return None
-        all_of_them = together(solids)
-        return Inertial(all_of_them.mass, all_of_them.centre, all_of_them.inertia, body.place)
-
-    def _given(self, tag: Tag) -> Inertial:
-        at, mass = self.orientations.pose(tag), tag.number("mass")
-        if mass <= 0:
-            raise tag.error(f"the mass is {mass:g} kg", "give a mass above 0", "E103" if mass == 0 else "E102", "mass")
-        xx, yy, zz, xy, xz, yz = (*tag.vector("diaginertia", (0.0, 0.0, 0.0)), 0.0, 0.0, 0.0)
-        if tag.get("fullinertia") is not None:
-            xx, yy, zz, xy, xz, yz = tag.vector("fullinertia", (), (6,))
-        rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
-        return Inertial(mass, at.offset, turned_tensor(at.matrix, rows), tag.place)
-
-    def _solids(self, geoms: list[Tag]) -> Iterator[Solid]:
-        """The geoms with mass, as solids in the axes of their body."""
-        for tag in geoms:
-            kind = tag.get("type") or ("mesh" if tag.get("mesh") is not None else "sphere")
-            mass = None if tag.get("mass") is None else tag.number("mass")
-            density = tag.number("density", DENSITY)
-            if kind in WITHOUT_MASS or mass == 0 or (mass is None and density == 0):
-                continue
-            if kind not in SIZES or tag.get("shellinertia") == "true":
-                fix = 'give the body an <inertial>, or the geom mass="0"'
-                raise tag.error(f"the mass of a {kind} or a shell is not found from its shape", fix, "E405")
-            if (mass is not None and mass < 0) or density < 0:
-                raise tag.error("the mass is negative", "give a mass above 0", "E102")
-            size, at = self._size(tag, kind)
-            made = solid(kind, size, mass if mass is not None else density * volume(kind, size))
-            yield (
-                made.placed(at.offset, at.matrix)
-                if tag.get("fromto") is None
-                else self._stretched(tag, kind, made, size)
-            )
-
-    def _size(self, tag: Tag, kind: str) -> tuple[Vector, FixedPose]:
-        """Radii and half lengths, of which fromto gives the last."""
-        needed = SIZES[kind]
-        if tag.get("size") is None:
-            raise tag.error("the attribute 'size' is missing", f"give {needed} numbers", "E401")
-        values = tag.vector("size", (), (1, 2, 3))
-        if tag.get("fromto") is not None:
-            ends = tag.vector("fromto", (), (6,))
-            half = between(ends[:3], ends[3:])[2]
-            values = (values[0], half) if needed == 2 else (values[0], values[min(1, len(values) - 1)], half)
-        if len(values) < needed or min(values[:needed]) <= 0:
-            raise tag.error(
-                f"a {kind} needs {needed} positive sizes", "radii and half lengths, in metres", "E414", "size"
-            )
-        a, b, c = (*values[:needed], 0.0, 0.0)[:3]
-        return (a, b, c), self.orientations.pose(tag)
-
-    def _stretched(self, tag: Tag, kind: str, made: Solid, size: Vector) -> Solid:
-        """A geom that leads from one point to another."""
-        if kind == "sphere":
-            raise tag.error("a sphere leads from nowhere to nowhere", "leave fromto out", "E405", "fromto")
-        ends = tag.vector("fromto", (), (6,))
-        centre, axes, _ = between(ends[:3], ends[3:])
-        return made.placed(centre, axes)

@@ -21,9 +21,13 @@ from lagrangian.read.robots.rotations import (
     product,
 )
 
+WRITTEN = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
+"""The ways in which an orientation may be written."""
+
 MECHANICAL = {
     "joint": "type axis pos ref springref stiffness damping armature frictionloss range springdamper",
-    "geom": "type size pos quat euler axisangle xyaxes zaxis fromto mass density shellinertia",
+    "geom": "type size pos quat euler axisangle xyaxes zaxis fromto mass density shellinertia mesh",
+    "mesh": "scale inertia refpos refquat",
 }
 """The attributes that are read where defaults give them, too."""
 
@@ -74,9 +78,9 @@ class Orientations:
         x, y, z = tag.vector("pos", ZERO)
         return FixedPose((x, y, z), self.turns(tag))
 
-    def turns(self, tag: Tag) -> tuple[FixedTurn, ...]:
+    def turns(self, tag: Tag, keys: tuple[str, ...] = WRITTEN) -> tuple[FixedTurn, ...]:
         """The orientation of a tag, in any of the five ways in which it may be written; one of them at most."""
-        given = [key for key in ("quat", "euler", "axisangle", "xyaxes", "zaxis") if tag.get(key) is not None]
+        given = [key for key in keys if tag.get(key) is not None]
         if len(given) > 1:
             raise tag.error(f"the orientation is given by {' and by '.join(given)}", "keep one", "E404", given[1])
         if not given:
@@ -89,7 +93,7 @@ class Orientations:
             turns = [FixedTurn(axes[c.lower()], a * self.degree) for c, a in zip(self.sequence, angles, strict=True)]
             kept = [turn for turn in (turns[::-1] if self.sequence.isupper() else turns) if not turn.is_none]
             return tuple(kept)
-        size = {"quat": 4, "axisangle": 4, "xyaxes": 6, "zaxis": 3}[key]
+        size = {"quat": 4, "refquat": 4, "axisangle": 4, "xyaxes": 6, "zaxis": 3}[key]
         values = tag.vector(key, (), (size,))
         if key == "axisangle":
             tag.check_angles(key, [values[3] * self.degree])
@@ -99,7 +103,7 @@ class Orientations:
         return made
 
     def _turns(self, key: str, values: tuple[float, ...]) -> tuple[FixedTurn, ...] | None:
-        if key == "quat":
+        if key in ("quat", "refquat"):
             v, angle = values[1:], 2 * math.atan2(length(values[1:]), values[0])
             return None if length(values) == 0 else () if length(v) == 0 else _about(v, angle)
         if key == "axisangle":

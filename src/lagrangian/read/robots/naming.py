@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Sequence
 from itertools import chain, count
 
 from lagrangian.model.names import RESERVED
@@ -25,26 +26,35 @@ class Identifiers:
         """The identifier that a name of the file was given, for the names of what belongs to it."""
         return self._given.get(name) or identifier(name)
 
+    def unused(self, name: str) -> str:
+        """The name if it is free, or nothing."""
+        return "" if self._taken & _forms(name) else name
+
     def reserve(self, *names: str) -> None:
         """Keep names for something else."""
         for name in names:
             self._taken.update(_forms(name))
 
-    def of(self, name: str, *, also: str = "") -> str:
-        """An identifier for a name of the file; ``also`` is appended if the name is taken by another thing."""
+    def of(self, name: str, *, also: str = "", ends: Sequence[str] = ("",)) -> str:
+        """An identifier for a name of the file; ``also`` is appended if the name is taken by another thing.
+
+        With each of ``ends`` it makes names, which are free, too.
+        """
         base = identifier(name)
-        made = self.free(base, base + also if also else "")
+        made = self.free(base, base + also if also else "", ends=ends)
         self._given[name] = made
         if made != name:
             self.changed[name] = made
         return made
 
-    def free(self, *wanted: str) -> str:
-        """The first of these names that is free, or the last of them with a number."""
+    def free(self, *wanted: str, ends: Sequence[str] = ("",)) -> str:
+        """The first of these names that is free with each of ``ends``, or the last of them with a number."""
         tries = [name for name in wanted if name]
         numbered = (f"{tries[-1]}_{number}" for number in count(2))
-        name = next(name for name in chain(tries, numbered) if not self._taken & _forms(name))
-        self.reserve(name)
+        name = next(
+            name for name in chain(tries, numbered) if not any(self._taken & _forms(name + end) for end in ends)
+        )
+        self.reserve(*(name + end for end in ends))
         return name
 
 

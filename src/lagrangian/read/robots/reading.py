@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from lagrangian.model import Builder
 from lagrangian.read.robots.assembling import assembled
 from lagrangian.read.robots.markup import MarkupFile
@@ -14,11 +16,14 @@ def is_markup(text: str) -> bool:
     return text.lstrip().startswith("<")
 
 
-def read_robot(text: str, name: str) -> Builder:
-    """Return the description of the robot in a text; errors name the file ``name``, with line and column."""
+def read_robot(text: str, name: str, folder: Path | None = None) -> Builder:
+    """Return the description of the robot in a text; errors name the file ``name``, with line and column.
+
+    Meshes are read from the ``folder`` of the file and below, and only where their mass is asked for.
+    """
     root = MarkupFile(text.lstrip("\ufeff"), name).parse()
     if root.name == "mujoco":
-        return assembled(read_mjcf(root))
+        return assembled(read_mjcf(root, folder))
     if root.name != "robot":
         raise root.error(
             f"the outermost element is <{root.name[:40]}>, which is not a robot's",

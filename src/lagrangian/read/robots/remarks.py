@@ -9,8 +9,11 @@ from lagrangian.errors import Notice
 from lagrangian.read.robots.robot import JointLimits, Robot, RobotJoint
 
 
-def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str]) -> Iterator[Notice]:
-    """The notices of a robot: limits, joints without input, bodies at rest, names, and what is not mechanics."""
+def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str], driven: Sequence[str]) -> Iterator[Notice]:
+    """The notices of a robot: limits, actuators, joints without input, bodies at rest, names, what is not mechanics.
+
+    ``driven`` says what each actuator drives.
+    """
     where = f"robot '{robot.name}'"
     moving = [joint for joint in robot.joints.values() if joint.kind != "fixed"]
 
@@ -22,11 +25,18 @@ def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str]) -> I
     if followers := [j for j in moving if j.mimic is not None]:
         said = "; ".join(f"{j.name} follows {j.mimic.leader}" for j in followers if j.mimic is not None)
         yield notice(f"joints that follow others have neither coordinate nor input: {said}")
+    if driven:
+        ranges = ", whose ranges are data, which a run does not obey" if any(x.words for x in robot.actuators) else ""
+        yield notice(f"actuators are inputs{ranges}: " + "; ".join(driven))
+    if robot.unread:
+        yield notice("these actuators are not read: " + "; ".join(robot.unread))
+    targets = {x.target for x in robot.actuators}
+    if robot.passive and (idle := [j.name for j in moving if j.name not in targets]):
+        yield notice("no actuator drives these joints, so they have no input: " + ", ".join(idle))
     for joint in moving:
         if joint.kind == "floating":
-            yield notice(
-                f"joint {joint.name} floats: no input drives it, and its coordinates count from the fixed axes"
-            )
+            drives = "no input drives it, and " if not robot.passive else ""
+            yield notice(f"joint {joint.name} floats: {drives}its coordinates count from the fixed axes")
         if joint.kind in ("floating", "planar") and (joint.damping or joint.friction):
             yield notice(f"damping and friction of the {joint.kind} joint {joint.name} are left out")
     if still:

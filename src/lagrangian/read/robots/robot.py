@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 from lagrangian.errors import Place
 from lagrangian.read.robots.rotations import FixedPose, Rows, Vector
 
-JointKind: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+JointKind: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball"]
 
 MAX_LINKS = 1000
 """The largest number of links."""
@@ -88,10 +88,50 @@ class RobotJoint:
 
 
 @dataclass(frozen=True)
+class RobotSite:
+    """A place of a link where an actuator pushes."""
+
+    link: str
+    pose: FixedPose
+
+
+@dataclass(frozen=True)
+class RobotActuator:
+    """What drives a joint, or pushes at a site, by an input u: the effort gain · u + bias, times ``gear``.
+
+    gain = g₀ + g₁ L + g₂ L̇ and bias = b₀ + b₁ L + b₂ L̇ with L = gear · q and L̇ = gear · v. ``gear`` is a number for a
+    hinge or a slide, three for a ball joint (about the axes of what turns, or ``in_parent`` of what carries it), six
+    (force and moment) for what floats and for a site. ``words`` is what the file says of it besides, as data.
+    """
+
+    name: str
+    target: str | RobotSite
+    place: Place = field(repr=False)
+    gear: tuple[float, ...] = (1.0,)
+    gain: Vector = (1.0, 0.0, 0.0)
+    bias: Vector = (0.0, 0.0, 0.0)
+    in_parent: bool = False
+    words: str = ""
+
+    @property
+    def kind(self) -> str:
+        """What it does, in words: effort u, k (u − L) − d L̇, k (u − L̇), or another law."""
+        (g0, *more), (b0, b1, b2) = self.gain, self.bias
+        if any(more) or not g0:
+            return "actuator"
+        if b1 == -g0:
+            return "position servo"
+        if b1 == 0 and b2 == -g0:
+            return "velocity servo"
+        return "motor" if (g0, b0, b1, b2) == (1, 0, 0, 0) else "actuator"
+
+
+@dataclass(frozen=True)
 class Robot:
     """The tree: links and joints by name, in the order of the file.
 
-    ``left_out`` lists in words what is not mechanics; ``gravity`` is the acceleration of free fall [m/s²].
+    ``left_out`` lists in words what is not mechanics, ``unread`` the actuators that are not understood; ``gravity`` is
+    the acceleration of free fall [m/s²]. If the robot is ``passive``, joints without an actuator have no input.
     """
 
     name: str
@@ -101,6 +141,9 @@ class Robot:
     left_out: tuple[str, ...] = ()
     gravity: Vector = (0.0, 0.0, -9.81)
     place: Place | None = field(default=None, repr=False)
+    actuators: tuple[RobotActuator, ...] = ()
+    unread: tuple[str, ...] = ()
+    passive: bool = False
 
     def outwards(self) -> list[RobotJoint]:
         """The joints limb after limb, every one after that which carries it; of one link, in the order of the file."""

@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lagrangian.read.robots.rotations import Rows, Vector, turned_tensor
+from lagrangian.read.robots.rotations import Rows, Vector, turned, turned_tensor
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,16 @@ class Solid:
     def placed(self, centre: Vector, axes: Rows) -> Solid:
         """The same solid with its centre and its axes elsewhere."""
         return Solid(self.mass, centre, turned_tensor(axes, self.inertia))
+
+    def within(self, offset: Vector, axes: Rows) -> Solid:
+        """The same solid where its axes are placed at ``offset``: its centre moves with them."""
+        x, y, z = (a + b for a, b in zip(offset, turned(axes, self.centre), strict=True))
+        return self.placed((x, y, z), axes)
+
+    def scaled(self, factor: float) -> Solid:
+        """The same shape with another density."""
+        a, b, c = ((x * factor, y * factor, z * factor) for x, y, z in self.inertia)
+        return Solid(self.mass * factor, self.centre, (a, b, c))
 
 
 def together(solids: Sequence[Solid]) -> Solid:

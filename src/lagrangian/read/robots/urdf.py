@@ -12,9 +12,10 @@ from lagrangian.read.robots.left_out import left_out
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.robot import Inertial, JointKind, JointLimits, Mimic, Robot, RobotJoint, RobotLink
 from lagrangian.read.robots.rotations import ZERO, FixedPose, Rows, X, fixed_axes, length, turned_tensor
+from lagrangian.read.robots.transmissions import Transmissions
 from lagrangian.read.robots.tree import check_count, checked_tree
 
-KINDS = get_args(JointKind)
+KINDS = tuple(kind for kind in get_args(JointKind) if kind != "ball")
 NO_AXIS = ("fixed", "floating")
 Named = TypeVar("Named", RobotLink, RobotJoint)
 _SMALL = 1e-12
@@ -33,7 +34,17 @@ def read_urdf(root: Tag) -> Robot:
     _check_ends(root, links, joints)
     top = checked_tree(root, links, joints)
     _check_mimics(joints)
-    return Robot(name, links, joints, top, tuple(left_out(root)), place=root.place)
+    drives = Transmissions(root, joints)
+    return Robot(
+        name,
+        links,
+        joints,
+        top,
+        tuple(left_out(root)),
+        place=root.place,
+        actuators=tuple(drives.found),
+        unread=tuple(drives.unread),
+    )
 
 
 def _once(found: Iterable[tuple[Tag, Named]], what: str) -> Iterator[tuple[str, Named]]:
