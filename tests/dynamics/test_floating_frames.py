@@ -120,7 +120,7 @@ def test_a_wrong_law_does_not_pass(monkeypatch):
 @pytest.mark.slow
 def test_all_that_is_made_of_a_floating_system_is_verified():
     checks = two_bodies().verify(states=2)
-    assert len(checks) == 24  # seven of the written lines, seven of the programs, ten of what is made of them
+    assert len(checks) == 28  # seven of the written lines, seven of the programs, fourteen of what is made of them
     assert not [str(c.what) for c in checks if c.holds is False]
 
 

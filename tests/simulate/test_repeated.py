@@ -9,8 +9,9 @@ import built_in
 import lagrangian as lg
 from lagrangian.codegen import native
 from lagrangian.dynamics.observe import Observed
+from lagrangian.quantities import quantity
 from lagrangian.simulate import plot
-from lagrangian.values import dimensions
+from lagrangian.values import dimensions, values
 
 
 def pendulum() -> lg.System:
@@ -34,6 +35,8 @@ def nothing_new(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Observed, "__init__", refuse)
     monkeypatch.setattr(dimensions, "_checked", refuse)
     monkeypatch.setattr(plot, "_angles", refuse)
+    monkeypatch.setattr(values, "_groups", refuse)
+    monkeypatch.setattr(quantity, "read_quantity", refuse)
 
 
 @pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)

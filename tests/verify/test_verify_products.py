@@ -19,6 +19,8 @@ from lagrangian.graph import Program
 from lagrangian.linear import jacobians
 from lagrangian.page.formula import Check, text
 from lagrangian.verify import exports, products, slopes
+from lagrangian.verify.changes import changes
+from lagrangian.verify.states import random_states
 
 FORMULAS = "every compiled function equals the slow evaluation of its formulas, singly and in batches"
 FORWARD = "the compiled accelerations solve Lagrange's equations"
@@ -100,6 +102,52 @@ def functions_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     passed = Check(text("left out"), None, "by this test")
     monkeypatch.setattr(products, "exported", lambda *given: (passed,))
     monkeypatch.setattr(products, "slopes", lambda *given: passed)
+
+
+FAULTS = {
+    "a_q": "the compiled derivatives of the accelerations equal difference quotients",
+    "Minv": "those by Xi fit M, and those pulled back are weighted sums of them",
+    "step": "compiled steps by rk4, midpoint and euler are those of these rates",
+    "A": "the A and B of a step equal its difference quotients",
+}
+
+
+def test_a_fault_in_derivatives_and_in_steps_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each fault is one entry that is off by a thousandth; all other checks pass."""
+    model = crane().model
+    functions = Compiled(model)
+    rhs, states = functions.program("rhs"), list(random_states(model, functions.program("forward"), 3, 1))
+    derivatives, step = functions.derivatives, functions.step
+
+    def found() -> tuple[Check, ...]:
+        return tuple(changes(functions, rhs, states))
+
+    def off(name: str) -> Callable[..., Any]:
+        def wrong(*given: Any, **named: Any) -> Any:
+            d = derivatives(*given, **named)
+            getattr(d, name)[..., -1, -1] *= 1.001
+            return d
+
+        return wrong
+
+    def wrong_step(*given: Any, **named: Any) -> Any:
+        result = step(*given, **named)
+        if named.get("derivatives"):
+            return (result[0], result[1] * (1 + 1e-3 * (wanted == "A")), result[2])
+        return result + 1e-6 * (wanted == "step")
+
+    wanted = ""
+    assert said(found()) == dict.fromkeys(FAULTS.values(), True)
+    for wanted in FAULTS:
+        with monkeypatch.context() as patched:
+            if wanted in ("A", "step"):
+                patched.setattr(functions, "step", wrong_step)
+            else:
+                patched.setattr(functions, "derivatives", off(wanted))
+                patched.setattr(functions, "step", step)
+            failed = failing(found())
+        further = {FAULTS["Minv"], FAULTS["A"]} if wanted == "a_q" else set()  # what is made of these derivatives
+        assert failed == {FAULTS[wanted], *further}
 
 
 @pytest.fixture

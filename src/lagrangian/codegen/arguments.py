@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.quantities.largest import SMALLER, too_large
 
 FLOAT = np.dtype(np.float64)
 NOUNS = {"q": "coordinate", "v": "velocity", "a": "acceleration", "x": "state", "p": "parameter"}
@@ -176,11 +177,18 @@ def where(lead: tuple[int, ...], state: int) -> str:
     return f" at state {index[0] if len(index) == 1 else index}"
 
 
-def not_finite_input(group: InputGroup, row: NDArray[np.float64], at: str) -> RunError | None:
-    """The error for the first entry of a row that is NaN or infinite, if there is one."""
-    if np.isfinite(row).all():
+def unfit_input(group: InputGroup, row: NDArray[np.float64], at: str, most: float = math.inf) -> RunError | None:
+    """The error for the first entry of a row that is NaN, infinite or larger than ``most``, if there is one."""
+    if np.isfinite(row).all() and (most == math.inf or within(row, most)):
         return None
     for name, value in zip(group.entries, row, strict=True):
         if not np.isfinite(value):
             return RunError(f"{group.noun} '{name}' is {value}{at}", code="E502", fix="give a finite number")
+        if abs(value) > most and (trouble := too_large(value)):
+            return RunError(f"{group.noun} '{name}' {trouble}{at}", code="E101", fix=SMALLER)
     return None
+
+
+def within(array: NDArray[np.float64], most: float) -> bool:
+    """Whether all numbers of an array are finite and at most as large as ``most``."""
+    return not array.size or (float(array.max()) <= most and float(array.min()) >= -most)

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
+from lagrangian.quantities.largest import LARGEST
 
 from . import workers
-from .arguments import FLOAT, InputGroup, not_finite_input, rows, where
+from .arguments import FLOAT, InputGroup, rows, unfit_input, where
 from .buffers import address, aligned
 
 Array = NDArray[np.float64]
@@ -162,12 +163,18 @@ def targets(outputs: Shapes, out: Any, lead: tuple[int, ...]) -> dict[str, Array
 def trouble(
     groups: Sequence[InputGroup], inputs: Sequence[Array], outputs: Shapes, results: Sequence[Array], at: str
 ) -> RunError | None:
-    """The error for the first number of a state that is not finite, inputs first; None if all are finite."""
+    """The error for the first number of a state that is not finite, inputs first; None if all are finite.
+
+    If a result is not finite, an input that is too large to compute with explains it.
+    """
     for group, row in zip(groups, inputs, strict=True):
-        if found := not_finite_input(group, row, at):
+        if found := unfit_input(group, row, at):
             return found
     for (name, shape), row in zip(outputs.items(), results, strict=True):
         for j in np.flatnonzero(~np.isfinite(row)):
+            for group, given in zip(groups, inputs, strict=True):
+                if found := unfit_input(group, given, at, LARGEST):
+                    return found
             index = [int(i) for i in np.unravel_index(j, shape)] if shape else ""
             return RunError(
                 f"output '{name}'{index} is {np.ravel(row)[j]}{at}",

@@ -3,8 +3,8 @@
 ``i64 single(ptr table)``: the table holds the addresses of the in, shared, out and scratch blocks. Returns 0, or 1 if
 an input or an output is not finite. ``i64 parameters(ptr table)``: three more addresses: of the hoisted inputs, of the
 shared block that is computed from them, and of a function ``i64 look(ptr rows, i64 count)``, or 0 for none. Returns 0,
-1 if a hoisted input is not finite, 2 if the function returns this because they need a closer look, 3 for both. ``i64
-both(ptr table)``: parameters, then single; the result contains the bits that either returns.
+1 if a hoisted input is not finite or too large, 2 if the function returns this because they need a closer look, 3 for
+both. ``i64 both(ptr table)``: parameters, then single; the result contains the bits that either returns.
 
 ``i64 batch(ptr table, i64 start, i64 stop, ptr work)``: states start … stop − 1, ``lanes`` at a time. The table holds,
 for each input group, each hoisted group (if every state has its own) and each output, an address and two strides in
@@ -15,7 +15,10 @@ state is computed by the same code, wherever a range begins and ends.
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Iterator, Mapping, Sequence
+
+from lagrangian.quantities.largest import LARGEST
 
 from .emit import attributes
 from .ir import Function, Module, Value
@@ -25,6 +28,9 @@ from .transpose import emit_move
 
 MAGNITUDE = 0x7FFFFFFFFFFFFFFF
 INFINITE = 0x7FF0000000000000
+BOUND = int.from_bytes(struct.pack(">d", LARGEST))
+"""The bits of the largest size of a hoisted input; like those of magnitudes, they are ordered as the numbers are."""
+
 NOT_FINITE, DOUBTFUL = 1, 2
 
 
@@ -53,7 +59,7 @@ def emit_parameters(module: Module, sizes: Sizes) -> None:
         *_entries({3: "scratch", 4: "hoisted", 5: "own", 6: "look"}),
         "  call void @prologue_1(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
         f"  %top = call i64 @greatest(ptr %hoisted, i64 {sum(sizes.hoisted)})",
-        f"  %bad = icmp uge i64 %top, {INFINITE}",
+        f"  %bad = icmp ugt i64 %top, {BOUND}",
         "  %wrong = zext i1 %bad to i64",
         "  %some = icmp ne ptr %look, null",
         "  br i1 %some, label %looking, label %end",

@@ -13,9 +13,10 @@ import numpy as np
 from numpy import ndarray
 
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.quantities.largest import LARGEST
 
 from . import native
-from .arguments import InputGroup, not_finite_input
+from .arguments import InputGroup, unfit_input, where, within
 from .batch import Array, Batch, Engine, trouble
 from .buffers import Look, RawFunction, Stage, aligned
 from .build import Build, Options
@@ -139,6 +140,8 @@ class Kernel:
         arrays = [group.array(given) for group, given in zip(self._groups, slots, strict=True)]
         early = [arrays[k] for k in self._hoisted_groups]
         if any(a.size != a.shape[-1] for a in early):
+            for k, a in zip(self._hoisted_groups, early, strict=True):
+                self._check_each(self._groups[k], a)
             if self.admit is not None:
                 self.admit(early[0])
             return arrays, self._lead(arrays), None
@@ -147,6 +150,16 @@ class Kernel:
         if all(slots[k] is None for k in self._hoisted_groups):
             self._quick.standard = shared
         return arrays, lead, shared
+
+    @staticmethod
+    def _check_each(group: InputGroup, given: Array) -> None:
+        """Raise an error for the first of many rows with an entry that is not finite or too large."""
+        if within(given, LARGEST):
+            return
+        lead = given.shape[:-1]
+        for state, row in enumerate(given.reshape(-1, given.shape[-1])):
+            if found := unfit_input(group, row, where(lead, state), LARGEST):
+                raise found
 
     def _lead(self, arrays: list[Array]) -> tuple[int, ...]:
         """The leading shape to which all groups are broadcast."""
@@ -168,7 +181,7 @@ class Kernel:
         if found is not None:
             return found
         for k, a in zip(self._hoisted_groups, early, strict=True):
-            if trouble := not_finite_input(self._groups[k], a, ""):
+            if trouble := unfit_input(self._groups[k], a, "", LARGEST):
                 raise trouble
         if self.admit is not None:
             self.admit(early[0])

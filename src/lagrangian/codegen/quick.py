@@ -19,6 +19,8 @@ import numpy as np
 from numpy import ndarray
 from numpy.typing import NDArray
 
+from lagrangian.quantities.largest import LARGEST
+
 from .arguments import FLOAT, PLAIN, InputGroup
 from .batch import Array, Engine, Shapes
 from .buffers import NOTHING, Look, Row, Slot, Stage, address
@@ -29,6 +31,7 @@ Entry: TypeAlias = Callable[[Any], int]
 """A function in machine code that is called with the table of a stage; it returns 0 if everything is finite."""
 
 _WORD = 8  # bytes of a number
+_least, _most = np.minimum.reduce, np.maximum.reduce  # without the Python around array.min() and array.max()
 _PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
 """Tables as machine code reads them, by the number of their entries."""
 
@@ -177,6 +180,8 @@ class Quick:
         elif type(early) is ndarray and early.ndim > 1:
             if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
                 return None
+            if early.size and not (_least(early, None) >= -LARGEST and _most(early, None) <= LARGEST):
+                return None  # a parameter is too large or not finite
             if self.admit is not None:
                 self.admit(early)
             rows, engine = [*rows, (slot, stage.hoisted, 0)], self.engines.get("sweep")

@@ -54,7 +54,8 @@ def constrained_slopes(m: Mechanics, columns: Sequence[dict[int, int]]) -> tuple
     a, lam = [g.input("a", i) for i in range(n)], [g.input("lam", k) for k in range(len(rows))]
     rates = [row.rate for row in rows]
     missing = minus(g, m.inverse(a), vjp(g, rates, lam, list(m.v)))
-    ends = [*missing, *m.motion.second_rate(rates, a)]
+    changing = m.row_accelerations(m.accelerations(a))  # the γ of `forward`, also where c is not 0
+    ends = [*missing, *(changing[k][1] for k in kept)]
     values = dict(zip([*a, *lam], [*solution.vdot, *(solution.multipliers[k] for k in kept)], strict=True))
     change = ConstrainedChange(m, rows)
     still = zeros(g, len(rows))

@@ -56,18 +56,19 @@ def loose(
     if known != key:
         others = [N for N in map(at, islice(configurations(model), OTHERS)) if np.isfinite(N).all()]
         model._memo["loose elsewhere"] = key, others
-    size = np.max([np.diag(N) for N in (M, *others)], axis=0)
-    values, rows = _least(M, size)
-    best = max(_least(N, size)[0][0] for N in (M, *others))
-    rows = rows[np.abs(values) <= max(near * best, 4 * len(M) * np.finfo(float).eps)]  # it may be singular everywhere
+    values, rows = _least(np.array([M, *others]))
+    bound = max(near * values[:, 0].max(), 4 * len(M) * np.finfo(float).eps)  # it may be singular everywhere
+    rows = rows[0][np.abs(values[0]) <= bound]
     return moving_no_mass([v.name for v in model.velocities], rows) if len(rows) else ""
 
 
-def _least(M: Array, size: Array) -> tuple[Array, Array]:
-    """The eigenvalues of M with scaled rates, the smallest first, and the corresponding rates in rows."""
+def _least(M: Array) -> tuple[Array, Array]:
+    """The eigenvalues of several M (k, n, n) with scaled rates, the smallest first, and the corresponding rates in
+    rows."""
+    size = np.diagonal(M, axis1=1, axis2=2).max(axis=0)
     unit = np.sqrt(np.where(size > 0, size, 1.0))
     values, columns = np.linalg.eigh(M / np.outer(unit, unit))
-    return values, columns.T / unit
+    return values, columns.transpose(0, 2, 1) / unit
 
 
 def moving_no_mass(velocities: Sequence[str], rows: Array) -> str:

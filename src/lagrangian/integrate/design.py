@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
+from lagrangian.quantities.largest import SMALLER, too_large
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -147,6 +148,8 @@ class Design:
             where = np.argwhere(~np.isfinite(values))[0]
             at = f" at {tuple(int(k) for k in where)}" if values.ndim else ""
             raise RunError(f"'{name}' is {values[tuple(where)]}{at}", code="E502", fix="give finite numbers")
+        if values.size and (trouble := too_large(float(values.flat[np.abs(values).argmax()]))):
+            raise RunError(f"'{name}' {trouble}", code="E101", fix=SMALLER)
 
     def values(self, column: DesignColumn, start: int, stop: int) -> Array:
         """The values of a column in runs start … stop − 1."""

@@ -20,6 +20,7 @@ from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Velocity
 from lagrangian.page.plain import plain
+from lagrangian.quantities.largest import SMALLER, too_large
 
 
 def check_use(
@@ -94,17 +95,6 @@ def checked_number(name: str, value: object, place: Place | None) -> float | Non
     if trouble := too_large(number):
         raise ModelError(f"parameter '{name}' {trouble}", place=place, fix=SMALLER, code="E101")
     return number
-
-
-LARGEST = 1e150
-"""The largest size of a value in SI units: its square is still below the largest floating-point number, 1.8e308."""
-
-SMALLER = "check its power of ten and its unit"
-
-
-def too_large(value: float) -> str | None:
-    """Return what is wrong with a value whose products would not be numbers any more, None if nothing is."""
-    return f"is too large to compute with: {value:g}; the limit is {LARGEST:g}" if abs(value) > LARGEST else None
 
 
 def check_position(

@@ -28,6 +28,7 @@ from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
+from lagrangian.quantities.largest import LARGEST, SMALLER, too_large
 from lagrangian.viewed import Brief
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 Scalar: TypeAlias = "sp.Expr | int | float"
 _serial = count(1)
 NOT_REAL: tuple[sp.Expr, ...] = (sp.sqrt(-1), sp.nan, sp.oo, sp.zoo, -sp.oo)
+_LARGEST = int(LARGEST)
 MAX_BITS = 1100  # of a numerator or denominator: 5e-324, the least double, has 1077
 
 
@@ -66,6 +68,8 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
         raise ModelError(
             f"{what} contains a number larger than the largest floating-point number, 1.8e308", place=place, code="E101"
         )
+    if large := next((r for r in expr.atoms(sp.Rational) if abs(r.p) > _LARGEST * r.q), None):
+        raise ModelError(f"{what} holds a number that {too_large(float(large))}", place=place, fix=SMALLER, code="E101")
     if (part := unknown_part(expr)) is not None:
         raise ModelError(
             f"{what} holds {str(part)[:60]}, which is not supported ({type(part).__name__})",

@@ -65,6 +65,7 @@ class _Token:
     end: int
 
 
+@lru_cache(maxsize=1024)
 def parse_quantity(text: str, *, what: str = "value") -> Quantity:
     """Return the quantity that ``text`` describes. Raises `ParseError` with line, column and a correct form.
 

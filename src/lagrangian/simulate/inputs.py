@@ -23,6 +23,7 @@ from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import ModelError, ParseError, RunError, did_you_mean
 from lagrangian.integrate.scipy_methods import Interval
 from lagrangian.model import Input, Model
+from lagrangian.quantities.largest import SMALLER, too_large
 from lagrangian.values.dimensions import Dim
 from lagrangian.values.values import key_name, number
 
@@ -225,7 +226,7 @@ def _text(model: Model, what: str, text: str, dim: Dim | None) -> float | sp.Exp
             return number(text, what, dim)
         except ParseError:
             raise trouble from None
-    return float(expr) if expr.is_number else expr
+    return number(float(expr), what) if expr.is_number else expr
 
 
 def _function(what: str, given: Callable[..., Any]) -> Callable[[float, Array], float]:
@@ -260,6 +261,8 @@ def _table(what: str, given: Sequence[Any]) -> SampledInput:
         if not np.all(np.isfinite(array)):
             place = int(np.flatnonzero(~np.isfinite(array))[0])
             raise RunError(f"{what}: {label} number {place + 1} is {array[place]}", code="E502")
+        if trouble := too_large(float(array[np.abs(array).argmax()])):
+            raise RunError(f"{what}: a {label} {trouble}", fix=SMALLER, code="E101")
     if np.any(np.diff(times) <= 0):
         place = int(np.flatnonzero(np.diff(times) <= 0)[0])
         raise RunError(

@@ -15,8 +15,8 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model
-from lagrangian.model.checks import SMALLER, too_large
 from lagrangian.page.plain import plain
+from lagrangian.quantities.largest import SMALLER, too_large
 from lagrangian.quantities.quantity import parse_quantity
 from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, Mismatch, check_dimensions
 
@@ -35,10 +35,20 @@ def _unit(dim: Dim) -> str:
 
 
 def number(value: object, what: str, dim: Dim | None = None) -> float:
-    """Return a finite number in SI units from a number or from text with a unit; ``dim`` is the required dimension.
+    """Return a number in SI units from a number or from text with a unit; ``dim`` is the required dimension.
 
-    Raises `RunError` if it is complex, not finite, not a number, or has another dimension.
+    Raises `RunError` if it is complex, not finite, too large to compute with, not a number, or has another dimension.
     """
+    real = _number(value, what, dim)
+    if not math.isfinite(real):
+        raise RunError(f"{what} is {real}", fix="give a finite number", code="E502")
+    if trouble := too_large(real):
+        raise RunError(f"{what} {trouble}", fix=SMALLER, code="E101")
+    return real
+
+
+def _number(value: object, what: str, dim: Dim | None) -> float:
+    """The same for numbers of any size, and for those that are not finite."""
     if isinstance(value, str):
         quantity = parse_quantity(value, what=what)
         found = Dim(quantity.dimension.exponents)
@@ -56,14 +66,11 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
             code="E501",
         )
     try:
-        real = float(value)  # type: ignore[arg-type]
+        return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         raise RunError(
             f"{what} must be one real number (got {value!r:.40})", fix='a number, or text: "12 deg"', code="E501"
         ) from None
-    if not math.isfinite(real):
-        raise RunError(f"{what} is {real}", fix="give a finite number", code="E502")
-    return real
 
 
 MOST_STATES = 1_000_000
@@ -107,13 +114,6 @@ class Group:
             if name in found:
                 raise RunError(f"{self.noun} '{name}' is given twice, by name and by symbol", code="E404")
             found[name] = number(value, f"{self.noun} '{name}'", self.dims[self.names.index(name)])
-        return self._computable(found)
-
-    def _computable(self, found: dict[str, float]) -> dict[str, float]:
-        """The same values; raises `RunError` for a parameter that is too large to compute with."""
-        for name, value in found.items() if self.noun == "parameter" else ():
-            if trouble := too_large(value):
-                raise RunError(f"{self.noun} '{name}' {trouble}", fix=SMALLER, code="E101")
         return found
 
     def _listed(self, given: Any) -> dict[str, float]:
@@ -127,8 +127,7 @@ class Group:
                 fix="give a mapping by name, or one number for each, in this order",
                 code="E501",
             )
-        found = {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}
-        return self._computable(found)
+        return {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,18 +143,9 @@ class Given:
     @classmethod
     def of(cls, model: Model, program: Program) -> Given:
         """The groups x, u, p of ``program``, with the dimensions that follow from the units of the model."""
-        dims = check_dimensions(model)
-        moving = {c.name: _dim(dims, c.symbol) for c in model.coordinates}
-        rates = {f"{name}'": None if d is None else d.times(RATE) for name, d in moving.items()}
-        known = {**moving, **rates}
-        states = program.inputs["x"]
-        return cls(
-            model,
-            Group("state", states, tuple(known.get(s) for s in states)),
-            Group("input", program.inputs["u"], tuple(_dim(dims, u.symbol) for u in model.inputs)),
-            Group("parameter", program.inputs["p"], tuple(_dim(dims, p.symbol) for p in model.parameters)),
-            dims,
-        )
+        names = program.inputs["x"], program.inputs["u"], program.inputs["p"]
+        groups = model.remembered(("given", *names), lambda: _groups(model, *names))
+        return cls(model, *groups, check_dimensions(model))
 
     def parameter_values(self, given: Named | None) -> NDArray[np.float64]:
         """The value of every parameter: the given one, else the declared one. Raises `RunError` that lists those
@@ -182,6 +172,21 @@ class Given:
     def time_value(self, given: object, what: str = "time") -> float:
         """Return a time in seconds."""
         return number(given, what, SECOND)
+
+
+def _groups(
+    model: Model, states: tuple[str, ...], inputs: tuple[str, ...], parameters: tuple[str, ...]
+) -> tuple[Group, Group, Group]:
+    """The groups x, u, p with these names and the dimensions of their entries."""
+    dims = check_dimensions(model)
+    moving = {c.name: _dim(dims, c.symbol) for c in model.coordinates}
+    rates = {f"{name}'": None if d is None else d.times(RATE) for name, d in moving.items()}
+    known = {**moving, **rates}
+    return (
+        Group("state", states, tuple(known.get(s) for s in states)),
+        Group("input", inputs, tuple(_dim(dims, u.symbol) for u in model.inputs)),
+        Group("parameter", parameters, tuple(_dim(dims, p.symbol) for p in model.parameters)),
+    )
 
 
 def _dim(dims: Dimensions | None, symbol: Any) -> Dim | None:

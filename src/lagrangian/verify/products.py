@@ -8,6 +8,8 @@ in one batch, and then with routes that share nothing with it:
     inverse        Lagrange's equations at any accelerations;  M a + bias
     mass_matrix    the Hessian of T* in the velocities
     rhs            the rates of the coordinates, and forward
+
+Derivatives and single steps are compared in `verify.changes`, the linearization in `verify.slopes`.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from lagrangian.errors import Error
 from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.verify.changes import Changing, changes
 from lagrangian.verify.exports import Sources, exported
 from lagrangian.verify.foreign.checks import foreign_checks, not_run
 from lagrangian.verify.on_rows import OnRows
@@ -51,15 +54,11 @@ Function: TypeAlias = Callable[..., Array]
 Programs: TypeAlias = Callable[[str], Program]
 
 
-class Functions(Protocol):
+class Functions(Changing, Protocol):
     """The compiled functions of a system, as `lagrangian.Compiled` provides them."""
 
     @property
-    def forward(self) -> Function: ...  # noqa: D102
-    @property
     def inverse(self) -> Function: ...  # noqa: D102
-    @property
-    def mass_matrix(self) -> Function: ...  # noqa: D102
     @property
     def bias(self) -> Function: ...  # noqa: D102
     @property
@@ -68,8 +67,6 @@ class Functions(Protocol):
     def coriolis_matrix(self) -> Function: ...  # noqa: D102
     @property
     def energies(self) -> Callable[..., tuple[Array, Array]]: ...  # noqa: D102
-    @property
-    def rates(self) -> Function: ...  # noqa: D102
     @property
     def rhs(self) -> Function: ...  # noqa: D102
     @property
@@ -116,7 +113,8 @@ def verify_products(
     written = exported(program, functions.exported, sources, found)
     if exports:
         written += (*foreign_checks(model, found), *not_run())
-    return (*compiled, *written, slopes(model, functions.rhs, found))
+    _log.info("verifying: the derivatives and the steps")
+    return (*compiled, *written, slopes(model, functions.rhs, found), *changes(functions, program("rhs"), found))
 
 
 def _on_rows(model: Model, states: Sequence[State]) -> list[State]:

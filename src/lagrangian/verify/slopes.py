@@ -90,6 +90,11 @@ def _quotients(rhs: Callable[..., Array], state: State) -> tuple[Array, float]:
         around = np.concatenate([point + offsets, point - offsets])
         f = rhs(state["t"][0], around[:, :n], u=around[:, n:], p=np.array(state["p"]))
         levels.append((f[: len(point)] - f[len(point) :]).T / (2 * steps / 2**k))
+    return extrapolated(levels)
+
+
+def extrapolated(levels: Sequence[Array]) -> tuple[Array, float]:
+    """Central quotients at h, h/2 and h/4 extrapolated to h → 0, and the largest change in the last extrapolation."""
     once = [(4 * levels[k + 1] - levels[k]) / 3 for k in range(2)]
     twice = (16 * once[1] - once[0]) / 15
     return twice, float(np.max(np.abs(twice - once[1]), initial=0.0))
