@@ -67,6 +67,7 @@ def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Eve
         missing=scene.missing,
         space=len(scene.view[0]) == 3,
         bodies=bool(scene.handles),
+        flows=bool(scene.flows),
     )
     return page_html(contents)
 
@@ -169,7 +170,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
     angles = [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]]
     return {
         "file": re.sub(r"[^A-Za-z0-9]+", "-", model.name).strip("-")[:60] or "motion",
-        "scene": _moving(scene),
+        "scene": {**_moving(scene), "flows": _flows(model, scene)},
         "coordinates": len(model.coordinates),
         "angles": angles,
         "constrained": bool(model.constraints),
@@ -190,6 +191,12 @@ def _period(layout: Mapping[str, Any]) -> float:
     """The time [s] after which a section by time looks again: that of the first parameter that is a speed in rad/s."""
     speeds = [x["value"] for x in layout["parameters"] if x["unit"] == "rad/s" and x["value"]]
     return 2 * math.pi / abs(speeds[0]) if speeds else 1.0
+
+
+def _flows(model: Model, scene: Scene) -> list[dict[str, Any]]:
+    """The charges that flow around loops, by the numbers of their states; see `Flow`."""
+    number = {c.name: k for k, c in enumerate(model.coordinates)}
+    return [{"state": number[x.coordinate], "box": _rounded(x.box), "sense": x.sense} for x in scene.flows]
 
 
 def _moving(scene: Scene) -> dict[str, Any]:

@@ -121,6 +121,23 @@ def test_a_bridge_has_a_loop_below_two_others() -> None:
     assert max(height["L1"], height["L2"]) < height["R3"]
 
 
+def test_the_charges_of_a_circuit_alone_flow_within_its_wires() -> None:
+    """In a page dots move along these ways; beside what moves, a circuit belongs to the picture at rest alone."""
+    system, (q1, q2), (L, C) = _circuit(2, letters="L C")
+    system.inductor(L, q1)
+    system.inductor(L, -q2, name="second")
+    system.capacitor(C, q1 + q2)
+    scene = system.look().scene
+    one, two = scene.flows
+    assert (one.coordinate, two.coordinate) == ("q1", "q2") and one.sense == -two.sense
+    wires = np.concatenate([_points(part) for part in scene.parts if part.kind == "wire"])
+    assert (wires.min(axis=0) < (one.box[0], one.box[1])).all() and (wires.max(axis=0) > (two.box[2], two.box[3])).all()
+    assert one.box[2] < two.box[0]
+    assert all(part.moves for part in scene.parts if part.kind == "wire")
+    beside = picture("dc-motor").scene
+    assert not beside.flows and not any(part.moves for part in beside.parts if part.kind == "wire")
+
+
 def test_loops_that_do_not_lie_in_a_row_are_told() -> None:
     """Four loops of which each meets the three others: K₅ with the outside, which no plane holds."""
     system, qs, (L, R) = _circuit(4, letters="L R")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.look.shapes import INK, arc, arc_end, head, line
-from lagrangian.page.scene import FIXED, Disc, Pair, Path, Placement, Role, ScenePart, Trace
+from lagrangian.page.scene import FIXED, Disc, Flow, Pair, Path, Placement, Role, ScenePart, Trace
 
 Array = NDArray[np.float64]
 
@@ -72,6 +72,8 @@ class Board:
     """The points at which joints close loops."""
     straight: set[str] = field(default_factory=set[str])
     """The windings that move something along a line, by name."""
+    flows: list[Flow] = field(default_factory=list[Flow])
+    """The charges that flow around loops of circuits."""
     hidden: frozenset[str] = frozenset()
     """The names of elements that are not to be drawn."""
     _views: Views | None = None

@@ -16,7 +16,7 @@ from lagrangian.look.circuit_loops import LAWS, CircuitLoop, CircuitRow, PlacedB
 from lagrangian.look.shapes import arc, box, head, joined, line, lines, turned
 from lagrangian.look.tie_glyphs import LOCAL
 from lagrangian.model import CircuitBranch, MutualInductance, Transducer, VoltageSource
-from lagrangian.page.scene import Disc, Pair, Path, Role
+from lagrangian.page.scene import Disc, Flow, Pair, Path, Role
 
 Array = NDArray[np.float64]
 
@@ -30,6 +30,8 @@ INWARD = 30.0
 """How much wider a loop is whose coils are labelled inside it [px]."""
 MESH = 17.0
 """The radius of the arrow around the name of a loop's charge [px]."""
+INSIDE = 7.0
+"""How far inside its wires the charge of a loop flows, so that neighbours can be told apart [px]."""
 THICK = {"resistor": 6.0, "inductor": 7.0, "transducer": 15.0}
 """Half of how thick glyphs are, as far as not round [px]."""
 LONGEST = 12
@@ -93,7 +95,7 @@ def _draw_row(board: Board, row: CircuitRow, widths: list[float], x: float, y: f
         _side(board, (b, y), (b, y + height), loop.shared if wired else loop.right, inward)
         for corner in ((b, y), (b, y + height)) if wired else ():
             _node(board, corner)
-        _mesh(board, loop, ((a + b) / 2, y + height / 2))
+        _mesh(board, loop, (a, y, b, y + height))
         x = b
         if loop.coupled is not None:
             _flux(board, loop.coupled, (b + APART / 2, y + height / 2))
@@ -113,17 +115,21 @@ def _draw_below(board: Board, loop: CircuitLoop, ends: Pair, y: float) -> None:
     _side(board, (b, y), (b, low), loop.right, (1.0, 0.0))
     _side(board, (b, low), (a, low), loop.bottom, (0.0, 1.0))
     _side(board, (a, low), (a, y), loop.left, (-1.0, 0.0))
-    _mesh(board, loop, ((a + b) / 2, (y + low) / 2))
+    _mesh(board, loop, (a, y, b, low))
 
 
 def _node(board: Board, at: Pair) -> None:
     board.put(Disc(at, 2.6), "rod", width=0.0, solid=True, kind="node", layer=JOINT, moves=False)
 
 
-def _mesh(board: Board, loop: CircuitLoop, centre: Pair) -> None:
+def _mesh(board: Board, loop: CircuitLoop, corners: tuple[float, float, float, float]) -> None:
     """The charge of a loop, with an arrow in its sense; a charge that is given has its source instead."""
     if loop.coordinate is None:
         return
+    left, top, right, bottom = corners
+    inner = (left + INSIDE, top + INSIDE, right - INSIDE, bottom - INSIDE)
+    board.flows.append(Flow(loop.coordinate.name, inner, loop.sense))
+    centre = (left + right) / 2, (top + bottom) / 2
     start, end = (0.85 * pi, 2.4 * pi) if loop.sense > 0 else (0.15 * pi, -1.4 * pi)
     name = (loop.coordinate.name,)
     board.bow(centre, MESH, start, end, "coordinate", of=name, kind="coordinate")

@@ -39,7 +39,7 @@ from lagrangian.look.turning import turns_of
 from lagrangian.look.words import description
 from lagrangian.model import Model
 from lagrangian.page.placing import placed
-from lagrangian.page.scene import Disc, Label, Path, Scene, Trace
+from lagrangian.page.scene import Disc, Flow, Label, Path, Scene, Trace
 from lagrangian.page.scene import ScenePart as Shape
 
 Array = NDArray[np.float64]
@@ -212,6 +212,8 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
     low, high = _extent(board, 0)
     drawn = len(board.parts)
     draw_circuits(board, np.array([low[0], (low[1] + high[1]) / 2]))
+    if not board.handles:  # nothing else moves: the circuit is shown in motion, too
+        board.parts[drawn:] = [replace(x, moves=x.kind != "coordinate") for x in board.parts[drawn:]]
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
     if board.stage.dimension == 3:
         draw_fixed_axes(board, np.array([low[0] - 12.0, high[1] + 10.0]))
@@ -241,6 +243,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
         room,
         {c.name: float(x) for c, x in zip(model.coordinates, board.q, strict=True)},
         tuple(board.solids),
+        () if board.handles else tuple(_moved_flow(flow, origin) for flow in board.flows),
     )
     return scene, board.stage.program(anchors)
 
@@ -274,6 +277,11 @@ def _moved(part: Shape, by: Array) -> Shape:
         for letter, numbers in part.shape.commands
     )
     return replace(part, shape=Path(commands))
+
+
+def _moved_flow(flow: Flow, by: Array) -> Flow:
+    (left, top, right, bottom), (dx, dy) = flow.box, (float(x) for x in by)
+    return replace(flow, box=(left + dx, top + dy, right + dx, bottom + dy))
 
 
 def _moved_label(label: Label, by: Array) -> Label:

@@ -116,6 +116,18 @@ class ScenePart:
         return 2.5 + 1.7 * self.outline, 1.6 + 1.3 * self.outline
 
 
+@dataclass(frozen=True)
+class Flow:
+    """A charge that flows around a loop, clockwise as seen if ``sense`` is 1, else −1: in a page, dots move with it.
+
+    ``coordinate`` is its name; ``box`` is (left, top, right, bottom) of the way that the dots take [px].
+    """
+
+    coordinate: str
+    box: tuple[float, float, float, float]
+    sense: float
+
+
 def drawing_order(parts: Iterable[ScenePart]) -> list[ScenePart]:
     """Return parts from back to front, by rising layer."""
     return sorted(parts, key=lambda part: part.layer)
@@ -162,6 +174,9 @@ class Scene:
     solids: tuple[tuple[int, int, float, float], ...] = ()
     """In space: what is drawn at one depth, about the line between two anchors, with its radius and its lift to the
     eye [px]. A page asks which of them lies in front as things move and as the view turns."""
+
+    flows: tuple[Flow, ...] = ()
+    """The charges that flow, in the picture of a circuit alone."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""

@@ -134,6 +134,8 @@ class PageContents:
     space: bool = False
     bodies: bool = True
     """Whether there is a body that moves; a circuit alone has none."""
+    flows: bool = False
+    """Whether dots move with the charges of a circuit."""
 
 
 def page_html(contents: PageContents) -> str:
@@ -233,7 +235,7 @@ def _script(name: str) -> str:
 
 def _hint(contents: PageContents) -> str:
     if not contents.bodies:
-        return "no body moves: the plots show the charges"
+        return "dots move with the charges" if contents.flows else "no body moves: the plots show the charges"
     return "drag a body to place it" + ("; drag beside it to turn the view" if contents.space else "")
 
 

@@ -10,6 +10,9 @@ function cornersOf({ disc, path }) {
   return [Math.min(...xs), Math.max(...xs)].flatMap((x) => [Math.min(...ys), Math.max(...ys)].map((y) => [x, y]));
 }
 
+/** About how far dots that move with a charge are from each other [px], and how often the most that flowed sends them round. */
+const DOTS = 26, ROUNDS = 2;
+
 class Picture {
   zoom = 1;
   left = 0;
@@ -35,6 +38,7 @@ class Picture {
   /** Compute the positions of all anchors. */
   place(x, t) {
     const { r, rest } = this, { factor, middle } = this.displaced;
+    this.x = x;
     this.anchors(x, t, r);
     if (middle) for (let i = 0; i < r.length; i++) r[i] = rest[i] + factor * (r[i] - middle[i]);
     return r;
@@ -140,6 +144,24 @@ class Picture {
     }
     context.setLineDash([]);
     context.globalAlpha = 1;
+    context.fillStyle = colours.coordinate ?? colours.ink;
+    for (const flow of this.scene.flows) this.drawFlow(context, flow);
+  }
+
+  /** Dots inside a loop, which go along with its charge: however far that went so far is so many rounds. */
+  drawFlow(context, flow) {
+    const { box: [x0, y0, x1, y1], sense } = flow, charge = this.x[flow.state];
+    [flow.low, flow.high] = [Math.min(flow.low ?? charge, charge), Math.max(flow.high ?? charge, charge)];
+    const moved = ((charge - (flow.last ?? charge)) * ROUNDS) / (flow.high - flow.low || 1);
+    [flow.offset, flow.last] = [(flow.offset ?? 0) + sense * moved, charge];
+    const w = x1 - x0, h = y1 - y0, round = 2 * (w + h), count = Math.round(round / DOTS);
+    for (let n = 0; n < count; n++) {
+      const along = ((n / count + flow.offset) % 1) * round, s = along < 0 ? along + round : along;
+      const [x, y] = s < w ? [x0 + s, y0] : s < w + h ? [x1, y0 + s - w] : s < 2 * w + h ? [x1 - (s - w - h), y1] : [x0, y1 - (s - 2 * w - h)];
+      context.beginPath();
+      context.arc(this.left + this.zoom * x, this.top + this.zoom * y, 2.4 * this.zoom, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
 
   /** The parts from back to front: of one layer, solids follow what is none, by their distance from the eye. */
@@ -165,6 +187,10 @@ class Picture {
   /** Choose the displacements of a picture in which bodies were moved apart, from states that a run goes through. */
   spread(states) {
     const { scene, displaced, depth } = this;
+    for (const flow of scene.flows) {
+      const charges = states.map(({ x }) => x[flow.state]);
+      [flow.low, flow.high] = [Math.min(...charges), Math.max(...charges)];
+    }
     if (scene.room === null || !states.length) return;
     const keep = displaced.middle;
     displaced.middle = null;
