@@ -1,5 +1,7 @@
 """Systems with constraints for the tests of several rooms."""
 
+from functools import cache
+
 import sympy as sp
 
 import lagrangian as lg
@@ -137,3 +139,16 @@ def peaucellier():
         s.constraint(between=(points[a], points[b]), distance=short, name=f"rod {k}")
     s.gravity()
     return s
+
+
+@cache
+def smooth_puck():
+    """A puck on a cylinder with the contact as a constraint, derived: m r̈ − m r θ̇² + m g cos θ = λ, r = R."""
+    s = lg.System("puck")
+    r, theta = s.coordinate("r", positive=True), s.coordinate("theta")
+    m, R, g = s.parameters("m R g", m=0.4, R=1.2, g=9.81)
+    (t,) = r.args
+    s.kinetic(m * (r.diff(t) ** 2 + r**2 * theta.diff(t) ** 2) / 2)
+    s.potential(m * g * r * sp.cos(theta))
+    s.constraint(r - R, name="contact")
+    return s.derive()

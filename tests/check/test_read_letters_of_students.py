@@ -12,6 +12,7 @@ from functools import cache
 import pytest
 import sympy as sp
 
+from constrained_systems import smooth_puck
 from lagrangian import Derivation, ParseError, System
 
 CART = "(M+m) x'' + m ell theta'' cos(theta) - m ell theta'^2 sin(theta) + k x = F_a"
@@ -31,19 +32,6 @@ def cart() -> Derivation:
     sys.gravity(direction=(0, -1), g=g)
     sys.spring(k, deflection=x)
     sys.generalized_force(x, sys.input("F_a"))
-    return sys.derive()
-
-
-@cache
-def puck() -> Derivation:
-    """A puck on a cylinder, with the contact as a constraint."""
-    sys = System("puck")
-    r, theta = sys.coordinate("r", positive=True), sys.coordinate("theta")
-    m, R, g = sys.parameters("m R g", m=0.4, R=1.2, g=9.81)
-    (t,) = r.args
-    sys.kinetic(m * (r.diff(t) ** 2 + r**2 * theta.diff(t) ** 2) / 2)
-    sys.potential(m * g * r * sp.cos(theta))
-    sys.constraint(r - R, name="contact")
     return sys.derive()
 
 
@@ -167,9 +155,9 @@ def test_indices_with_dots_and_products_with_indices() -> None:
 @pytest.mark.parametrize("force", ["λ", "N_c", "2λ", "−λ"])
 def test_a_multiplier_beside_a_name_is_a_factor(force: str) -> None:
     radial, turning = f"m r'' - m r θ'^2 + m g cos θ = {force}", "m r^2 θ'' + 2 m r r' θ' = m g r sin θ"
-    assert puck().check(f"{radial}\n{turning}\nr = R").right
-    assert puck().check(f"r m r'' - r m r θ'^2 + r m g cos θ = {force} r\n{turning}\nr = R").right
-    assert not puck().check(f"{radial}\n{turning.replace('sin', 'cos')}\nr = R").right
+    assert smooth_puck().check(f"{radial}\n{turning}\nr = R").right
+    assert smooth_puck().check(f"r m r'' - r m r θ'^2 + r m g cos θ = {force} r\n{turning}\nr = R").right
+    assert not smooth_puck().check(f"{radial}\n{turning.replace('sin', 'cos')}\nr = R").right
 
 
 def test_a_bracket_that_is_missing_at_the_end_alone_is_closed() -> None:

@@ -13,6 +13,7 @@ import pytest
 import sympy as sp
 
 from built_in import derivation
+from constrained_systems import smooth_puck
 from lagrangian import Derivation, ParseError, System
 from lagrangian.check.reading import parse_answer
 
@@ -46,19 +47,6 @@ def plate(permittivity: str = "eps") -> Derivation:
     sys.damper(b, deflection=x)
     sys.potential(q**2 * (d - x) / (2 * eps * A))
     sys.generalized_force(q, sys.input("u") - R * q.diff(t))
-    return sys.derive()
-
-
-@cache
-def puck() -> Derivation:
-    """A puck on a cylinder, with the contact as a constraint: m r̈ − m r θ̇² + m g cos θ = λ, r = R."""
-    sys = System("puck")
-    r, theta = sys.coordinate("r", positive=True), sys.coordinate("theta")
-    m, R, g = sys.parameters("m R g", m=0.4, R=1.2, g=9.81)
-    (t,) = r.args
-    sys.kinetic(m * (r.diff(t) ** 2 + r**2 * theta.diff(t) ** 2) / 2)
-    sys.potential(m * g * r * sp.cos(theta))
-    sys.constraint(r - R, name="contact")
     return sys.derive()
 
 
@@ -173,9 +161,9 @@ def test_general_equations_in_matrices_are_told() -> None:
 def test_a_multiplier_takes_up_no_mistake() -> None:
     turn = "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
     for right in ("m r'' - m r theta'^2 + m g cos(theta) = lambda", "r'' = r theta'^2 - g cos(theta) + N/m"):
-        assert puck().check(f"{right}\n{turn}").right
+        assert smooth_puck().check(f"{right}\n{turn}").right
     for wrong in ("m r'' + m g cos(theta) = lambda", "m r'' - m r theta'^2 - m g cos(theta) = lambda"):
-        assert not puck().check(f"{wrong}\n{turn}").right
+        assert not smooth_puck().check(f"{wrong}\n{turn}").right
 
 
 def test_a_name_of_the_system_alone_on_the_right_is_no_energy() -> None:

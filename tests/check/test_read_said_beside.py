@@ -120,3 +120,56 @@ def test_a_delta_that_the_answer_defines_is_no_variation() -> None:
     assert right(said, "pendulum")
     assert not right(said.replace("g/L", "gL"), "pendulum")
     assert not right(rf"\[ ({BARE})\delta(\theta) = 0,\quad T = m L^2\dot\theta^2 \]", "pendulum")
+
+
+SMALL = "(M + m) x'' + m l theta'' + b x' = F\n(J + m l^2) theta'' + m l x'' - m g l theta = 0"
+
+
+@pytest.mark.parametrize("beside", [f"For small angles:\n{SMALL}", "theta = 0", "Equilibria: sin theta = 0 or x = 0"])
+def test_single_positions_and_small_motions_beside_the_equations_are_not_judged(beside: str) -> None:
+    verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{beside}")
+    assert verdict.right and any("was not judged: it is about" in str(note) for note in verdict.notes)
+    assert not right(f"{CART}\n{POLE.replace('- m g', '+ m g')}\n{beside}")
+
+
+def test_small_motions_are_wrong_alone_and_where_they_do_not_follow() -> None:
+    assert not right(SMALL)
+    assert not right(f"{CART}\n{POLE}\n{SMALL.replace('- m g', '+ m g')}")
+    assert not right(f"{CART}\n{POLE}\ntheta = x")
+
+
+HALVES = (
+    "S x'' + {coupling} theta'' - m l theta'^2 sin theta + b x' = F\n{coupling} x'' + J_p theta'' - m g l sin theta = 0"
+)
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "S = M + m, a_12 = a_21 = {H}, J_p = J + m l^2\n" + HALVES.format(coupling="a_21"),
+        "M + m =: S\n{H} =: H\nJ + m l^2 =: J_p\n" + HALVES.format(coupling="H"),
+        "F_h = S x'' + {H} theta'' - m l theta'^2 sin theta = F - b x'\nS = M + m\n" + POLE,
+        CART.replace("m l cos", "H").replace("m l theta'' cos theta", "{H} theta''") + "    (I)\n" + POLE + "   (II)",
+        "Eq. 1 (cart): " + CART.replace("m l theta'' cos theta", "{H} theta''") + "\nEq. 2 (pole): " + POLE,
+        "(using 2 cos² = 1 + cos 2θ)\n" + CART.replace("m l theta'' cos theta", "{H} theta''") + "\n" + POLE,
+        "I use u for x' and q for theta.\n(M + m) u' + m l q'' cos q - m l q'^2 sin q + b u = F\n"
+        "(J + m l^2) q'' + {H} u' - m g l sin q = 0",
+        "eq1 = (M + m)*x'' + {H}*theta'' ...\n    - m*l*theta'^2*sin(theta) ...\n    + b*x' - F;\neq2 = "
+        + POLE.removesuffix(" = 0"),
+        "Q1 = F - b x' + m l theta'^2 sin theta\n(M + m) x'' + {H} theta'' = Q1\n" + POLE,
+        "r = (x + l sin θ, l cos θ)\nv = (x' + l θ' cos θ, -l θ' sin θ)\nv^2 = x'^2 + 2 {H}/m x' θ' + l^2 θ'^2\n"
+        "T = M/2 x'^2 + J/2 θ'^2 + m/2 v^2\n" + CART + "\n" + POLE,
+    ],
+)
+def test_names_numbers_and_remarks_as_students_place_them(written: str) -> None:
+    assert right(written.replace("{H}", "m l cos theta"))
+    assert not right(written.replace("{H}", "m l sin theta"))
+
+
+def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
+    rows = (
+        r"\begin{bmatrix} M+m & m l c\\ m l c & J+m l^2\end{bmatrix}\begin{bmatrix}\ddot x\\ \ddot\theta\end{bmatrix}"
+        r"=\begin{bmatrix}F-b\dot x+m l s\dot\theta^2\\ m g l s\end{bmatrix}"
+    )
+    assert right(rf"{rows}\n with $s=\sin\theta$, $c=\cos\theta$".replace(r"\n", "\n"))
+    assert not right(rf"{rows}\n with $s=\cos\theta$, $c=\cos\theta$".replace(r"\n", "\n"))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.beside import beside
 from lagrangian.check.candidates import too_long
 from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
@@ -19,10 +20,11 @@ from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
 from lagrangian.check.numerators import multiplied
+from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
-from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
+from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
@@ -73,6 +75,9 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
         if verdict.right:
             return replace(verdict, notes=(*told, forces.note, *verdict.notes))
     verdict = _valued(truth, lines, written, hint, explain)
+    if (own := with_own_forces(lines, written, verdict)) is not None:
+        read = _valued(truth, own.lines, own.written, hint, False)
+        verdict = replace(read, notes=(*read.notes, own.note)) if read.right else verdict
     return replace(verdict, notes=(*told, *verdict.notes))
 
 
@@ -97,12 +102,12 @@ def _valued(
     truth: Reference, lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], hint: int, explain: bool
 ) -> Verdict:
     """The verdict on an answer in letters or, if that is not right, in numbers."""
-    values = _values(truth, written)
+    values = values_of(truth, written)
     numbers = bool(values) and in_numbers(truth, written)
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE or not values:
         return verdict
-    sure = values if numbers or not _names_values(truth, written) else {p: v for p, v in values.items() if v != 1}
+    sure = values if numbers or not names_values(truth, written) else {p: v for p, v in values.items() if v != 1}
     if sure:
         put = _put(truth, lines, sure, hint, explain=explain and numbers)
         if put.right or numbers:
@@ -121,12 +126,6 @@ def _put(
     valued = truth.with_values(values)
     read = _with_values(values, spelled(valued, filled(valued, lines), numbers=False))
     return _read(valued, read, hint, explain=explain)
-
-
-def _names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether an answer names a parameter that has a value: one whose value is 1 may then just have been forgotten."""
-    used = {x for line in lines for x in line.expr.free_symbols}
-    return any(p in used for p in truth.model.values)
 
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
@@ -168,6 +167,10 @@ def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedCha
     truth = truth.within(change.region(truth)) if change is not None else truth
     equations = [line for line in moved if line.kind == "equation"]
     comparison = compare(truth, [line.expr for line in equations])
+    moved, aside = beside(truth, moved, comparison)
+    if aside:
+        equations = [line for line in moved if line.kind == "equation"]
+        comparison = compare(truth, [line.expr for line in equations])
     above = given(truth, moved)
     found = dict(zip(map(id, equations), _equations(truth, equations, comparison, above), strict=True))
     findings: list[Finding] = []
@@ -176,7 +179,7 @@ def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedCha
             continue
         finding = found[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
         findings.append(replace(finding, line=own))
-    return Judged(*_overall(truth, comparison, findings), comparison, _missing(truth, comparison))
+    return Judged(*_overall(truth, comparison, findings), comparison, (*_missing(truth, comparison), *aside))
 
 
 def _overall(
@@ -338,13 +341,6 @@ def _tells(lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer contains enough to distinguish a relative coordinate from a wrong absolute one."""
     kinds = {line.kind for line in lines}
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
-
-
-def _values(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
-    """The values of the parameters that an answer does not name."""
-    used = {x for line in lines for x in line.expr.free_symbols}
-    put = truth.values.keys()
-    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used and p not in put}
 
 
 def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:

@@ -70,7 +70,7 @@ def compare(
     """Return how each expression, which is left minus right of an equation, is composed of the right equations."""
     compiled = CompiledExpressions(exprs)
     P = compiled.at(truth.states, instead)
-    A, spanned = _factors(truth, P)
+    A, spanned = factors_of(truth, P, truth.W)
     moving = _on_motion(truth, compiled)
     rows = []
     for j, expr in enumerate(exprs):
@@ -102,9 +102,9 @@ def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
     return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
 
 
-def _factors(truth: Reference, P: Array) -> tuple[Array, Array]:
-    """A (blocks, k, n) by least squares at every position, and which rows lie completely in the span."""
-    W, k = truth.W, len(P)
+def factors_of(truth: Reference, P: Array, W: Array) -> tuple[Array, Array]:
+    """A (blocks, k, n) in P = A W by least squares at every position, and which rows of P lie in the span of W."""
+    k = len(P)
     found, holds = [], np.ones(k, bool)
     for block in truth.states.blocks():
         w, p = W[:, block], P[:, block]

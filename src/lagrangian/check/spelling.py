@@ -147,3 +147,16 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
     if not table:
         return lines, ()
     return tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in lines), tuple(notes)
+
+
+def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
+    """The values of the parameters that an answer does not name."""
+    used = {x for line in lines for x in line.expr.free_symbols}
+    put = truth.values.keys()
+    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used and p not in put}
+
+
+def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether an answer names a parameter that has a value: one whose value is 1 may then just have been forgotten."""
+    used = {x for line in lines for x in line.expr.free_symbols}
+    return any(p in used for p in truth.model.values)

@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
-from lagrangian.model import Damper
+from lagrangian.model import Body, Damper
 from lagrangian.page.formula import text
 
 STEP = 6
@@ -40,8 +40,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 if rate in s.v and other == _absolute(s, s.v.index(rate)):
                     together.setdefault(b, []).append((element, change, other))
         for body in s.bodies:
-            squares = sp.Add(*[x**2 for x in s.velocity(body)])
-            change = _changed(s, element, b * bounded.trigsimp(squares) / 2) if bounded.size(squares) <= LONGEST else {}
+            square = _squared(s, body)
+            change = _changed(s, element, b * square / 2) if square is not None else {}
             if change:
                 what = text(f"The velocity of {element.title} is taken as the whole velocity of {body.title}.")
                 yield Variant(what=what, Xi=change, element=element, doubt=1)
@@ -80,6 +80,16 @@ def _absolute(s: Ingredients, i: int) -> sp.Expr:
         return bounded.expand(bounded.cancel(p / inertia)) if inertia != 0 else sp.S.Zero
 
     return s.kept(("absolute", i), made)
+
+
+def _squared(s: Ingredients, body: Body) -> sp.Expr | None:
+    """The square of a body's whole velocity, found once for all dampers; None if nobody writes it down."""
+
+    def made() -> sp.Expr | None:
+        squares = sp.Add(*[x**2 for x in s.velocity(body)])
+        return bounded.trigsimp(squares) if bounded.size(squares) <= LONGEST else None
+
+    return s.kept(("squared", body), made)
 
 
 def _changed(s: Ingredients, element: Damper, dissipation: sp.Expr) -> dict[int, sp.Expr]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import sympy as sp
 
@@ -16,34 +16,34 @@ WHY = text("sin θ ≈ θ and cos θ ≈ 1 hold only near θ = 0; the equations 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """In V, in all equations completely, and with products of small quantities dropped."""
     what = text("sin θ was replaced by θ, as if the motion were small.")
-    table = {f: _small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
+    table = {f: small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
     if table:
         yield Variant(what=what, V=put(s.V, table) - s.V)
-        yield Variant(what=what, V=put(s.V, {f: _small(f) for f in table}) - s.V)
+        yield Variant(what=what, V=put(s.V, {f: small(f) for f in table}) - s.V)
         for kind in (sp.sin, sp.cos):
             some = {f: x for f, x in table.items() if isinstance(f, kind)}
             if 0 < len(some) < len(table):
                 yield Variant(what=what, V=put(s.V, some) - s.V)
     rows = [s.expand(e.lhs) - s.expand(e.rhs) for e in s.derivation.equations]
-    replaced = {f: _small(f) for row in rows for f in row.atoms(sp.sin, sp.cos) if s.moves(f)}
+    replaced = {f: small(f) for row in rows for f in row.atoms(sp.sin, sp.cos) if s.moves(f)}
     if not replaced:
         return
     changed = [put(row, replaced) for row in rows]
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(changed, rows, strict=True))})
-    moving = dict.fromkeys((*s.q, *s.v, *s.a))
-    e = sp.Dummy("e")
-    linear = [_linear(c, {x: e * x for x in moving}, e) for c in changed]
+    linear = [first_order(c, (*s.q, *s.v, *s.a)) for c in changed]
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(linear, rows, strict=True))})
 
 
-def _small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
+def small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
+    """What a sine or cosine is near 0."""
     angle = f.args[0]
     if isinstance(f, sp.sin):
         return sp.S.One * angle  # type: ignore[return-value]
     return 1 - angle**2 / 2 if quadratic else sp.S.One  # type: ignore[operator]
 
 
-def _linear(row: sp.Expr, table: dict[sp.Expr, sp.Expr], e: sp.Dummy) -> sp.Expr:
-    """The part up to first order in coordinates, rates and accelerations."""
-    scaled = put(row, table)
+def first_order(row: sp.Expr, moving: Iterable[sp.Expr]) -> sp.Expr:
+    """The part up to first order in coordinates, rates and accelerations, all of them in ``moving``."""
+    e = sp.Dummy("e")
+    scaled = put(row, {x: e * x for x in moving})
     return put(scaled, {e: sp.S.Zero}) + put(sp.diff(scaled, e), {e: sp.S.Zero})

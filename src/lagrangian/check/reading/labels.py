@@ -33,6 +33,8 @@ _STEP_NUMBER = re.compile(rf"\s*(?P<words>[^\W\d_]{{3,14}}\.?\s+){_SHORT}\s?[.:)
 """A word with a number: Step 2. T = …, Paso 5. …"""
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
 """A name with a bracket that nothing opens: x), θ)."""
+_LEFT = re.compile(r"\s*+:(?=\s)")
+"""The colon of a label whose words are blank already: Eq. 1 (cart): …"""
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
@@ -81,6 +83,9 @@ _UNIT = re.compile(
     re.MULTILINE,
 )
 """The unit of what stands in front of it, at the end of a statement."""
+_LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
+_ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefgh"), list("ABCDEFGH"))
+"""How equations are numbered in letters."""
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
 
@@ -90,6 +95,8 @@ class Numbering:
 
     before: bool
     behind: bool
+    lettered: bool = False
+    """Whether they are numbered behind in letters, in order: (I), (II), … or (a), (b), …"""
     named: frozenset[str] = frozenset()
     """The names in brackets that only say which equation follows: the coordinates, each once, (r) …, (θ) …, or letters
     that are found nowhere else, (A) …, (B) …"""
@@ -106,7 +113,9 @@ def numbering(text: str, words: Words) -> Numbering:
     coordinates = [c.name for c in words.names.model.coordinates]
     named = sorted(x[0] for x in called if x) == sorted(coordinates)
     lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
-    return Numbering(before, behind, frozenset(written if len(written) > 1 and (named or lettered) else ()))
+    marks = [m[1] for line in lines if (m := _LETTER_BEHIND.search(line[-30:]))]
+    in_order = len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
+    return Numbering(before, behind, in_order, frozenset(written if len(written) > 1 and (named or lettered) else ()))
 
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
@@ -140,7 +149,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
                 line = blank(line, 0, match.end())
         if line == above:
             break
-    return line
+    left = _LEFT.match(line)
+    return line if left is None else blank(line, 0, left.end())
 
 
 def _is_energy(match: re.Match[str], line: str, words: Words) -> bool:
@@ -216,6 +226,8 @@ def behind(line: str, numbers: Numbering) -> str:
     """Blank out the number of an equation after it, a full stop and a linking word."""
     if line.count("|") == 1 or "<-" in line or "←" in line:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
+    if numbers.lettered and (match := _LETTER_BEHIND.search(line)) is not None:
+        line = blank(line, match.start(), len(line))
     for form in (_DOTS, _TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):
         if match := form.search(line):
             line = blank(line, match.start(), len(line))

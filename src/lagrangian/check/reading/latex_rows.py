@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.latex_layout import closing, without_braces, without_units
@@ -71,6 +71,12 @@ _MINUS = re.compile(rf"{_SPACE}[-−–]")
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
 
+_FORMULA = re.compile(
+    r"\s*+\\(?:begin\{[bpvB]?matrix\}|left(?![A-Za-z])|d?dot(?![A-Za-z])|[dt]?frac(?![A-Za-z]))|\s*+[\d(+-]*+\w*+\\d?dot(?![A-Za-z])"
+)
+"""How an equation in LaTeX begins that has no delimiters."""
+
+
 def latex_rows(text: str) -> list[AnswerRow]:
     """Return the statements of an answer in LaTeX; words around the mathematics are ignored."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
@@ -79,11 +85,24 @@ def latex_rows(text: str) -> list[AnswerRow]:
     if not found:
         return _statements(text, 0, lines=True)
     rows: list[AnswerRow] = []
+    found = sorted([*found, *_bare(text, found)])
     for start, inside in [x for x in found if "=" in x[1]] or found:
         if len(rows) > MAX_STATEMENTS:
             break
         rows += _statements(inside, start, lines=False)
     return rows
+
+
+def _bare(text: str, found: Sequence[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+    """The lines that are equations in LaTeX without delimiters, beside mathematics that has some."""
+    inside = [(start, start + len(piece)) for start, piece in found]
+    at = 0
+    for line in text.split("\n"):
+        end = at + len(line)
+        alone = "$" not in line and all(end <= a or b <= at for a, b in inside)
+        if alone and _FORMULA.match(line) and "=" in line:
+            yield at, line
+        at = end + 1
 
 
 def beside_mathematics(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -25,7 +26,7 @@ from lagrangian.check.reading.placeholders import (
 )
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.stated import energy_of
-from lagrangian.check.reading.subjects import Subject, Subjects
+from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.model.names import time
@@ -127,11 +128,14 @@ class Lines:
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
         for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0])):
-            self._waiting.setdefault(key(undotted(str(subject.token))[0]), i)  # omega = theta' before omega' = …
+            _, same = self.subjects.sharing(subject, self.subjects.turned(list(self._statements[i].sides))[1])
+            for token in (subject.token, *same):
+                self._waiting.setdefault(key(undotted(str(token))[0]), i)  # omega = theta' before omega' = …
         named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
         self.names.given_matrices = self._matrices
-        self.subjects.left = {key(undotted(str(s.token))[0]) for s in named if not s.right}
+        self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
+        self.subjects.left = set(self.subjects.leading)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
 
@@ -179,6 +183,10 @@ class Lines:
     def _about(self, subject: Subject, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         lines: list[AnswerLine] = []
         above: Value = None
+        sides, same = self.subjects.sharing(subject, sides)
+        if self.subjects.names_sides(subject, sides):
+            self._left_out(sides[0], reader.value(sides[0]), reader)
+            return self._equations(sides[1:], reader)
         values = [reader.value(side) for side in sides[1:]]
         told = [self._tells(subject, value, values[k + 1 :]) for k, value in enumerate(values)]
         for side, value, tells in zip(sides[1:], values, told, strict=True):
@@ -194,6 +202,8 @@ class Lines:
             else:
                 lines.append(self._stated(subject, value, sides, side, reader))
             above = value
+        for token in same:
+            self.names.define(token, above)
         return lines
 
     def _tells(self, subject: Subject, value: Value, after: Sequence[Value]) -> bool:
@@ -241,8 +251,10 @@ class Lines:
                 self.names.define(subject.token, value)  # K, P are energies only if a line says so
         elif kind == "definition":
             assert subject.token is not None
-            if self._is_equation(subject, value):
-                return self._make("equation", reader.value(sides[0]), value, None, sides[0], side, reader)
+            if self.subjects.equates(subject, value, self._equal):
+                left = reader.value(sides[0])
+                left = sp.S.Zero if is_label_of_equation(subject) else left
+                return self._make("equation", left, value, None, sides[0], side, reader)
             self._define(subject, value)
             self._used_nowhere(subject, reader)
         elif kind == "identity":
@@ -253,21 +265,6 @@ class Lines:
             assert name is not None
             return self._make("equation", value, generalized_force(name), None, sides[0], side, reader)
         return self._make(kind, lhs, value, name, sides[0], side, reader)
-
-    def _is_equation(self, subject: Subject, value: sp.Expr) -> bool:
-        """Whether a new name alone on a side is no definition but an input of the answer's own, or a coordinate.
-
-        It is a definition if it stands on the left and there are as many equations without it as coordinates:
-        N = m g - m y''. The acceleration of an unknown name equals accelerations only if it is defined.
-        """
-        assert subject.token is not None
-        if subject.order:
-            new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
-            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
-        if subject.square or not accelerates(value):
-            return False
-        others = self._equal - subject.right
-        return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
 
     def _define(self, subject: Subject, value: sp.Expr) -> None:
         assert subject.token is not None

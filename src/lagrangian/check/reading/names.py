@@ -172,6 +172,8 @@ class Names:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in spelled_rates(base):
+            if self._is_near_rate(stem):  # phdd is φ'' as phd is φ', not the rate of a name phd
+                continue
             if (found := self._rate_of(stem, token, source)) is not None:
                 if found[0] in self.scope and key(stem) != key(found[0]):
                     self.notes.setdefault(f"'{base}' was read as {found[0]}{chr(39) * order}.")
@@ -213,6 +215,13 @@ class Names:
         if not names and key(stem) in self._seen and key(stem) in self._moving:
             return self._noted(stem, token, source), self.unknown[key(stem)].symbol
         return None
+
+    def _is_near_rate(self, stem: str) -> bool:
+        """Whether a name is the rate of a coordinate in shortened letters, and nothing says that it is another."""
+        inner = stem.removesuffix("d")
+        if inner == stem or len(inner) < 2 or self.known(stem) or key(stem) in self.defined:
+            return False
+        return sum(key(c.name).startswith(key(inner)) for c in self.model.coordinates) == 1
 
     def _near_rate(self, base: str, token: Token, source: Source) -> tuple[str, int] | None:
         """The coordinate and the order that a shortened name with dd, ddot, … means: thdd is theta''.

@@ -20,6 +20,8 @@ _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
+_REASON = re.compile(r"\(\s*+(?:using|use|since|because|recall|note|by|weil|da|denn|car)\b", re.IGNORECASE)
+"""How a bracket begins that says why, with an identity: (using 2 cos² = 1 + cos 2φ)."""
 _EQUAL = re.compile(r"=(?![=>])")
 _BEHIND = re.compile(r"[ \t]*(?:[.,;:!)]|\n|\Z)")
 """What stands behind a bracket that is no factor."""
@@ -104,6 +106,8 @@ def _states(text: str, start: int, end: int) -> bool:
     """Whether a bracket says something: it has an equals sign, and is neither a factor nor a side."""
     if _INSIDE.search(text, start, end):
         return True
+    if _REASON.match(text, start) is not None:
+        return False
     return _EQUAL.search(text, start, end) is not None and _BEHIND.match(text, end + 1) is not None
 
 
@@ -123,7 +127,7 @@ def _without_comments(text: str, words: Words) -> str:
     J_b = … (bar about the pivot, the same as m L²/3)."""
     for start, end in _apart(text):
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
-        if behind and _says(text[start + 1 : end], words):
+        if (behind and _says(text[start + 1 : end], words)) or _REASON.match(text, start) is not None:
             told = " ".join(text[start : end + 1].split())
             words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)

@@ -44,9 +44,14 @@ def contradicting(names: Names, sources: Sequence[Source]) -> Iterator[tuple[int
 
 
 def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """The entries of two values beside each other."""
-    if isinstance(above, MatrixBase) and isinstance(value, MatrixBase) and above.shape == value.shape:
-        yield from zip(above.flat(), value.flat(), strict=True)
+    """The entries of two values beside each other; v² beside v = (…, …) is the square of its length."""
+    lists = [isinstance(x, MatrixBase) for x in (above, value)]
+    if all(lists):
+        if above.shape == value.shape:
+            yield from zip(above.flat(), value.flat(), strict=True)
+    elif any(lists):
+        column, length = (above, value) if lists[0] else (value, above)
+        yield sp.Add(*[x**2 for x in column.flat()]), length**2
     elif isinstance(above, sp.Expr) and isinstance(value, sp.Expr):
         yield above, value
 

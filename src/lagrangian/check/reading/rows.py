@@ -45,6 +45,7 @@ LONGEST_LABEL = 140
 
 _CLOSED = {"(": ")", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
+_STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
@@ -62,7 +63,10 @@ _SUM_ALONE = re.compile(
 _SUM = re.compile(r"∑|\\sum(?![A-Za-z])")
 _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
 _ARROWS = "<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
-_LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
+_LINKED = (
+    "and|or|where|with|so|thus|hence|therefore|implies|then|i\\.e\\."
+    "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
+)
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
 _RATES = re.compile(
     r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
@@ -78,6 +82,7 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
+    text = _STARRED.sub("T* ", text)
     text = without_remarks(stated_remarks(without_units(text, words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
@@ -94,7 +99,8 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
         if not bare.strip():
             open_row = open_row if line.strip() else None  # a line with only a comment ends nothing
         elif open_row is not None and (_continues(open_row.text, bare) or _GOES_ON.match(bare)):
-            bare = _GOES_ON.sub(lambda m: " " * len(m.group()), bare, count=1)
+            goes_on = _GOES_ON.match(bare)
+            bare = blank(bare, *goes_on.span()) if goes_on is not None else bare
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
                 head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"

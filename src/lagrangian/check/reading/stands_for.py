@@ -2,6 +2,7 @@
 
 % q1 = phi, q2 = s             q1 = phi, q2 = s           a comment of a program
 $\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
+I use u for x and w for x'.     I ; u = x; w = x'.        another
 """
 
 from __future__ import annotations
@@ -26,6 +27,14 @@ _SENTENCE = re.compile(
 )
 
 
+_USED = re.compile(
+    rf"(?<![\w\\])(?:use|used|using|write|wrote|writing|call|schreibe|nehme|verwende|benutze)[ \t]++"
+    rf"(?P<said>{_NAME}[ \t]++(?:for|für)[ \t]++{_NAME}['’′]{{0,2}}"
+    rf"(?:[ \t]*+(?:,|and|und)[ \t]++{_NAME}[ \t]++(?:for|für)[ \t]++{_NAME}['’′]{{0,2}})*+)(?![\w(^'′])"
+)
+_FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++({_NAME})(['’′]{{0,2}})")
+
+
 def with_stated_letters(
     written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], *, latex: bool
 ) -> TracedText:
@@ -48,6 +57,10 @@ def with_stated_letters(
     for match in _SENTENCE.finditer(written.text):
         if says(match["new"], match["own"]):
             edits.append((*match.span(), _statement(match, latex=latex)))
+    for match in _USED.finditer(written.text) if not latex else ():
+        pairs = _FOR.findall(match["said"])
+        if all(says(new, own) for new, own, _ in pairs):
+            edits.append((*match.span(), "; " + "; ".join(f"{new} = {own}{primes}" for new, own, primes in pairs)))
     return written.edited(sorted(edits))
 
 

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import cast
 
+import sympy as sp
 from lark import Token, Tree
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reading.answer import Kind
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
 from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
 from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
+
+_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|eq?uation)_?\d*", re.IGNORECASE)
+"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +36,11 @@ class Subject:
     right: bool = False
 
 
+def is_label_of_equation(subject: Subject) -> bool:
+    """Whether a name only calls what follows an equation, with 0 on its right."""
+    return _CALLED.fullmatch(str(subject.token)) is not None
+
+
 class Subjects:
     """Recognizes the subjects of statements; ``defined`` holds the names that a statement of the answer defines."""
 
@@ -36,6 +49,8 @@ class Subjects:
         self.defined: set[str] = set()
         self.left: set[str] = set()
         """The names that a statement defines on its left side."""
+        self.leading: Counter[str] = Counter()
+        """How many statements begin with a new name alone."""
         self.plain: frozenset[str] = frozenset()
         """The letters of energies that are names of the answer's own."""
 
@@ -105,6 +120,40 @@ class Subjects:
         if (token := squared_name(side)) is not None and not self._taken(token):
             return Subject("definition", str(token), token, square=True)
         return self._derivative_of_energy(inside(side))
+
+    def sharing(self, subject: Subject, sides: list[Tree]) -> tuple[list[Tree], list[Token]]:
+        """The sides of a definition without those that are new names alone, and these: a_12 = a_21 = m l."""
+        if subject.kind != "definition" or subject.order or subject.square or len(sides) < 3:
+            return sides, []
+        alone = [(side, self.of(side)) for side in sides[1:-1]]
+        new = [s for _, s in alone if s is not None and s.kind == "definition" and not s.order and not s.square]
+        same = [s.token for s in new if s.token is not None and s.token != subject.token]
+        kept = [side for side, s in alone if s is None or s.token not in same]
+        return [sides[0], *kept, sides[-1]], same
+
+    def names_sides(self, subject: Subject, sides: list[Tree]) -> bool:
+        """Whether a name in front of an equation of motion only says what its sides are: F_x = m x'' = F - b x'."""
+        token = subject.token
+        if subject.kind != "definition" or subject.order or subject.square or token is None or len(sides) < 3:
+            return False
+        alone = self.names.occurs(token) == self.leading[key(undotted(token)[0])]
+        return alone and any(map(self.accelerates, sides[1:]))
+
+    def equates(self, subject: Subject, value: sp.Expr, equal: int) -> bool:
+        """Whether a new name alone on a side is no definition but an input of the answer's own, or a coordinate.
+
+        It is a definition if it stands on the left and there are as many equations without it as coordinates:
+        N = m g - m y''. ``equal`` statements may be equations. The acceleration of an unknown name equals
+        accelerations only if it is defined.
+        """
+        assert subject.token is not None
+        if subject.order:
+            new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
+            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
+        if subject.square or not accelerates(value):
+            return False
+        others = equal - subject.right
+        return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
 
     def left_side(self, side: Tree) -> Subject | None:
         """Recognize d/dt ∂L/∂ξ̇ − ∂L/∂ξ, written with L alone."""

@@ -1,0 +1,63 @@
+"""What right equations have beside them that is not about every motion: a single position, or the small motions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.misconceptions.small_angle import first_order, small
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import Kind, RowComparison, factors_of
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import Text, text
+
+
+def beside(
+    truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison
+) -> tuple[Sequence[AnsweredLine], tuple[Text, ...]]:
+    """The lines, with those that are not judged as statements, and notes that say so.
+
+    Only if the equations of all motions are there: θ = 0 where the answer goes on to equilibria, and the equations for
+    small angles that follow from them. Equations for small angles alone are a mistake.
+    """
+    equations = [line for line in lines if line.kind == "equation"]
+    wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
+    if not wrong or comparison.rank < truth.n:
+        return lines, ()
+    aside = {id(line): "it is about one position" for line in wrong if _is_place(truth, line)}
+    others = [line for line in wrong if id(line) not in aside]
+    held = _small_ones(truth, [line.expr for line in others]) if others else []
+    aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
+    kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
+    told = dict.fromkeys(f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside)
+    return kept, tuple(text(note) for note in told)
+
+
+def _is_place(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line only says where a coordinate is: θ = 0, cos θ = g/(R Ω²)."""
+    changing = {x for x in line.expr.atoms(AppliedUndef) if x.args}
+    places = {c.symbol for c in truth.model.coordinates}
+    return "=" in line.text and len(changing) == 1 and changing <= places and not line.expr.has(sp.Derivative)
+
+
+def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:
+    """Which equations are the right ones for small motions, with sin θ = θ or of first order, and their sums."""
+    moving = [f for row in truth.rows for f in row.atoms(sp.sin, sp.cos) if f.atoms(AppliedUndef)]
+    if not moving:
+        return [False] * len(exprs)
+    table = {f: small(f) for f in moving}
+    changed = [cast("sp.Expr", row.xreplace(table)) for row in truth.rows]
+    coordinates = truth.model.coordinates
+    names = [x for c in coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    P = CompiledExpressions(exprs).at(truth.states)
+    holds = np.zeros(len(exprs), bool)
+    for rows in (changed, [first_order(row, names) for row in changed]):
+        W: Array = CompiledExpressions(rows).at(truth.states)
+        holds |= factors_of(truth, P, W)[1]
+    return [bool(x) for x in holds]
