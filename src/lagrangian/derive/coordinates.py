@@ -147,9 +147,13 @@ def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
     found: dict[sp.Expr, MeasuredFrom] = {}
     lengths, turns = _lengths(model, symbols), _turns(model, symbols)
     number = {s: i for i, s in enumerate(symbols)}
+    containing: dict[sp.Expr, list[tuple[sp.Expr, ...]]] = {s: [] for s in symbols}
+    for direction in directions:
+        for s in direction:
+            containing[s].append(direction)
     charges = {c.symbol for c in model.charges}
     for s in symbols:
-        holding = [d for d in directions if s in d]
+        holding = containing[s]
         if s in charges:
             found[s] = MeasuredFrom(False, None, known=False, charge=True)
         elif s in carriers:
@@ -244,8 +248,12 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
 
 def _turns(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     """The coordinates that are the angle of a frame: these are angles, even if something rolls along by R φ."""
-    angles = [model.expand(f.total_angle if f.axis is None else f.angle) for f in _frames(model)]
-    return {s for s in symbols if any(a.has(s) and bounded.diff(a, s) in (1, -1) for a in angles)}
+    known, found = set(symbols), set[sp.Expr]()
+    for frame in _frames(model):
+        angle = model.expand(frame.total_angle if frame.axis is None else frame.angle)
+        there = (known - found) & bounded.names(angle)
+        found |= {s for s in there if bounded.diff(angle, s) in (1, -1)}
+    return found
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:

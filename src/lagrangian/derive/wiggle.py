@@ -217,11 +217,11 @@ def _changes_with(model: Model, expr: sp.Expr) -> frozenset[sp.Expr] | None:
 
     None if the field has no value for a part of the expression.
     """
-    names = sorted(bounded.names(expr), key=str)
-    shared = model.remembered("point of the field", _Point)
-    values = shared.slopes(expr, names, there := [c.symbol for c in model.coordinates if c.symbol in names])
+    names = bounded.names(expr)
+    there = [c.symbol for c in model.coordinates if c.symbol in names]
+    values = model.remembered("point of the field", _Point).slopes(expr, sorted(names, key=str), there)
     if isinstance(values, NotAlgebraic):  # perhaps only beside what others contain
-        values = _Point().slopes(expr, names, there)
+        values = _Point().slopes(expr, sorted(names, key=str), there)
     if isinstance(values, NotAlgebraic):
         return None
     return frozenset(x for x, value in zip(there, values, strict=True) if value)

@@ -27,7 +27,7 @@ from lagrangian.structured.listing import Listing
 MOST_CONSTANTS = 48
 """The number of constants above which they are not written."""
 
-MOST_PRODUCTS = 600
+MOST_PRODUCTS = 300
 """The number of products of parameters above which constants are not sought."""
 
 LARGEST_FACTOR = 24
@@ -108,11 +108,13 @@ class _Parts:
         return self.known[node]
 
     def sum(self, parted: Sequence[Parted]) -> Parted:
-        """Σ of several; products that cancel are left out."""
+        """Σ of several; products that cancel are left out. Raises `_NotFoundError` where they are very many."""
         total: Parted = {}
         for each in parted:
             for product, f in each.items():
                 total[product] = self.graph.add(total.get(product, self.graph.zero), f)
+        if len(total) > MOST_PRODUCTS:
+            raise _NotFoundError
         return {product: f for product, f in total.items() if f != self.graph.zero}
 
     def _made(self, i: int, *, moving: bool) -> Parted:
@@ -136,13 +138,10 @@ class _Parts:
         return {(i,): g.one}  # a root of parameters, for example
 
     def _times(self, a: Parted, b: Parted) -> Parted:
-        if len(a) * len(b) > MOST_PRODUCTS**2 / 4:
+        if len(a) * len(b) > MOST_PRODUCTS**2:
             raise _NotFoundError
         g = self.graph
-        found = self.sum([{tuple(sorted(x + y)): g.mul(f, h)} for x, f in a.items() for y, h in b.items()])
-        if len(found) > MOST_PRODUCTS:
-            raise _NotFoundError
-        return found
+        return self.sum([{tuple(sorted(x + y)): g.mul(f, h)} for x, f in a.items() for y, h in b.items()])
 
     def written(self, terms: Sequence[tuple[Product, Fraction]], inertial: set[sp.Basic], found: Listing) -> sp.Expr:
         """Σ x μ in SymPy, where masses with one factor stand together: (m₄ + m₅ + m₆) a₃²."""
