@@ -12,6 +12,8 @@ import pytest
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
+from lagrangian.cli.look import KINDS
+from lagrangian.model.hints import BODY_KINDS
 
 
 def call(capsys: pytest.CaptureFixture[str], *argv: str) -> tuple[int, str, str]:
@@ -75,6 +77,10 @@ def test_json_says_what_was_written_and_what_is_missing(
     assert found["file"] == str(path)
     assert found["missing"] == []
     assert found["description"]
+
+
+def test_the_help_lists_every_kind_of_body() -> None:
+    assert tuple(KINDS.split(", ")) == BODY_KINDS
 
 
 @pytest.mark.parametrize(

@@ -167,7 +167,7 @@ def test_a_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> N
         "theta=180 deg",
         "--set",
         "M=2 kg",
-        "--outputs",
+        "--output-of",
         "tip=x+l*sin(theta)",
     ]
     assert main([*argv, "--symbols"]) == 0
@@ -186,8 +186,8 @@ def test_a_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> N
         (["--at", "theta=1", "--at", "theta=2"], "twice"),
         (["--at", "theta=1"], "not an equilibrium"),
         (["--at", "thta=1"], "Did you mean 'theta'"),
-        (["--outputs", "x +"], "output"),
-        (["--outputs", "__import__('os')"], "output"),
+        (["--output-of", "x +"], "output"),
+        (["--output-of", "__import__('os')"], "output"),
     ],
 )
 def test_a_mistake_in_a_command_is_one_message(
@@ -349,3 +349,8 @@ def test_a_regulator_writes_itself() -> None:
     assert np.allclose(found.to_dict()["K"], [[1, np.sqrt(3)]])
     assert found.to_html().startswith("<!DOCTYPE html>")
     assert repr(found) == "<double integrator: linear-quadratic regulator>"
+
+
+def test_a_pole_in_a_sentence_has_the_minus_sign_of_the_tables() -> None:
+    told = built_in("pendulum").linearize(params={"b": 0.1}).stability
+    assert told.reason == "all poles have negative real parts, the slowest is −0.2 ± 4.42493i"

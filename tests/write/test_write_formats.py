@@ -529,3 +529,13 @@ def test_long_roots_and_fractions_fit_a_narrow_page() -> None:
     derivation = derive(s.model)
     for width in range(40, 61, 3):
         assert max(map(columns, to_text(derivation, width=width).splitlines())) <= width
+
+
+def test_a_parameter_that_measures_gravity_is_described_as_its_acceleration() -> None:
+    s = lg.System("falling")
+    z = s.coordinates("z")
+    m, g0 = s.parameters("m g0")
+    s.particle(m, at=s.origin + (0, z))
+    s.gravity(g=g0)
+    lines = [line.split(maxsplit=1) for line in s.derive().to_text().splitlines()[:12]]
+    assert ["g₀", "gravitational acceleration"] in lines and ["m", "parameter"] in lines

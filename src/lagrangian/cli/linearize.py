@@ -37,7 +37,7 @@ def linearize(
     outputs: Annotated[
         list[str] | None,
         typer.Option(
-            "--outputs", metavar="EXPRESSION", help="An output y: an expression, or name=expression. Repeatable."
+            "--output-of", metavar="EXPRESSION", help="An output y: an expression, or name=expression. Repeatable."
         ),
     ] = None,
     operating_point: Annotated[
@@ -65,7 +65,7 @@ def linearize(
     \b
     Examples:
       lagrangian linearize --example cart-pole
-      lagrangian linearize cart.toml --at theta=0 --set M=2 --outputs "tip=x + l*sin(theta)"
+      lagrangian linearize cart.toml --at theta=0 --set M=2 --output-of "tip=x + l*sin(theta)"
       lagrangian linearize cart.toml --symbols -o cart.html
     """
     wanted = chosen(format, json, output, force)

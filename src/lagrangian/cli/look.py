@@ -17,6 +17,10 @@ from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_sys
 ListOption = list[str] | None
 
 
+KINDS = "ball, cart, box, wheel, disk, disc, link, plate, bar, none"
+"""`lagrangian.model.hints.BODY_KINDS`, written here so that help does not wait for models."""
+
+
 def look(
     file: OptionalFile = None,
     example: Example = None,
@@ -26,7 +30,7 @@ def look(
     ] = None,
     kind: Annotated[
         ListOption,
-        typer.Option(metavar="BODY=KIND", help="Draw a body as this: ball, cart, box, wheel, disk, link. Repeatable."),
+        typer.Option(metavar="BODY=KIND", help=f"Draw a body as this: {KINDS}. Repeatable."),
     ] = None,
     hide: Annotated[
         ListOption, typer.Option(metavar="NAME", help="Leave out this element or coordinate. Repeatable.")

@@ -49,11 +49,11 @@ class Stability(Brief):
 
 
 def shown(pole: complex) -> str:
-    """Return a pole in words for a sentence: ``-0.5 ± 2i``."""
+    """Return a pole in words for a sentence: ``−0.5 ± 2i``."""
+    real = f"{pole.real + 0.0:.6g}".replace("-", "−")
     if abs(pole.imag) == 0:
-        return f"{pole.real + 0.0:.6g}"
-    real = f"{pole.real:.6g} " if pole.real else ""
-    return f"{real}± {abs(pole.imag):.6g}i"
+        return real
+    return f"{real + ' ' if pole.real else ''}± {abs(pole.imag):.6g}i"
 
 
 def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stability:

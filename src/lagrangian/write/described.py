@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from lagrangian.model import Model
+from lagrangian.model.elements.gravity import Gravity
 from lagrangian.write.blocks import Items
 from lagrangian.write.document import Block, Display, Inline, Section, TableBlock
 from lagrangian.write.expression_tree import Math
@@ -64,8 +65,10 @@ def _symbols(model: Model, write: Quantities) -> Iterator[_Row]:
     for c in model.coordinates:
         words = f"{c.name}: {c.description}" if c.name in floating else c.description or "coordinate"
         yield c.name, write.expressions(c.symbol), words, f"[{unit(c.unit)}]" if c.unit else ""
+    strengths = [e.g for e in model.elements if isinstance(e, Gravity)]
     for p in model.parameters:
         value = "" if p.value is None else measured(p.value, p.unit)
-        yield p.name, write.expressions(p.symbol), p.description or "parameter", value
+        words = p.description or ("gravitational acceleration" if p.symbol in strengths else "parameter")
+        yield p.name, write.expressions(p.symbol), words, value
     for i in model.inputs:
         yield i.name, write.expressions(i.symbol), i.description or "input", f"[{unit(i.unit)}]" if i.unit else ""
