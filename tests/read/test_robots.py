@@ -140,7 +140,8 @@ def test_a_transmission_multiplies_the_effort_of_its_motor():
         f'<transmission name="a">{simple}<joint name="joint1"/><actuator name="m1">{gear}</actuator></transmission>\n'
         f'<transmission name="b">{simple}<joint name="joint2"/><actuator name="m2"/></transmission>\n'
         f'<transmission name="c">{simple}<joint name="joint1"/><actuator name="m3"/></transmission>\n'
-        '<transmission name="d"><type>DifferentialTransmission</type></transmission></robot>',
+        '<transmission name="d"><type>DifferentialTransmission</type></transmission>\n'
+        f'<transmission name="e">{simple}<joint name="wheel"/><actuator name="m5"/></transmission></robot>',
     )
     system = lg.loads(text)
     assert [u.name for u in system.model.inputs] == ["tau_joint2", "m1"]
@@ -149,6 +150,7 @@ def test_a_transmission_multiplies_the_effort_of_its_motor():
     said = " ".join(n.text for n in system.notices)
     assert "m1 drives joint1" in said and "transmission 'c' (line 10): another transmission drives joint joint1" in said
     assert "transmission 'd' (line 11): its type is DifferentialTransmission" in said
+    assert "transmission 'e' (line 12): there is no joint 'wheel'" in said
     with pytest.raises(lg.ModelError, match="the text of <mechanicalReduction> is '5O', not a number"):
         lg.loads(text.replace(" 50 ", "5O"))
 

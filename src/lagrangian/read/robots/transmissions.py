@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from lagrangian.quantities.source import shown
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.robot import RobotActuator, RobotJoint
 
@@ -46,9 +47,9 @@ class Transmissions:
         if len(joints) != 1 or len(actuators) != 1:
             return "it does not lead from one actuator to one joint"
         name = joints[0].word("name", "elbow")
-        if name not in self.joints:
-            joints[0].unknown("joint", name, self.joints, "name")
-        joint = self.joints[name]
+        joint = self.joints.get(name)
+        if joint is None:  # as in files of a part of a robot
+            return f"there is no joint {shown(name)}"
         if joint.kind not in DRIVEN or joint.mimic is not None:
             return f"joint {name} has no coordinate of its own that turns or slides"
         reductions = list(_reductions(tag))
