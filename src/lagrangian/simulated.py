@@ -60,8 +60,8 @@ class Simulated(Described):
         start: float | str = 0.0,
         method: str | None = None,
         step: float | str | None = None,
-        rtol: float = 1e-9,
-        atol: float = 1e-12,
+        rtol: float | None = None,
+        atol: float | None = None,
         events: Sequence[Event] | Event = (),
         fixed: Sequence[Any] | str | None = None,
         project: bool = True,
@@ -86,12 +86,13 @@ class Simulated(Described):
 
         Results are stored at ``samples`` evenly spaced times (1001 by default), or at the given ``times``. ``method``
         is one of our own in machine code (dop853, the default; taylor; tsit5; rk4 and gauss4, which need ``step``) or
-        one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` apply to the error of the whole run, for
-        SciPy's methods to that of each step. With constraints, initial values are guesses, except for the coordinates
-        named in ``fixed``; every state satisfies the constraints, unless ``project=False``; ``run.drift`` says how far
-        steps came from them. ``events`` are made with `lagrangian.event`. ``max_steps``,
-        ``max_events`` and ``timeout`` [s] limit the run. ``settings`` is a `lagrangian.RunSettings` with all options
-        from ``duration`` to ``timeout``, none of which can then be given beside it.
+        one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` (by default 1e-9) and ``atol`` (1e-12) apply to the
+        error of the whole run; values given to one of SciPy's methods apply to each step. With constraints, initial
+        values are guesses, except for the coordinates named in ``fixed``; every state satisfies the constraints, unless
+        ``project=False``; ``run.drift`` says how far steps came from them. ``events`` are made with
+        `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] limit the run. ``settings`` is a
+        `lagrangian.RunSettings` with all options from ``duration`` to ``timeout``, none of which can then be given
+        beside it.
 
         Raises `RunError` or `ModelError` for mistakes that are found before the run. A run that fails later is returned
         up to that time, with the reason in its ``message``.
@@ -118,8 +119,8 @@ class Simulated(Described):
         start: float | str = 0.0,
         method: str | None = None,
         step: float | str | None = None,
-        rtol: float = 1e-9,
-        atol: float = 1e-12,
+        rtol: float | None = None,
+        atol: float | None = None,
         events: Sequence[Event] | Event = (),
         event_times: int = 1,
         fixed: Sequence[Any] | str | None = None,
@@ -182,8 +183,8 @@ class Simulated(Described):
         start: float | str = 0.0,
         method: str | None = None,
         step: float | str | None = None,
-        rtol: float = 1e-9,
-        atol: float = 1e-12,
+        rtol: float | None = None,
+        atol: float | None = None,
         events: Sequence[Event] | Event = (),
         event_times: int = 1,
         fixed: Sequence[Any] | str | None = None,

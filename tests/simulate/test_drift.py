@@ -62,7 +62,7 @@ def test_every_sample_satisfies_the_constraints(method):
     run = SYSTEM.simulate(5.0, **RELEASED, method=method, step=0.01 if method == "rk4" else None)
     assert run.success and max(off(run)) < 5e-15
     assert run.drift is not None and run.drift.velocity_after < 5e-15
-    assert abs(run["x"] - np.sin(angle(run.t))).max() < (1e-6 if method in ("rk4", "BDF", "LSODA") else 1e-7)
+    assert abs(run["x"] - np.sin(angle(run.t))).max() < (1e-6 if method == "rk4" else 1e-8)
     assert "kept to" in str(run.drift)
 
 
@@ -77,13 +77,13 @@ def test_multistep_methods_stay_closed_for_a_hundred_seconds(method):
 @pytest.mark.slow
 def test_multistep_methods_say_why_they_are_slow_or_stop_where_a_linkage_can_branch():
     """The cranks lie flat at t = 0.42 s: LSODA takes twenty times the steps for the last 25 ms, BDF stops."""
-    plate = plate_on_cranks()
-    assert plate.simulate(0.4, initial=START, method="LSODA").steps < 100
-    run = plate.simulate(0.6, initial=START, method="BDF")
+    plate, loose = plate_on_cranks(), {"rtol": 1e-9, "atol": 1e-12}
+    assert plate.simulate(0.4, initial=START, method="LSODA", **loose).steps < 100
+    run = plate.simulate(0.6, initial=START, method="BDF", **loose)
     assert not run.success and "come to depend on each other there" in run.message
     assert "E504" in run.message and "method='dop853'" in str(run.message)
     assert plate.simulate(0.6, initial=START).steps < 300
-    slow = plate.simulate(0.425, initial=START, method="LSODA", samples=11)
+    slow = plate.simulate(0.425, initial=START, method="LSODA", samples=11, **loose)
     (said,) = (n.text for n in slow.notices if "more than one way" in n.text)
     assert slow.success and slow.steps > 1000 and "'LSODA' takes very short steps" in said
 

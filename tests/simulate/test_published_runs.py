@@ -152,7 +152,7 @@ def test_a_four_bar_stays_closed_for_100_seconds_by_every_method(method: str) ->
 @pytest.mark.parametrize("method", ["BDF", "LSODA"])
 def test_a_four_bar_stays_closed_by_methods_of_many_steps(method: str) -> None:
     s = built_in.system("four-bar")
-    run = s.simulate(10.0, method=method)
+    run = s.simulate(10.0, method=method, rtol=1e-9, atol=1e-12)
     left = s.compile().residual(run.y[:3].T, run.y[3:].T)
     assert run.success and max(np.abs(x).max() for rows in left.values() for x in rows.values()) < 1e-12
 

@@ -105,8 +105,8 @@ def simulate(
     force: Force = False,
     method: Method = None,
     step: Step = None,
-    rtol: Rtol = 1e-9,
-    atol: Atol = 1e-12,
+    rtol: Rtol = None,
+    atol: Atol = None,
     max_step: MaxStep = None,
     max_steps: MaxSteps = 10_000_000,
     max_events: MaxEvents = 100_000,
@@ -162,7 +162,12 @@ def start_values(
 
 
 def integration_options(
-    method: str | None, step: str | None, rtol: float, atol: float, max_step: str | None, max_steps: int
+    method: str | None,
+    step: str | None,
+    rtol: float | None,
+    atol: float | None,
+    max_step: str | None,
+    max_steps: int,
 ) -> dict[str, Any]:
     """Return the options of the group Integration, as those of `lagrangian.System.simulate`."""
     longest = math.inf if max_step is None else max_step

@@ -126,8 +126,14 @@ Step = Annotated[
     str | None,
     typer.Option(metavar="TIME", help='Step of rk4 and gauss4: 0.01, "10 ms".', rich_help_panel=INTEGRATION),
 ]
-Rtol = Annotated[float, typer.Option(metavar="NUMBER", help="Relative tolerance.", rich_help_panel=INTEGRATION)]
-Atol = Annotated[float, typer.Option(metavar="NUMBER", help="Absolute tolerance.", rich_help_panel=INTEGRATION)]
+Rtol = Annotated[
+    float | None,
+    typer.Option(metavar="NUMBER", help="Relative tolerance, by default 1e-9.", rich_help_panel=INTEGRATION),
+]
+Atol = Annotated[
+    float | None,
+    typer.Option(metavar="NUMBER", help="Absolute tolerance, by default 1e-12.", rich_help_panel=INTEGRATION),
+]
 MaxStep = Annotated[
     str | None, typer.Option(metavar="TIME", help='Longest step: 0.01, "10 ms".', rich_help_panel=INTEGRATION)
 ]

@@ -39,8 +39,17 @@ DEFAULT = "dop853"
 STORE = Argument("store", '"sweep.zarr"')
 """The ending of stores on disk."""
 
+RTOL, ATOL = 1e-9, 1e-12
+"""The default tolerances of a run, whichever method it uses."""
+
 STEP_SHARE = 1e-3
-"""The fraction of the run's tolerances for one step of our own methods or of an automatic choice: errors add up."""
+"""The fraction of a run's tolerances for one step, because errors add up. Values given to SciPy's methods are used as
+they are."""
+
+SHARES = {"Radau": 1.0, "RK23": 1e-2, "BDF": 1e-2, "LSODA": 1e-2}
+"""Other fractions: Radau's steps are more accurate than its estimate, which is of lower order; RK23 would take too many
+steps; and the corrector of BDF and LSODA does not get below rounding.
+"""
 
 FINEST_RTOL = 100 * float(np.finfo(float).eps)
 """The smallest relative tolerance of a step that is possible with doubles."""
@@ -64,8 +73,8 @@ class RunSettings:
     start: float | str = 0.0
     method: str | None = None
     step: float | str | None = None
-    rtol: float = 1e-9
-    atol: float = 1e-12
+    rtol: float | None = None
+    atol: float | None = None
     events: Sequence[Event] | Event = ()
     fixed: Sequence[Any] | str | None = None
     project: bool = True
@@ -119,10 +128,18 @@ class RunSettings:
             )
         return grid
 
+    @property
+    def tolerances(self) -> tuple[float, float]:
+        """The relative and the absolute tolerance, `RTOL` and `ATOL` if they are not given."""
+        return RTOL if self.rtol is None else self.rtol, ATOL if self.atol is None else self.atol
+
     def of_a_step(self) -> tuple[float, float]:
-        """Return the relative and the absolute tolerance of one step; for SciPy's methods these are the given ones."""
-        share = 1.0 if self.method in SCIPY else STEP_SHARE
-        return max(self.rtol * share, FINEST_RTOL), self.atol * share
+        """Return the relative and the absolute tolerance of one step; values given to SciPy's methods are these."""
+        relative, absolute = self.tolerances
+        known, share = self.method in SCIPY, SHARES.get(self.method or "", STEP_SHARE)
+        relative *= 1.0 if known and self.rtol is not None else share
+        absolute *= 1.0 if known and self.atol is not None else share
+        return max(relative, FINEST_RTOL), absolute
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -95,7 +95,7 @@ def simulate(
     )
     slips = slipping.run(task) if model.frictions else None
     outcome = drift.ended(run(task) if slips is None else slips.outcome, task)
-    made = _trajectory(task, model, outcome, {"rtol": settings.rtol, "atol": settings.atol})
+    made = _trajectory(task, model, outcome, dict(zip(("rtol", "atol"), settings.tolerances, strict=True)))
     if slips is not None:
         slips.noted(made)
     said = drift.notices(task, outcome)
