@@ -66,7 +66,7 @@ def saved(folder, mesh, **files):
     ("mesh", "rtol"),
     [
         ('file="u.stl"', 1e-10),
-        ('file="u.stl" inertia="convex"', 1e-10),
+        pytest.param('file="u.stl" inertia="convex"', 1e-10, marks=pytest.mark.slow),
         ('file="u.obj" inertia="exact" scale="1 -2 1"', 1e-6),  # MuJoCo keeps seven digits of a vertex
         ('file="u.obj" inertia="exact" refpos=".1 .2 .3" refquat=".5 .1 .2 .8" scale="1 2 3"', 1e-6),
         ('vertex="0 0 0 1 0 0 0 1 0 0 0 1 .5 .5 .5 .1 .1 .1"', 1e-10),
