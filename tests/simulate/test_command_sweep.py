@@ -117,11 +117,11 @@ def test_mistakes(
 
 
 def test_failures_are_told_and_counted(folder: pathlib.Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("arm.toml", "theta1'=0,1e200", *FAST) == 0
+    assert run("arm.toml", "theta1'=0,1e149", *FAST) == 0
     said = capsys.readouterr()
     assert "1 of 2 runs failed" in said.err
-    assert "theta1' = 1e+200: stopped at" in said.err
-    assert run("arm.toml", "theta1'=1e200,2e200", *FAST) == 1
+    assert "theta1' = 1e+149: stopped at" in said.err
+    assert run("arm.toml", "theta1'=1e149,2e149", *FAST) == 1
 
 
 @pytest.mark.slow
