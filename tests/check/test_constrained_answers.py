@@ -4,7 +4,8 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian.check import Status
+from lagrangian.check import Status, check, lines_of
+from lagrangian.check.reading import parse_answer
 
 
 @pytest.fixture(scope="module")
@@ -92,3 +93,46 @@ def test_energies_are_judged_as_always(pendulum: lg.Derivation) -> None:
     found = pendulum.check("T = m*(x'^2 + y'^2)/2\nV = m*g*y\n" + RIGHT[1])
     assert found.status is Status.RIGHT
     assert pendulum.check("T = m*(x'^2 + y'^2)\nV = m*g*y").status is Status.WRONG
+
+
+@pytest.fixture(scope="module")
+def wheel() -> lg.Derivation:
+    s = lg.System("wheel on a slope")
+    x, phi = s.coordinates("x phi")
+    m, J, r, g, alpha = s.parameters("m J r g alpha", m=1.0, J=0.5, r=0.3, g=9.81, alpha=0.2)
+    s.kinetic((m * x.diff() ** 2 + J * phi.diff() ** 2) / 2)
+    s.potential(-m * g * x * sp.sin(alpha))
+    s.velocity_constraint(x.diff() - r * phi.diff(), name="rolling")
+    return s.derive()
+
+
+def judged(derivation: lg.Derivation, written: str) -> Status:
+    """The status of an answer, whose mistakes are not sought."""
+    return check(derivation, lines_of(parse_answer(written, derivation.model)), explain=False).status
+
+
+ROLLING = "m x'' - m g sin(alpha) = lambda\nJ phi'' = -r lambda\n"
+
+
+@pytest.mark.parametrize("integrated", ["x = r phi", "phi - x/r = 0", "x = r (phi - pi/2)"])
+def test_a_condition_of_rolling_may_be_integrated(wheel: lg.Derivation, integrated: str) -> None:
+    assert wheel.check(ROLLING + integrated).right
+    assert judged(wheel, ROLLING + integrated.replace("r", "2 r")) is Status.WRONG
+    assert judged(wheel, ROLLING.replace("-r", "r") + integrated) is Status.WRONG
+
+
+@pytest.mark.parametrize("sign", ["+", "-"])
+def test_a_constraint_in_l_is_judged_as_a_constraint(pendulum: lg.Derivation, sign: str) -> None:
+    energy = f"L = m*(x'^2 + y'^2)/2 - m*g*y {sign} lambda*(x^2 + y^2 - l^2)\n"
+    equations = f"m*x'' = {sign}2*lambda*x\nm*y'' + m*g = {sign}2*lambda*y\n"
+    assert pendulum.check(energy + equations).right and pendulum.check(energy).right
+    for wrong in (energy.replace("- l^2", "- 2*l^2"), energy.replace("m*g*y", "m*g*x")):
+        assert judged(pendulum, wrong + equations) is Status.WRONG
+    opposite = {"+": "-", "-": "+"}[sign]
+    other = equations.replace(f"{sign}2", f"{opposite}2")
+    assert judged(pendulum, energy + other) is Status.WRONG
+    assert judged(pendulum, energy + equations.splitlines()[0]) is Status.INCOMPLETE
+
+
+def test_a_position_is_no_integrated_constraint(pendulum: lg.Derivation) -> None:
+    assert judged(pendulum, f"{RIGHT[0]}\nx^2 + y^2 = 2*l^2") is Status.WRONG

@@ -20,6 +20,7 @@ from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
 from lagrangian.check.numerators import multiplied
+from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
@@ -66,8 +67,9 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
     """The verdict on an answer whose own names are written out."""
     written = filled(truth, lines)
     if truth.derivation.multipliers:
-        verdict = check_constrained(truth, written, hint)
-        return _named_with_multipliers(truth, written, verdict) if explain else verdict
+        read = unfolded(truth, written)
+        verdict = read.judged(lambda said: check_constrained(truth, said, hint))
+        return _named_with_multipliers(truth, read.lines, verdict) if explain else verdict
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
     if forces is not None:

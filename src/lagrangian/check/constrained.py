@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.answer_on_rows import AnswerAt, AnswerOnRows
+from lagrangian.check.own_constraints import with_rates
 from lagrangian.check.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.reference import Reference
 from lagrangian.check.spelling import not_there
@@ -115,7 +116,7 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = [_in_rates(truth, _of_motion(truth, line)) for line in lines]
+    lines = [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
     other = _expanded(truth)
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:

@@ -109,8 +109,8 @@ def factors_of(truth: Reference, P: Array, W: Array) -> tuple[Array, Array]:
     for block in truth.states.blocks():
         w, p = W[:, block], P[:, block]
         good = np.isfinite(w).all(axis=0) & np.isfinite(p).all(axis=0)
-        if good.sum() < truth.n + 2:
-            found.append(np.zeros((k, truth.n)))
+        if good.sum() < len(W) + 2:
+            found.append(np.zeros((k, len(W))))
             holds &= np.isfinite(p).all(axis=1) & False
             continue
         w, p = w[:, good], p[:, good]

@@ -1,0 +1,87 @@
+"""Constraints as answers write them: integrated, x = r φ for ẋ = r φ̇, or with their multipliers in L = T* − V + λ f."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import factors_of
+from lagrangian.check.stated import left_sides
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.model import time
+from lagrangian.model.rows import pressing_rows, rows_of
+
+_IMPLIED = "what multipliers in L say"
+"""The name of the equations that an answer does not write, but that L with multipliers says."""
+
+
+def with_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line f(q, t) = 0 as ḟ = 0, if ḟ is a sum of the rows of the velocity constraints: x − r φ for ẋ − r φ̇.
+
+    A constraint on positions is not taken this way: r = 2 R has the rate of r = R.
+    """
+    rows = [row.rate for row in rows_of(truth.model) if row.position is None]
+    places = {c.symbol for c in truth.model.coordinates}
+    constants = {time, *(p.symbol for p in truth.model.parameters)}
+    held = line.expr.atoms(AppliedUndef)
+    if not rows or line.kind != "equation" or line.expr.has(sp.Derivative) or not held:
+        return line
+    if held - places or line.expr.free_symbols - constants:
+        return line
+    rate = bounded.diff(line.expr, time)
+    P, W = (CompiledExpressions(x).at(truth.states) for x in ([rate], list(map(truth.expand, rows))))
+    return replace(line, expr=rate) if bool(factors_of(truth, P, W)[1][0]) else line
+
+
+@dataclass(frozen=True)
+class Unfolded:
+    """An answer with L without multipliers, its constraints f = 0, and the equations that follow from both."""
+
+    lines: tuple[AnsweredLine, ...]
+    constraints: tuple[AnsweredLine, ...] = ()
+    equations: tuple[AnsweredLine, ...] = ()
+
+    def judged(self, check: Callable[[Sequence[AnsweredLine]], Verdict]) -> Verdict:
+        """The verdict on the answer; L is wrong if its constraints are, or if its λ is not that of the equations."""
+        alone = not any(line.kind == "equation" for line in self.lines)
+        verdict = check([*self.lines, *self.constraints, *(self.equations if alone else ())])
+        if self.equations and not alone and verdict.right:  # afterwards: L makes up for no missing equation
+            whole = check([*self.lines, *self.constraints, *self.equations])
+            verdict = verdict if whole.right else whole
+        bad = {f.line.number for f in verdict.findings if f.line.name == _IMPLIED and not f.status.right}
+        kept = [f for f in verdict.findings if f.line.name != _IMPLIED]
+        wrong = [f.line.kind == "L" and f.line.number in bad for f in kept]
+        found = [replace(f, status=Status.WRONG) if x else f for f, x in zip(kept, wrong, strict=True)]
+        return replace(verdict, findings=tuple(found))
+
+
+def unfolded(truth: Reference, lines: Sequence[AnsweredLine]) -> Unfolded:
+    """The answer with each L = T* − V + λ f as T* − V, with f = 0 and d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ beside it.
+
+    Only if f depends on positions; a λ that presses on friction, of which these equations also depend, is left in L.
+    """
+    stated = [line for line in lines if line.kind == "L"]
+    if len(stated) != 1 or pressing_rows(truth.model):
+        return Unfolded(tuple(lines))
+    model, L = truth.model, stated[0].expr
+    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
+    own = sorted({*L.free_symbols, *L.atoms(AppliedUndef)} - known, key=str)
+    slopes = [cast("sp.Expr", L.diff(x)) for x in own]
+    if not own or any(f.has(sp.Derivative, *own) for f in slopes):
+        return Unfolded(tuple(lines))
+    without = cast("sp.Expr", L.xreplace(dict.fromkeys(own, sp.S.Zero)))
+    pushed = [sp.Add(*[x * f.diff(c.symbol) for x, f in zip(own, slopes, strict=True)]) for c in model.coordinates]
+    follow = [a - b - c for a, b, c in zip(left_sides(truth, without), truth.Xi, pushed, strict=True)]
+
+    def implied(exprs: Sequence[sp.Expr]) -> tuple[AnsweredLine, ...]:
+        return tuple(replace(stated[0], kind="equation", name=_IMPLIED, expr=x) for x in exprs)
+
+    kept = tuple(replace(x, expr=without) if x.kind == "L" else x for x in lines)
+    return Unfolded(kept, implied(slopes), implied(follow))
