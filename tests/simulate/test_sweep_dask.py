@@ -184,7 +184,7 @@ def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
     dask = object.__new__(Dask)
     dask._lib = distributed
     with pytest.raises(lg.RunError, match=message):
-        dask._result(Future())
+        dask._result(Future(), 1.0)
 
 
 def test_a_worker_of_another_version_is_refused(system: lg.System) -> None:

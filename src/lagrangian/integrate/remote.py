@@ -14,7 +14,7 @@ import importlib.metadata
 import pickle
 import threading
 import time
-from collections import OrderedDict
+from collections import Counter, OrderedDict
 from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
 from typing import Any
@@ -34,7 +34,9 @@ COUNTED = 1.0
 """The time [s] for which a number of workers is believed."""
 
 DELIVERY = 60.0
-"""The time [s] in which a worker must deliver a result that it has computed, before another computes it again."""
+"""The time [s] in which a worker must deliver a result that it has computed, before another computes it again.
+
+Four times as long for a result that was computed again: if all workers are slow to deliver, one is waited for."""
 
 AHEAD = 2
 """The number of scheduled tasks for each thread of the workers, so that none waits for this process."""
@@ -106,6 +108,7 @@ class Dask:
             ) from None
         threads = self.client.nthreads().values()
         self.held, self.threads, self._counted = max(threads), sum(threads), time.monotonic()
+        self._hanging: set[str] = set()
 
     def close(self) -> None:
         """Disconnect from the scheduler; a client that the user passed stays open."""
@@ -119,7 +122,7 @@ class Dask:
         waiting, done = iter(todo), self._lib.as_completed(loop=self.client.loop)
         running: dict[Any, int] = {}
         finished: set[int] = set()
-        copied: set[int] = set()
+        copied: Counter[int] = Counter()
 
         def send(index: int, **where: Any) -> None:
             future = self.client.submit(work, *head, design.rows(*portions.range(index)), pure=False, **where)
@@ -133,7 +136,7 @@ class Dask:
                     late = [k for k in running.values() if k not in copied]
                     idle = self._idle() if late else []
                     for index in late if idle else ():  # a slow or hanging worker does not hold up the others' end
-                        copied.add(index)
+                        copied[index] += 1
                         send(index, workers=idle, allow_other_workers=True)
                     return
                 send(index)
@@ -145,11 +148,12 @@ class Dask:
                 if index is None or index in finished:  # cancelled, because its copy was faster
                     continue
                 try:
-                    values = self._result(future, None if index in copied else DELIVERY)
+                    values = self._result(future, DELIVERY * 4 ** copied[index])
                 except TimeoutError:  # finished, but its worker hangs before it delivers: another computes it again
+                    self._note_hanging(future)
                     self.client.cancel([future])
-                    copied.add(index)
-                    send(index, workers=self._idle() or None, allow_other_workers=True)
+                    copied[index] += 1
+                    send(index, workers=self._answering() or None, allow_other_workers=True)
                     continue
                 finished.add(index)
                 copies = [other for other, k in running.items() if k == index]
@@ -171,13 +175,27 @@ class Dask:
             self._counted = time.monotonic()
 
     def _idle(self) -> list[str]:
-        """The addresses of workers that have nothing to compute."""
+        """The addresses of workers that have nothing to compute, without those that did not deliver."""
         try:
-            return [worker for worker, tasks in self.client.processing().items() if not tasks]
+            tasks = self.client.processing()
+        except OSError:
+            return []
+        return [worker for worker in tasks if not tasks[worker] and worker not in self._hanging]
+
+    def _note_hanging(self, future: Any) -> None:
+        """Remember the workers that have a result and do not deliver it."""
+        with contextlib.suppress(OSError):
+            for holders in self.client.who_has([future]).values():
+                self._hanging.update(holders)
+
+    def _answering(self) -> list[str]:
+        """The addresses of the workers without those that did not deliver."""
+        try:
+            return [worker for worker in self.client.nthreads() if worker not in self._hanging]
         except OSError:
             return []
 
-    def _result(self, future: Any, within: float | None = None) -> Values:
+    def _result(self, future: Any, within: float) -> Values:
         """The result from a worker; if no worker could compute it, the error.
 
         Raises TimeoutError if the worker does not deliver what it has computed ``within`` seconds.
