@@ -362,7 +362,7 @@ def test_the_command_verifies_and_derives_given_energies_beside_floating_frames(
 
     verified = run("verify", str(file), "--states", "5")
     assert verified.returncode == 0, verified.stderr
-    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 24
+    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 28
     derived = run("derive", str(file))
     assert derived.returncode == 0, derived.stderr
     assert "quasi-velocities" in derived.stdout and "✗" not in derived.stdout

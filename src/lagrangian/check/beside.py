@@ -40,10 +40,13 @@ def beside(
 
 
 def _is_place(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a line only says where a coordinate is: θ = 0, cos θ = g/(R Ω²)."""
+    """Whether a line only says where a coordinate is: θ = 0, cos θ = g/(R Ω²), and not k x = 0."""
     changing = {x for x in line.expr.atoms(AppliedUndef) if x.args}
     places = {c.symbol for c in truth.model.coordinates}
-    return "=" in line.text and len(changing) == 1 and changing <= places and not line.expr.has(sp.Derivative)
+    if "=" not in line.text or len(changing) != 1 or not changing <= places or line.expr.has(sp.Derivative):
+        return False
+    (place,) = changing
+    return line.expr.diff(place).free_symbols <= place.free_symbols
 
 
 def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:

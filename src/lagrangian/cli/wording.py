@@ -4,7 +4,14 @@ from __future__ import annotations
 
 from lagrangian.advice import Advice, Argument, Verb
 
-_OPTIONS = {"params": "--set", "inputs": "--input", "initial": "--init", "overwrite": "--force", "store": "-o"}
+_OPTIONS = {
+    "outputs": "--output-of",
+    "params": "--set",
+    "inputs": "--input",
+    "initial": "--init",
+    "overwrite": "--force",
+    "store": "-o",
+}
 """Options that are not called after the argument."""
 
 
