@@ -134,7 +134,7 @@ class Dask:
             while len(running) < AHEAD * max(1, self.threads):
                 if (index := next(waiting, None)) is None:
                     late = [k for k in running.values() if k not in copied]
-                    idle = self._idle() if late else []
+                    idle = [worker for worker, tasks in self._delivering().items() if not tasks] if late else []
                     for index in late if idle else ():  # a slow or hanging worker does not hold up the others' end
                         copied[index] += 1
                         send(index, workers=idle, allow_other_workers=True)
@@ -153,7 +153,7 @@ class Dask:
                     self._note_hanging(future)
                     self.client.cancel([future])
                     copied[index] += 1
-                    send(index, workers=self._answering() or None, allow_other_workers=True)
+                    send(index, workers=list(self._delivering()) or None, allow_other_workers=True)
                     continue
                 finished.add(index)
                 copies = [other for other, k in running.items() if k == index]
@@ -174,26 +174,18 @@ class Dask:
                 self.threads = sum(self.client.nthreads().values()) or self.threads
             self._counted = time.monotonic()
 
-    def _idle(self) -> list[str]:
-        """The addresses of workers that have nothing to compute, without those that did not deliver."""
+    def _delivering(self) -> dict[str, Any]:
+        """What the workers compute, by their addresses, without those that did not deliver."""
         try:
-            tasks = self.client.processing()
+            return {worker: tasks for worker, tasks in self.client.processing().items() if worker not in self._hanging}
         except OSError:
-            return []
-        return [worker for worker in tasks if not tasks[worker] and worker not in self._hanging]
+            return {}
 
     def _note_hanging(self, future: Any) -> None:
         """Remember the workers that have a result and do not deliver it."""
         with contextlib.suppress(OSError):
             for holders in self.client.who_has([future]).values():
                 self._hanging.update(holders)
-
-    def _answering(self) -> list[str]:
-        """The addresses of the workers without those that did not deliver."""
-        try:
-            return [worker for worker in self.client.nthreads() if worker not in self._hanging]
-        except OSError:
-            return []
 
     def _result(self, future: Any, within: float) -> Values:
         """The result from a worker; if no worker could compute it, the error.
