@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from effort import at_most
 from lagrangian.errors import ModelError, RunError
-from lagrangian.graph import Graph, Output, Program, Scalar, count_operations, evaluate, to_sympy
+from lagrangian.graph import Graph, Output, Program, Scalar, Valuation, count_operations, evaluate, to_sympy
 from size import sized
 
 
@@ -161,3 +161,26 @@ def test_a_node_costs_the_same_few_calls_however_many_there_are():
                 x.append(g.mul(x[-1], x[-37]) if k % 2 else g.add(x[-1], x[-23]))
         costs.append(effort.calls / (len(g) - before))
     assert max(costs) < 8 and max(costs) < 1.05 * min(costs)
+
+
+class CountedReads(list):
+    """Numbers that count how often they are read."""
+
+    reads = 0
+
+    def __getitem__(self, k):
+        self.reads += 1
+        return super().__getitem__(k)
+
+
+def test_a_graph_that_grows_is_computed_only_where_it_grew():
+    """Against the evaluation of the whole program, infinite values included."""
+    g = Graph()
+    x, y = g.input("x", 0), g.input("x", 1)
+    given = CountedReads([0.7, 0.0])
+    at = Valuation(g, {"x": given})
+    first = [g.sin(x), g.powi(g.add(x, y), -3), g.div(x, y), g.log(y), g.select(g.lt(x, y), x, g.exp(y))]
+    assert at(first) == [value(g, node, x=[0.7, 0.0]) for node in first]
+    later = g.mul(first[0], g.atan2(first[2], x))
+    assert at([later]) == [value(g, later, x=[0.7, 0.0])]
+    assert given.reads == 2

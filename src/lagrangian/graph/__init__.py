@@ -2,7 +2,7 @@
 
 from lagrangian.graph.autodiff import Tangents, backwards, gradient, hessian, jacobian, jvp, vjp
 from lagrangian.graph.bounds import bends, bounds, states_read
-from lagrangian.graph.evaluate import evaluate
+from lagrangian.graph.evaluate import Valuation, evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
 from lagrangian.graph.graph import Graph, operands
 from lagrangian.graph.prime_point import NotAlgebraic, PrimePoint
@@ -20,6 +20,7 @@ __all__ = [
     "Program",
     "Scalar",
     "Tangents",
+    "Valuation",
     "backwards",
     "bends",
     "bounds",

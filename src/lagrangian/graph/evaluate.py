@@ -19,7 +19,7 @@ import mpmath
 
 from lagrangian.errors import RunError
 from lagrangian.graph.arithmetic import Node
-from lagrangian.graph.graph import LEAVES, UNARY, operands
+from lagrangian.graph.graph import LEAVES, UNARY, Graph, operands
 from lagrangian.graph.program import Program, reached
 
 Table = Mapping[str, Callable[..., Any]]
@@ -152,6 +152,37 @@ def evaluate(program: Program, inputs: Mapping[str, Sequence[Any]], *, digits: i
         return _run(program, values, DOUBLE, float)
     with mpmath.workdps(digits):
         return _run(program, values, MANY_DIGITS, mpmath.mpf)
+
+
+class Valuation:
+    """The values of the nodes of a graph at one place, in double precision; where it grows, only the rest is computed.
+
+    ``inputs`` has the numbers of every group that is asked for.
+    """
+
+    def __init__(self, graph: Graph, inputs: Mapping[str, Sequence[float]]) -> None:
+        self._graph, self._inputs = graph, inputs
+        self._known: dict[int, Any] = {}
+
+    def __call__(self, ids: Sequence[int]) -> list[float]:
+        """The values of nodes."""
+        nodes, known = self._graph.nodes, self._known
+        fresh: set[int] = set()
+        stack = [i for i in ids if i not in known]
+        while stack:
+            i = stack.pop()
+            if i not in fresh:
+                fresh.add(i)
+                stack.extend(k for k in operands(nodes[i]) if k not in known)
+        for i in sorted(fresh):
+            node = nodes[i]
+            if node[0] in LEAVES:
+                known[i] = _leaf(node, self._inputs, float)
+            elif node[0] == "powi":
+                known[i] = DOUBLE["powi"](known[node[1]], node[2])
+            else:
+                known[i] = DOUBLE[node[0]](*[known[k] for k in node[1:]])
+        return [known[i] for i in ids]
 
 
 def _entries(program: Program, group: str, inputs: Mapping[str, Sequence[Any]]) -> Sequence[Any]:

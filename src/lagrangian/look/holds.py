@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from functools import cached_property
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.kinematics import Kinematics, Views
+from lagrangian.look.kinematics import Kinematics
 from lagrangian.model import RigidBody
 
 Array = NDArray[np.float64]
@@ -158,20 +157,12 @@ class Motions:
         return "" if found is None else found.name
 
     def slopes(self, deflection: sp.Expr) -> tuple[Array, Array]:
-        """∂δ/∂q (n,) of a deflection at two random states."""
+        """∂δ/∂q (n,) of a deflection at the first two states of ``views``."""
         if deflection not in self._slopes:
-            first, second = (self.stage.slopes(deflection, q, self.views.p) for q in self._two_states())
+            v = self.views
+            first, second = (self.stage.slopes(deflection, q, v.p, t=v.t) for q in v.q[:2])
             self._slopes[deflection] = first, second
         return self._slopes[deflection]
-
-    def _two_states(self) -> list[Array]:
-        rng = np.random.default_rng(5)
-        return [rng.uniform(0.4, 1.3, len(self.stage.inputs.q)) for _ in range(2)]
-
-    @cached_property
-    def two_views(self) -> Views:
-        """The stage at the two states of `slopes`."""
-        return self.stage.views(self._two_states(), self.views.p)
 
     def angle_slopes(self, frame: int) -> Array:
         """In the plane: ∂φ/∂q of a frame's angle (n,), at the first state."""

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from lagrangian.dynamics import Inputs, placed
 from lagrangian.dynamics.vectors import plus, times
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, Output, Program, Tangents, evaluate, jvp
+from lagrangian.graph import Graph, Output, Program, Tangents, Valuation, jvp
 from lagrangian.model import Frame, Model, Point
 
 Array = NDArray[np.float64]
@@ -28,6 +28,9 @@ Array = NDArray[np.float64]
 STATES = 3
 """The number of random states at which a rule is asked."""
 
+
+KEPT = 16
+"""Of so many states the values of nodes are kept."""
 
 LARGEST = 1e30
 """Positions [m] beyond this are not drawn."""
@@ -48,6 +51,9 @@ class Views:
     RJ: Array
     p: Array
     """The parameters at these states."""
+    q: Sequence[Array]
+    """The coordinates."""
+    t: float
 
 
 class Kinematics:
@@ -67,6 +73,7 @@ class Kinematics:
         motion = self.described.motion
         self._nodes: list[list[int]] = [list(motion.position(places[p])) for p in self.points]
         self._parameters: Array | None = None
+        self._valuations: dict[tuple[bytes, bytes, float, float], Valuation] = {}
         self._tangents = [Tangents(self.graph, {s: self.graph.one}) for s in (*self.inputs.q, self.inputs.t)]
 
     # -- points -------------------------------------------------------------------------------------------------
@@ -108,15 +115,10 @@ class Kinematics:
         }
         return Program("picture", self.graph, names, outputs, {p.name: p.value for p in m.parameters})
 
-    def _groups(self, q: Array, p: Array, *, u: float = 0.0, t: float = 0.0) -> dict[str, list[float]]:
-        """The inputs of a program at rest."""
-        x = [*map(float, q), *[0.0] * len(self.inputs.v)]
-        return {"x": x, "u": [u] * len(self.inputs.u), "p": [float(v) for v in p], "t": [t]}
-
     def positions(self, q: Array, p: Array, first: int = 0) -> Array:
         """The positions (points, d) of all points from number ``first`` on, at a state."""
         nodes = [i for node in self._nodes[first:] for i in node]
-        return self._numbers(nodes, q, p).reshape(-1, self.dimension)
+        return np.array(self._at(q, p)(nodes), float).reshape(-1, self.dimension)
 
     def views(self, states: Sequence[Array], p: Array, *, t: float = 0.0, known: Views | None = None) -> Views:
         """Positions, rotations and their derivatives at coordinates q, one array for each state.
@@ -132,11 +134,7 @@ class Kinematics:
         R = [x for rows in rotations for row in rows for x in row]
         slopes = [along([*r, *R]) for along in self._tangents]
         flat = [*r, *R, *(x for column in slopes for x in column)]
-        program = self._program({"all": Output(tuple(flat), (len(flat),))})
-        rows: list[Array] = []
-        for q in states:
-            rows.append(np.array(evaluate(program, self._groups(q, p, t=t))["all"], float))
-        values = np.array(rows)
+        values = np.array([self._at(q, p, t=t)(flat) for q in states])
         size = count * d
         width = size + turns * d * d
         many = len(states)
@@ -150,12 +148,14 @@ class Kinematics:
             r_all, J_all, rt_all = (
                 np.concatenate(x, axis=1) for x in zip((known.r, known.J, known.rt), places, strict=True)
             )
-            return Views(r_all, J_all, rt_all, known.R, known.RJ, p)
+            return Views(r_all, J_all, rt_all, known.R, known.RJ, p, states, t)
         return Views(
             *places,
             values[:, size:width].reshape(many, turns, d, d),
             np.moveaxis(slots[:, :n, size:].reshape(many, n, turns, d, d), 1, -1),
             p,
+            states,
+            t,
         )
 
     def random_views(self) -> Views:
@@ -195,27 +195,36 @@ class Kinematics:
             q[k : k + 4] /= np.linalg.norm(q[k : k + 4])
         return q
 
+    def _at(self, q: Array, p: Array, *, u: float = 0.0, t: float = 0.0) -> Valuation:
+        """The values of all nodes at a state at rest; those of the last few states are kept."""
+        key = q.tobytes(), p.tobytes(), u, t
+        found = self._valuations.pop(key, None)
+        if found is None:
+            x = [*map(float, q), *[0.0] * len(self.inputs.v)]
+            groups = {"x": x, "u": [u] * len(self.inputs.u), "p": [float(v) for v in p], "t": [t]}
+            found = Valuation(self.graph, groups)
+        self._valuations[key] = found  # the last one used is last
+        if len(self._valuations) > KEPT:
+            del self._valuations[next(iter(self._valuations))]
+        return found
+
     def evaluated(self, expressions: Sequence[sp.Expr], q: Array, p: Array, *, u: float = 0.0) -> Array:
         """The values of expressions in coordinates, parameters and inputs at rest at t = 0, with every input ``u``."""
         nodes = [self.described.node(self.model.expand(x)) for x in expressions]
-        return self._numbers(nodes, q, p, u=u)
+        return np.array(self._at(q, p, u=u)(nodes), float)
 
     def value(self, expression: Any, q: Array, p: Array, *, u: float = 0.0) -> float:
         """The value of one expression; see `evaluated`."""
         return float(self.evaluated([sp.sympify(expression)], q, p, u=u)[0])
 
-    def slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
+    def slopes(self, expression: sp.Expr, q: Array, p: Array, *, t: float = 0.0) -> Array:
         """∂(expression)/∂q (n,) at a state."""
-        return self._slopes(expression, self.inputs.q, q, p)
+        return self._slopes(expression, self.inputs.q, q, p, t)
 
     def rate_slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
         """∂(expression)/∂v (m,) of an expression that is linear in the rates, at a state."""
         return self._slopes(expression, self.inputs.v, q, p)
 
-    def _slopes(self, expression: sp.Expr, seeds: Sequence[int], q: Array, p: Array) -> Array:
+    def _slopes(self, expression: sp.Expr, seeds: Sequence[int], q: Array, p: Array, t: float = 0.0) -> Array:
         node = self.described.node(self.model.expand(expression))
-        return self._numbers([jvp(self.graph, [node], {s: self.graph.one})[0] for s in seeds], q, p)
-
-    def _numbers(self, nodes: Sequence[int], q: Array, p: Array, *, u: float = 0.0) -> Array:
-        program = self._program({"x": Output(tuple(nodes), (len(nodes),))})
-        return np.array(evaluate(program, self._groups(q, p, u=u))["x"], float)
+        return np.array(self._at(q, p, t=t)([jvp(self.graph, [node], {s: self.graph.one})[0] for s in seeds]))

@@ -21,16 +21,17 @@ DIRECTIONS, DISTANCES = 16, (0.0, 5.0, 12.0, 22.0, 36.0)
 def placed_labels(board: Board) -> list[Label]:
     """The labels of a board, each where it meets the least."""
     boxes, labels = list(board.boxes), list[Label]()
+    segments = np.array(board.segments, float).reshape(-1, 2, 2)
     for wish in sorted(board.wishes, key=lambda w: not w.inside):
         width, height = width_of(wish.names, SIZE), SIZE * 1.15
-        centre = wish.near if wish.inside else _best(wish, width, height, boxes, board.segments)
+        centre = wish.near if wish.inside else _best(wish, width, height, boxes, segments)
         box = (centre[0] - width / 2, centre[1] - height / 2, width, height)
         boxes.append(box)
         labels.append(Label(wish.names, centre, wish.role, wish.elements, box, SIZE))
     return labels
 
 
-def _best(wish: Wish, width: float, height: float, boxes: list[Box], segments: list[tuple[Pair, Pair]]) -> Pair:
+def _best(wish: Wish, width: float, height: float, boxes: list[Box], segments: Array) -> Pair:
     size = (wish.away[0] ** 2 + wish.away[1] ** 2) ** 0.5 or 1.0
     ax, ay = wish.away[0] / size, wish.away[1] / size
     angles = 2 * pi * np.arange(DIRECTIONS) / DIRECTIONS
@@ -43,8 +44,7 @@ def _best(wish: Wish, width: float, height: float, boxes: list[Box], segments: l
     cost = 0.45 * (1 - dx * ax - dy * ay) + 0.055 * extra
     if boxes:
         cost = cost + 6.0 * _overlaps(box, np.array(boxes, float)).sum(axis=1)
-    if segments:
-        cost = cost + 2.5 * _crossings(box, np.array(segments, float)).sum(axis=1)
+    cost = cost + 2.5 * _crossings(box, _near(segments, box)).sum(axis=1)
     least = int(np.argmin(cost))
     return float(x[least]), float(y[least])
 
@@ -57,6 +57,12 @@ def _overlaps(a: Array, b: Array) -> Array:
     )
     least = np.maximum(1e-9, np.minimum(a[..., 2] * a[..., 3], b[..., 2] * b[..., 3]))
     return np.where((w > 0) & (h > 0), 0.3 + 0.7 * w * h / least, 0.0)
+
+
+def _near(lines: Array, box: Array) -> Array:
+    """The lines (n, 2, 2) that may meet one of the boxes (…, 4)."""
+    low, high = box[..., :2].min(axis=(0, 1)), (box[..., :2] + box[..., 2:]).max(axis=(0, 1))
+    return lines[((lines.min(axis=1) <= high) & (lines.max(axis=1) >= low)).all(axis=-1)]
 
 
 def _crossings(box: Array, lines: Array) -> NDArray[np.bool_]:

@@ -41,8 +41,8 @@ class Pose:
         self.motions, self.stage, self.p = motions, motions.stage, p
         self.names = [c.name for c in self.stage.model.coordinates]
         self.asked = dict(asked)
-        given = Given.of(self.stage.model, self.stage.program(()))
-        self.start = given.states.values(dict(self.stage.model.settings.get("initial") or {}))
+        initial = dict(self.stage.model.settings.get("initial") or {})
+        self.start = Given.of(self.stage.model, self.stage.program(())).states.values(initial) if initial else {}
         self.slides = [i for i in range(len(self.names)) if self._slides(i)]
         self.angles = [i for i in range(len(self.names)) if i not in self.slides and self._turns(i)]
         self.q = self._chosen()

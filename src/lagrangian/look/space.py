@@ -9,7 +9,7 @@ from lagrangian.look.board import BEHIND, MEASURE
 from lagrangian.look.cast import BodyGlyph
 from lagrangian.look.shapes import line
 from lagrangian.look.space_bodies import SpaceBodies
-from lagrangian.look.space_solids import across
+from lagrangian.look.space_solids import across, cross
 from lagrangian.look.space_supports import curved_arrow
 from lagrangian.look.space_turns import Spin, axis_now
 
@@ -21,9 +21,10 @@ SMALL = 0.12
 """A smaller angle [rad] is shown by an arrow around its axis."""
 
 
-def rotated(n: Array, angle: float, d: Array) -> Array:
-    """A vector after a turn about the unit vector n (Rodrigues)."""
-    return d * np.cos(angle) + np.cross(n, d) * np.sin(angle) + n * (n @ d) * (1 - np.cos(angle))
+def rotated(n: Array, angles: Array, d: Array) -> Array:
+    """A vector after turns about the unit vector n (Rodrigues), (angles, 3)."""
+    sine, cosine = np.sin(angles)[:, None], np.cos(angles)[:, None]
+    return cosine * d + sine * cross(n, d) + (1 - cosine) * (n @ d) * n
 
 
 class ArcArtist:
@@ -43,16 +44,17 @@ class ArcArtist:
         angle = float(board.q[spin.coordinate])
         origin = board.scale * (board.view @ centre)
 
-        def spot(a: float, size: float) -> Array:
-            return origin + size * (board.view @ rotated(n, a, now))
+        def spots(angles: Array, size: float) -> list[Array]:
+            return [*(origin + size * (rotated(n, angles, now) @ board.view.T))]
 
         if abs(angle) < SMALL:
-            path = [spot(a, 0.75 * radius) for a in np.linspace(-0.9, 0.9, 25)]
+            path = spots(np.linspace(-0.9, 0.9, 25), 0.75 * radius)
         else:
-            path = [spot(a, radius) for a in np.linspace(-angle, 0.0, 33)]
-            self._reference(origin, spot(-angle, radius + 20.0))
+            path = spots(np.linspace(-angle, 0.0, 33), radius)
+            start, end = spots(np.array([-angle, 0.0]), radius + 20.0)
+            self._reference(origin, start)
             if not shown:
-                self._reference(origin, spot(0.0, radius + 20.0))
+                self._reference(origin, end)
         curved_arrow(board, path, "coordinate", (name,), kind="coordinate", layer=MEASURE)
         middle = path[len(path) // 2]
         board.wish((name,), middle, middle - origin, "coordinate", (name,), distance=4.0)
@@ -122,7 +124,7 @@ class ArcArtist:
         """Whether a body hangs on the joint of a spin itself, a little off its axis."""
         r = self.board.r
         d = r[k] - r[spin.joint]
-        off = float(np.linalg.norm(np.cross(axis_now(spin, self.solids.views), d))) > 1e-6 * float(np.linalg.norm(d))
+        off = float(np.linalg.norm(cross(axis_now(spin, self.solids.views), d))) > 1e-6 * float(np.linalg.norm(d))
         return off and k not in (spin.joint, spin.tip) and self.board.motions.carried(k, spin.joint, spin.frame)
 
     def _shadow(self, spin: Spin, n: Array) -> None:

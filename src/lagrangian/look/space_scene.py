@@ -94,7 +94,7 @@ def _keeps_on_floor(board: Board, element: Element) -> bool:
     contacts = [stage.index(e.at) for e in stage.model.elements if isinstance(e, Rolling)]
     motions = board.motions
     slopes = motions.slopes(element.expression)
-    heights = np.einsum("skdn,d->skn", motions.two_views.J, up_axis(motions))
+    heights = np.einsum("skdn,d->skn", motions.views.J[:2], up_axis(motions))
     return any(
         all(min(np.abs(h[k] - g).max(), np.abs(h[k] + g).max()) < 1e-9 for h, g in zip(heights, slopes, strict=True))
         for k in contacts

@@ -168,7 +168,7 @@ class Solids:
         spoke: Array | None = None,
     ) -> None:
         """A disc about a point across an axis [axes of the frame]; ``radius`` · factor and half its thickness [m]."""
-        u, v = across(axis) if spoke is None else (spoke, np.cross(axis, spoke))
+        u, v = across(axis) if spoke is None else (spoke, cross(axis, spoke))
         put = self.board.put
         places = list[Placement]()
         for s in SECTIONS if half > 0 else (0.0,):
@@ -245,11 +245,17 @@ class Solids:
 
 def across(axis: Array) -> tuple[Array, Array]:
     """Two unit vectors across a unit vector, u × v = axis; the first is along a coordinate axis where one is across."""
-    options: list[Array] = [np.eye(3)[i] - axis[i] * axis for i in range(3)]
-    longest = max(options, key=lambda x: float(np.linalg.norm(x)))
-    u: Array = longest / float(np.linalg.norm(longest))
-    v: Array = np.asarray(np.cross(axis, u), dtype=float)
-    return u, v
+    least = int(np.argmin(np.abs(axis)))
+    flat = -axis[least] * axis
+    flat[least] += 1.0
+    u: Array = flat / float(np.linalg.norm(flat))
+    return u, cross(axis, u)
+
+
+def cross(a: Array, b: Array) -> Array:
+    """a × b of two vectors, without what NumPy does for arrays of them."""
+    (ax, ay, az), (bx, by, bz) = a.tolist(), b.tolist()
+    return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
 def swapped(place: Placement) -> Placement:

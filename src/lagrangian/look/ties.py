@@ -61,7 +61,7 @@ class Resolver:
         """What a deflection ties together."""
         first, second = self.motions.slopes(deflection)
         if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
-            bent = self._slides(element, np.concatenate([first, second]), self.motions.two_views.J)
+            bent = self._slides(element, np.concatenate([first, second]), self.motions.views.J[:2])
             g = self.motions.stage.slopes(deflection, np.zeros(len(first)), self.p)
             return bent or self._small(element, g) or Tie(element, "unknown")
         g = first
@@ -111,7 +111,7 @@ class Resolver:
             return tie
         g = self.motions.slopes(deflection)[0]
         for part in self.parts:
-            slope = self._slope_of(part, self.motions.two_views.J[:1])
+            slope = self._slope_of(part, self.motions.views.J[:1])
             if slope is not None and (ratio := _ratio(g, slope)) is not None:
                 return Tie(element, "slides", None, part.point, float(np.sign(ratio)))
         return tie

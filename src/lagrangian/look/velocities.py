@@ -88,6 +88,6 @@ def cross_of(lever: Array) -> Array:
 
 def complement(columns: Array, least: float = 1e-3) -> Array:
     """Orthonormal rows (d − rank, d) at right angles to all columns; those far below ``least`` are zero."""
-    left, sizes, _ = np.linalg.svd(columns)
+    left, sizes, _ = np.linalg.svd(columns, full_matrices=columns.shape[1] < len(columns))
     rank = int((sizes > NONE * max(float(sizes.max(initial=0.0)), least)).sum())
     return left[:, rank:].T
