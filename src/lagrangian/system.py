@@ -110,8 +110,8 @@ class System(Designed):
         """Check everything that is computed from the system by independent routes, at random states.
 
         This covers the derived equations, the compiled functions, the exported source and the linearization: see
-        `Derivation.verify`. A system with a floating frame and friction that a constraint presses on has no derived
-        equations; everything else is checked.
+        `Derivation.verify`. Of a floating system without derived equations (all of its energies are given
+        directly) everything else is checked.
         ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed.
         """
         from lagrangian.values.values import check_sampling

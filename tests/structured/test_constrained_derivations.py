@@ -97,6 +97,30 @@ def test_dry_friction_and_given_energies_have_a_structured_form() -> None:
     assert "slips" in text
 
 
+def test_friction_that_a_constraint_presses_on_has_a_structured_form() -> None:
+    """m ẍ = −N sin α − μ |N| sgn(ṡ) cos α on a rough incline, and N in place of the weight across it."""
+    s = lg.System("rough incline")
+    x, y = s.coordinates("x y")
+    m, mu, alpha = s.parameters("m mu alpha", m=1, mu=0.2, alpha=0.3)
+    s.particle(m, at=s.origin + (x, y))
+    s.gravity()
+    s.constraint(y * sp.cos(alpha) - x * sp.sin(alpha), name="rod")
+    s.friction(mu, pressed_by="rod", deflection=x * sp.cos(alpha) + y * sp.sin(alpha), name="rough")
+    d = s.derive(form="structured")
+    assert all(c.holds for c in d.verified)
+    N, speed = d.multipliers["rod"].symbol, x.diff() * sp.cos(alpha) + y.diff() * sp.sin(alpha)
+    force = -mu * sp.Abs(N) * sp.sign(speed)
+    right = [force * sp.cos(alpha) - N * sp.sin(alpha), force * sp.sin(alpha) + N * sp.cos(alpha)]
+    for equation, expected in zip(d.equations, right, strict=True):
+        shown = equation.rhs
+        for definition in reversed(d.definitions):
+            shown = shown.xreplace({definition.symbol: definition.expression})
+        assert sp.expand(shown - expected) == 0
+    assert [o.element.name for o in d.where(d.equations[0].rhs) if o.step == 6] == ["rough"]
+    turned = [dataclasses.replace(x, expression=x.expression.xreplace({mu: -mu})) for x in d.definitions]
+    assert not verify_lines(dataclasses.replace(d, definitions=tuple(turned)), states=3, seed=1)[0].holds
+
+
 def test_an_empty_motion_without_bodies_is_refused() -> None:
     s = lg.System("energies")
     x = s.coordinate("x")

@@ -82,14 +82,13 @@ def reason_of(element: Element) -> str:
     return "has mass and moves"
 
 
-def step_two(model: Model) -> tuple[Text, Text]:
-    """What step 2 does, and why."""
-    masses = "Wrote ½mv² for every mass"
-    turning = "½Jω² for every body that turns"
-    bodies = (
-        "Every mass that moves stores kinetic co-energy. With the velocity of the centre of mass and J about it, "
-        "translation and rotation add without a mixed term."
-    )
+UNMIXED = "With the velocity of the centre of mass and J about it, translation and rotation add without a mixed term."
+
+
+def step_two(model: Model, turning: str = "½Jω²", velocities: str = UNMIXED) -> tuple[Text, Text]:
+    """What step 2 does, and why; ``turning`` is the energy of a body that turns, ``velocities`` says what they are."""
+    masses, turning = "Wrote ½mv² for every mass", f"{turning} for every body that turns"
+    bodies = f"Every mass that moves stores kinetic co-energy. {velocities}"
     if not has_coils(model):
         return text(f"{masses} and {turning}, and added them up."), text(bodies)
     psi = Name("psi")

@@ -345,7 +345,7 @@ def _friction(d: Description, m: Mechanics, e: Any) -> None:
     known = e.sense is not None and (e.side is not None or len(e.pressing) > 1)
     factor = d.node(-e.mu * e.sense * (e.side or 1)) if known else None
     if factor != g.zero:
-        m.drags.append(Drag(rate, factor, e.pressing, e))
+        m.drags.append(Drag(rate, d.node(e.mu), factor, e.pressing, e))
     if e.viscous is not None:
         effort = g.neg(g.mul(d.node(e.viscous), rate))
         m.efforts.append((rate, effort))

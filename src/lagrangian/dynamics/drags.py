@@ -90,6 +90,24 @@ def pressing_force(g: Graph, multipliers: Sequence[int]) -> int:
     return multipliers[0] if len(multipliers) == 1 else g.sqrt(dot(g, multipliers, multipliers))
 
 
+def dragged_by(g: Graph, drags: Sequence[Drag], multipliers: Mapping[str, int]) -> list[tuple[int, int]]:
+    """(rate, effort) of frictions that slip in known senses, with the multipliers of rows by their names."""
+    return [(d.rate, g.mul(slip_factor(d), pressing_force(g, [multipliers[row] for row in d.rows]))) for d in drags]
+
+
+def slipping_by(g: Graph, drags: Sequence[Drag], multipliers: Mapping[str, int]) -> list[tuple[Drag, int]]:
+    """Every friction with its effort where it slips: −μ |N| sign(δ̇), or what that is where sense and side are known."""
+    found: list[tuple[Drag, int]] = []
+    for drag in drags:
+        normal = pressing_force(g, [multipliers[row] for row in drag.rows])
+        if drag.factor is not None:
+            found.append((drag, g.mul(drag.factor, normal)))
+            continue
+        size = normal if len(drag.rows) > 1 else g.abs(normal)
+        found.append((drag, g.neg(g.mul(g.mul(drag.coefficient, size), g.sign(drag.rate)))))
+    return found
+
+
 @dataclass(frozen=True)
 class Pressing:
     """The equations λ_r = λ⁰_r + Σ_k G_rk N_k: ``given`` λ⁰ and ``gain`` G of every row that presses, and the groups

@@ -17,7 +17,7 @@ from lagrangian.dynamics.accelerations import Quadratic, by_columns, condensed, 
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.dependent import Known, without_dependent
-from lagrangian.dynamics.drags import AttachedDrag, pressing_force, slip_factor
+from lagrangian.dynamics.drags import AttachedDrag, dragged_by
 from lagrangian.dynamics.floating import Float, transported_momenta
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
@@ -150,11 +150,7 @@ class Mechanics:
 
     def dragged_by(self, multipliers: Mapping[str, int]) -> Pairs:
         """The same with multipliers that are given by the names of their rows."""
-        g = self.graph
-        return [
-            (drag.rate, g.mul(slip_factor(drag), pressing_force(g, [multipliers[row] for row in drag.rows])))
-            for drag in self.drags
-        ]
+        return dragged_by(self.graph, self.drags, multipliers)
 
     def gathered(self, pairs: Pairs) -> list[int]:
         """Σ effort · ∂rate/∂v_i of (rate, effort) pairs."""
@@ -167,10 +163,10 @@ class Mechanics:
 
     # -- what comes of it ---------------------------------------------------------------------------------------
 
-    def inverse(self, vdot: Sequence[int]) -> list[int]:
-        """The generalized forces that are missing at v̇ = vdot: M v̇ + C v + G − Ξ."""
+    def inverse(self, vdot: Sequence[int], dragged: Pairs | None = None) -> list[int]:
+        """The missing generalized forces M v̇ + C v + G − Ξ; ``dragged`` is `dragged` where λ is not solved for."""
         acc = self.accelerations(vdot)
-        drags = [(rate, self.graph.neg(effort)) for rate, effort in self.dragged]
+        drags = [(rate, self.graph.neg(effort)) for rate, effort in (self.dragged if dragged is None else dragged)]
         return self.cheapest(self.gathered([*self.missing(acc, links), *drags]) for links in self.groupings)
 
     def bias(self) -> list[int]:
@@ -240,11 +236,12 @@ class Mechanics:
         g = self.graph
         return vjp(g, list(self.motion.rates), gradient(g, self.potential(), self.q), list(self.v))
 
-    def inverse_from_lagrangian(self, vdot: Sequence[int]) -> list[int]:
+    def inverse_from_lagrangian(self, vdot: Sequence[int], dragged: Pairs | None = None) -> list[int]:
         """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`."""
         g = self.graph
         L = g.sub(self.kinetic(), self.potential())
-        return minus(g, self._lagrange(L, vdot), self.gathered([*self.efforts, *self.dragged]))
+        drags = self.dragged if dragged is None else dragged
+        return minus(g, self._lagrange(L, vdot), self.gathered([*self.efforts, *drags]))
 
     # -- forward dynamics ---------------------------------------------------------------------------------------
 

@@ -37,10 +37,12 @@ class Drag:
     """A friction whose normal force N is a multiplier: its effort is ``factor`` · N on ``rate``.
 
     N is λ of the row in ``rows``, with its sign, or √(λ₁² + λ₂² + …) of several. ``factor`` is None where it is not
-    known whether the friction slips, and in which sense. ``friction`` is its element.
+    known whether the friction slips, and in which sense: then its effort is −μ |N| sign(rate), and ``coefficient`` is
+    μ. ``friction`` is its element.
     """
 
     rate: int
+    coefficient: int
     factor: int | None
     rows: tuple[str, ...]
     friction: Friction

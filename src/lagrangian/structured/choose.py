@@ -12,9 +12,9 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.bounded import hard
 from lagrangian.derive import Derived, Detail, derive
+from lagrangian.derive.circuits import has_coils
 from lagrangian.errors import Error, ModelError, did_you_mean
-from lagrangian.model import Inductor, Model, MutualInductance, is_hard
-from lagrangian.model.rows import pressing_rows
+from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import text
 from lagrangian.structured.derive import derive_structured
 from lagrangian.structured.predict import is_long
@@ -110,11 +110,6 @@ def _structured(model: Model, detail: Detail) -> Derived:
 
 def refusal(model: Model) -> str:
     """Why a model has no structured derivation; empty if it has one."""
-    if pressing_rows(model):
-        return "it has dry friction that a constraint presses on"
-    coils = [e for e in model.elements if isinstance(e, Inductor | MutualInductance)]
-    if coils:
-        return f"{coils[0].title} stores energy by its current, and named quantities are those of moving bodies"
-    if not model.bodies:
+    if not model.bodies and not has_coils(model):
         return "its energies were given directly, without bodies"
     return ""

@@ -15,12 +15,14 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive import Derived, LedgerRow, Step
 from lagrangian.derive.algebra import Algebra
+from lagrangian.derive.circuits import has_coils
 from lagrangian.derive.constraints.page import Constraints
 from lagrangian.derive.constraints.page import constraints as step_of_constraints
 from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import constrained, holonomic
+from lagrangian.derive.multipliers.rows import with_multipliers
 from lagrangian.derive.multipliers.step import missing_equations
 from lagrangian.derive.result import ledger_items
 from lagrangian.derive.wiggle import study
@@ -42,6 +44,7 @@ def derive_structured(model: Model) -> Derived:
 
     Raises `ModelError` where a row of a constraint contradicts others; `refusal` says which models it does not take.
     """
+    described, model = model, with_multipliers(model)
     _log.info("deriving: which coordinates move what")
     known = step_of_constraints(model, _as_given) if model.constraints else None
     early = _in_speeds(model, known) if model.floating else _in_coordinates(model, known)
@@ -57,7 +60,7 @@ def derive_structured(model: Model) -> Derived:
     equations = equalities(found, write)
     lasting = constants(found) if not found.ties else ()
     return Derived(
-        model=model,
+        model=described,
         steps=(step0, steps.families.step(step1), step2, step3, step4, step5, steps.families.step(step6)),
         T=step2.expressions["T"],
         V=step3.expressions["V"],
@@ -117,7 +120,8 @@ def _in_speeds(model: Model, known: Constraints | None) -> tuple[Step, Step, Ste
 def _terms(found: Listing, equation: sp.Eq) -> tuple[EquationTerm, ...]:
     bodies = tuple(b.body.title for b in found.bodies)
     left = tuple(EquationTerm(x, "inertia", bodies) for x in _summands(equation.lhs))
-    acting = tuple(t for t, added in found.mechanics.added.items() if added.efforts)
+    pressed = {drag.friction.title for drag, _ in found.slips}
+    acting = tuple(t for t, added in found.mechanics.added.items() if added.efforts or t in pressed)
     multipliers = {tie.symbol: tie.row.element.title for tie in found.ties}
     right: list[EquationTerm] = []
     for x in (x for x in _summands(equation.rhs) if x != 0):
@@ -156,10 +160,12 @@ def _lasting(steps: ListedSteps, constants: Sequence[sp.Expr]) -> Iterator[Item]
         return
     many = len(constants) > 1
     yield Heading(text("Constants of the motion's equations"))
+    coils = has_coils(steps.model)
     yield text(
-        f"Masses, inertias and lengths enter T* and the weights in {'these' if many else 'this'} {len(constants)} "
-        f"constant{'s' if many else ''} alone. Bodies that have other masses and lengths, but the same constants, move "
-        "in the same way, and no measured motion tells more about them."
+        f"{'Parameters' if coils else 'Masses, inertias and lengths'} enter T* and the weights in "
+        f"{'these' if many else 'this'} {len(constants)} constant{'s' if many else ''} alone. "
+        f"{'Systems with other parameters' if coils else 'Bodies that have other masses and lengths'}, but the same "
+        "constants, move in the same way, and no measured motion tells more about them."
     )
     lines = [sp.Symbol(steps.write.names.take("kappa", str(k)), real=True) for k in range(1, len(constants) + 1)]
     yield from steps.families([formula(name, x)] for name, x in zip(lines, constants, strict=True))

@@ -18,7 +18,9 @@ import sympy as sp
 from lagrangian.derive.multiplier import Multiplier
 from lagrangian.derive.multipliers.rows import multiplier_of, multiplier_symbols
 from lagrangian.dynamics.axes import Accelerations
+from lagrangian.dynamics.drags import slipping_by, undetermined
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
+from lagrangian.dynamics.rows import Drag
 from lagrangian.model import Model
 from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import text
@@ -52,6 +54,17 @@ def ties(model: Model, m: Mechanics, acc: Accelerations, names: Collection[str])
             lam = m.graph.input("lambda", k)
             found.append(ListedRow(row, symbols[row.name], made.residual, made.rate, change, lam))
     return found
+
+
+def slips(m: Mechanics, found: Collection[ListedRow]) -> list[tuple[Drag, int]]:
+    """Every friction that a multiplier presses on, with its effort where it slips.
+
+    Raises `ModelError` (E310) where such a row is not among those that count: its multiplier is then not unique.
+    """
+    known = {tie.row.name: tie.multiplier for tie in found}
+    for row in (row for drag in m.drags for row in drag.rows if row not in known):
+        raise undetermined(row)
+    return slipping_by(m.graph, m.drags, known)
 
 
 def pushes(found: Collection[ListedRow]) -> Pairs:

@@ -16,10 +16,11 @@ from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
+from lagrangian.dynamics.rows import Drag
 from lagrangian.dynamics.vectors import Vector, bare, dot, plus, times, transposed
 from lagrangian.graph import Graph, backwards, gradient, reached
 from lagrangian.model import Gravity, Model
-from lagrangian.structured.held_rows import ListedRow, pushes, ties
+from lagrangian.structured.held_rows import ListedRow, pushes, slips, ties
 from lagrangian.structured.names import COMPONENTS, Indices
 from lagrangian.structured.quantities import BodyMotion, Candidate, body_motions
 from lagrangian.structured.slopes import CoordinateSlopes
@@ -31,7 +32,8 @@ class Listing:
 
     ``momenta`` are ∂T*/∂ξ̇_i, ``gradients`` ∂T*/∂ξ_i, ``rows`` the left-hand sides d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, ``forces``
     the Ξ_i, ``pushes`` what the constraints' rows, the ``ties``, add to them; of a floating frame the same for its
-    quasi-velocities, see `floating`. ``given`` are the kinetic co-energies that were given directly, by their titles.
+    quasi-velocities, see `floating`. ``given`` are the kinetic co-energies that are no body's, by the titles of their
+    elements, ``slips`` the frictions that constraints press on, with their efforts.
     """
 
     model: Model
@@ -49,6 +51,7 @@ class Listing:
     ties: list[ListedRow] = field(default_factory=list[ListedRow])
     pushes: Vector = field(default_factory=list[int])
     given: dict[str, int] = field(default_factory=dict[str, int])
+    slips: list[tuple[Drag, int]] = field(default_factory=list[tuple[Drag, int]])
 
     def outputs(self) -> list[int]:
         """The nodes that the lines end in."""
@@ -80,6 +83,7 @@ def listing(model: Model, rows: Collection[str] = ()) -> Listing:
     kinetic += zip(m.v, gradient(graph, raw, m.v), strict=True)
     inertial = [*(pair for b in bodies for pair in b.inertial()), *m.raw_inertial(vdot)]
     held = ties(model, m, acc, rows)
+    slipping = slips(m, held)
     stored = [(rate, graph.neg(effort)) for rate, effort in m.stores]
     momenta = _backwards(graph, kinetic, [*m.v, *m.q])  # a prescribed velocity has momentum, too
     forces = _backwards(graph, [*inertial, *stored], m.v)
@@ -110,11 +114,12 @@ def listing(model: Model, rows: Collection[str] = ()) -> Listing:
         [momenta.get(v, zero) for v in m.v],
         m.motion.along_velocities(slope),
         [forces.get(v, zero) for v in m.v],
-        m.gathered(m.efforts),
+        m.gathered([*m.efforts, *((drag.rate, effort) for drag, effort in slipping)]),
         heights,
         held,
         [reactions.get(v, zero) for v in m.v] if held else [],
         given,
+        slipping,
     )
 
 

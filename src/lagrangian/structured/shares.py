@@ -61,7 +61,8 @@ class ListedShares:
             stored = [(rate, self.found.graph.neg(effort)) for rate, effort in added.stores]
             if stored:
                 yield element, stored, 3
-            if acting := list(added.efforts):
+            dragged = [(drag.rate, effort) for drag, effort in self.found.slips if drag.friction.title == element.title]
+            if acting := [*added.efforts, *dragged]:
                 yield element, acting, 6
         for tie in self.found.ties:
             yield tie.row.element, pushes([tie]), AFTER

@@ -11,11 +11,11 @@ from itertools import groupby
 import sympy as sp
 
 from lagrangian.derive import NamedQuantity, QuantityKind, Step
-from lagrangian.derive.circuits import nothing_stored
+from lagrangian.derive.circuits import nothing_stored, reason_of, step_two
 from lagrangian.derive.energies import lagrangian_step, potential_step
 from lagrangian.derive.lagrange import SUMMED, left_hand_sides_step
 from lagrangian.derive.multipliers.step import by_multipliers, constraint_step
-from lagrangian.model import Element, Gravity
+from lagrangian.model import Element, Gravity, Inductor, MutualInductance
 from lagrangian.page.formula import (
     Formula,
     Heading,
@@ -37,6 +37,9 @@ from lagrangian.structured.floating import along, laws, left_side, moved_by, qua
 from lagrangian.structured.listing import Listing
 from lagrangian.structured.predict import is_long
 from lagrangian.structured.writing import ListingWriter
+
+FROM_BEFORE = "A velocity follows from that of the frame before it, so each line needs only the one above."
+"""How velocities are found."""
 
 ORDER: tuple[QuantityKind, ...] = (
     "turn",
@@ -220,16 +223,13 @@ class ListedSteps:
         for element in (e for e in self.model.elements if e.title in self.given):
             names.append(Name("T*", element.name))
             items.append(formula(names[-1], self.given[element.title], note=text(element.title)))
-            reasons.append(text(names[-1], f": {element.title} was given"))
+            coil = isinstance(element, Inductor | MutualInductance)
+            reasons.append(text(names[-1], f": {element.title} {reason_of(element) if coil else 'was given'}"))
         items.append(formula(Name("T*"), _summed(names), brief=True))
         return Step(
             2,
             "Kinetic co-energy",
-            text("Wrote ½mv² for every mass and ½ωᵀJω for every body that turns, and added them up."),
-            text(
-                "Every mass that moves stores kinetic co-energy. A velocity follows from that of the frame before it, "
-                "so each line needs only the one above."
-            ),
+            *step_two(self.model, "½ωᵀJω", FROM_BEFORE),
             tuple(items),
             {"T": self.total_T},
             tuple(reasons),
@@ -330,6 +330,8 @@ class ListedSteps:
 
     def _reason(self) -> Iterator[Item]:
         """Why the left-hand side of a coordinate is a force on what moves with it."""
+        if not self.model.bodies:
+            return
         turning = "" if self.flat else " For a body that turns the same holds with Jω̇ + ω × Jω in the place of ma."
         by_rate, by_place = Partial(Name("v"), Name("xi", "", 1)), Partial(Name("v"), Name("xi"))
         yield text(

@@ -21,6 +21,7 @@ import sympy as sp
 
 from lagrangian import dynamics
 from lagrangian.derive import Derived
+from lagrangian.dynamics.drags import slipping_by
 from lagrangian.dynamics.floating import transported_momenta
 from lagrangian.dynamics.vectors import minus
 from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, from_sympy, gradient
@@ -57,7 +58,7 @@ def verify_listed(derivation: Derived, *, states: int, seed: int) -> tuple[Check
     if derivation.multipliers:
         checks.append(_on_rows(reading, states, seed))
     checks.append(_in_numbers(reading, states, seed))
-    return (*checks, *verify_motion(derivation.model, states=states, seed=seed))
+    return (*checks, *verify_motion(dynamics.slips(derivation.model), states=states, seed=seed))
 
 
 class _Reading:
@@ -76,13 +77,15 @@ class _Reading:
         self.kept = [names.index(name) for name in derivation.multipliers]
         self.lam = [self.graph.input("lambda", k) for k in range(len(self.kept))]
         self.table |= {x.symbol: n for x, n in zip(derivation.multipliers.values(), self.lam, strict=True)}
+        known = dict(zip(derivation.multipliers, self.lam, strict=True))
+        self.slips = [(drag.rate, effort) for drag, effort in slipping_by(self.graph, self.mechanics.drags, known)]
         for d in derivation.definitions:
             self.table[d.symbol] = self.node(d.expression)
 
     @cached_property
     def forward(self) -> Program:
         """The forward dynamics, which say whether a state has finite forces."""
-        return dynamics.forward(self.model)
+        return dynamics.forward(dynamics.slips(self.model))
 
     def held(self, state: State) -> dict[str, list[float]]:
         """A state with values of the multipliers."""
@@ -123,7 +126,7 @@ class _Reading:
             _Claim(
                 text("the equations are Lagrange's equations of ", L, " by automatic differentiation: identically"),
                 self.rows(),
-                self.pushed(m.inverse_from_lagrangian(self.a)),
+                self.pushed(m.inverse_from_lagrangian(self.a, self.slips)),
             ),
             _Claim(
                 text(
@@ -145,7 +148,9 @@ class _Reading:
                 text("the energies shown are those of the bodies and springs: identically"), [T, V], self._energies()
             ),
             _Claim(
-                text(Xi, " is the power of the forces by its rate: identically"), self._forces(), m.gathered(m.efforts)
+                text(Xi, " is the power of the forces by its rate: identically"),
+                self._forces(),
+                m.gathered([*m.efforts, *self.slips]),
             ),
             *self._rows_of_constraints(),
         ]
@@ -274,7 +279,8 @@ def _counted(states: int) -> str:
 
 def _in_numbers(reading: _Reading, states: int, seed: int) -> Check:
     """The equations as shown against virtual work, in numbers."""
-    worst = _worst(reading, reading.rows(), reading.pushed(reading.mechanics.inverse(reading.a)), states, seed)
+    work = reading.pushed(reading.mechanics.inverse(reading.a, reading.slips))
+    worst = _worst(reading, reading.rows(), work, states, seed)
     return Check(
         text("the equations agree with virtual work, a route without energies"),
         worst < TOLERANCE,

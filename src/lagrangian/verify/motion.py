@@ -58,7 +58,7 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Che
     """
     check_sampling(states, seed)
     dims = check_dimensions(model)
-    worst, timed = _measured(model, states, seed), _reads_time(model)
+    worst, timed, quadratic = _measured(model, states, seed), _reads_time(model), _is_quadratic(model)
     if not worst.compared:
         why = "not checked: no random position could be moved to where it satisfies the constraints"
         return (Check(text("the laws of motion hold where the constraints do"), None, why),)
@@ -82,10 +82,10 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Che
             f"smallest eigenvalue {worst.smallest:.2e}",
         ),
     ]
-    if not timed:
+    if quadratic and not timed:  # Christoffel symbols require a quadratic T*
         skew = text("d", M, "/dt − 2", C, " is skew-symmetric")
         checks.append(Check(skew, worst.skew < TOLERANCE, f"{worst.skew:.1e}"))
-    if not timed and not _is_driven(model):
+    if quadratic and not timed and not _is_driven(model):
         checks.append(
             Check(
                 text(C, " times the velocities is the force that they make"),
@@ -159,7 +159,7 @@ def _matrices(model: Model, names: Mapping[str, tuple[str, ...]]) -> Program:
     M = [x for row in m.mass_matrix() for x in row]
     along = {**dict(zip(inputs.q, m.motion.rates, strict=True)), inputs.t: g.one}
     made = {"M": M, "Mdot": jvp(g, M, along), "C": [x for row in coriolis(m) for x in row]}
-    made["Xi"] = m.gathered(m.efforts)
+    made["Xi"] = m.gathered([*m.efforts, *m.dragged])
     return Program("matrices", g, names, {k: Output(tuple(ids), (len(ids),)) for k, ids in made.items()})
 
 
@@ -184,6 +184,13 @@ def _is_driven(model: Model) -> bool:
     program = Program("at rest", g, dynamics.forward(model).inputs, {"T": Output((at_rest,), ())})
     states = random_states(model, dynamics.forward(model), 2, 1)
     return any(float(evaluated(program, state)["T"]) != 0 for state in states)
+
+
+def _is_quadratic(model: Model) -> bool:
+    """Whether the mass matrix depends on positions alone, and not on rates, as that of a coil that saturates does."""
+    program = dynamics.mass_matrix(model)
+    g = program.graph
+    return set(reached(g, program.outputs["M"].ids)).isdisjoint(g.input("v", i) for i in range(len(model.velocities)))
 
 
 def _reads_time(model: Model) -> bool:
