@@ -64,6 +64,7 @@ class Sheet:
     numbers: dict[int, Fraction] = field(default_factory=dict[int, Fraction])
     programs: dict[Any, Program] = field(default_factory=dict[Any, Program])
     _memo: dict[Any, int] = field(default_factory=dict[Any, int])
+    _differentials: dict[int, list[int]] = field(default_factory=dict[int, list[int]])
 
     def __post_init__(self) -> None:
         graph = self.graph
@@ -93,7 +94,9 @@ class Sheet:
 
     def differential(self, node: int) -> list[int]:
         """Return df, one entry for every variable."""
-        return gradient(self.graph, node, self.columns)
+        if node not in self._differentials:
+            self._differentials[node] = gradient(self.graph, node, self.columns)
+        return self._differentials[node]
 
 
 def _spread_arguments(expr: sp.Expr) -> sp.Expr:

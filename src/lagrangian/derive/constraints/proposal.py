@@ -12,6 +12,7 @@ from itertools import combinations
 from typing import cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive.constraints.integrals import Integral
@@ -21,8 +22,8 @@ ANGLES = ("theta", "alpha", "beta", "phi", "psi", "gamma")
 """Names for a new angle, in the order in which they are tried."""
 
 
-LONGEST = 400
-"""The size of a surface above which no simple way is expected."""
+LONGEST, LONGEST_CIRCLE = 400, 200
+"""The sizes of a surface above which no simple way is expected, and no circle."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,13 @@ def _ways(
     integral: Integral, free: Sequence[sp.Expr], coordinates: Sequence[sp.Expr], time: sp.Symbol, taken: set[str]
 ) -> Iterator[Proposal]:
     f = integral.expression
-    if size(f) > LONGEST:
+    length = bounded.size(f)
+    if length > LONGEST:
         return
     level = integral.level if integral.level is not None else sp.Symbol("c")
     moving = f.atoms(*{q.func for q in coordinates})
-    free = [q for q in free if q in moving]
+    turned = {q for part in f.atoms(sp.Function) if not isinstance(part, AppliedUndef) for q in part.atoms(AppliedUndef)}
+    free = [q for q in free if q in moving and q not in turned]  # in no sine: f is no polynomial in the others
     for q in free:
         slope = bounded.diff(f, q)
         if slope != 0 and not slope.has(*coordinates, time):
@@ -70,25 +73,40 @@ def _ways(
     if integral.level != 0:
         return
     name = next((name for name in ANGLES if name not in taken), None)
+    if name is None:
+        return
+    for x, y, a, b, r in _circles(f, length, free, coordinates):
+        angle = sp.Function(name, real=True)(time)
+        written = ((x, a + r * sp.sin(angle)), (y, b - r * sp.cos(angle)))
+        yield Proposal(integral, written, angle)
+
+
+def _circles(
+    f: sp.Expr, length: int, free: Sequence[sp.Expr], coordinates: Sequence[sp.Expr]
+) -> Iterator[tuple[sp.Expr, ...]]:
+    """x, y, centre and radius of circles f = 0 whose radius depends on no other variable; f has ``length`` operations.
+
+    A distance, √((x − a)² + (y − b)²) = r, is squared.
+    """
+    roots = [p for p in f.atoms(sp.Pow) if p.exp == sp.Rational(1, 2)]
     for x, y in combinations(free, 2):
-        if name is not None and (circle := _circle(f, x, y, coordinates)) is not None:
-            a, b, r = circle
-            angle = sp.Function(name, real=True)(time)
-            written = ((x, a + r * sp.sin(angle)), (y, b - r * sp.cos(angle)))
-            yield Proposal(integral, written, angle)
+        own = [p for p in roots if p.has(x, y)]
+        surface, radius, size = f, None, length
+        if own:
+            radius = own[0] - f
+            if len(own) > 1 or radius.has(x, y):
+                continue
+            surface = own[0].base - radius**2
+            size = bounded.size(surface)
+        if size <= LONGEST_CIRCLE and (found := _circle(surface, x, y, radius)) is not None:
+            if not found[2].has(*coordinates):
+                yield x, y, *found
 
 
 def _circle(
-    f: sp.Expr, x: sp.Expr, y: sp.Expr, coordinates: Sequence[sp.Expr]
+    f: sp.Expr, x: sp.Expr, y: sp.Expr, radius: sp.Expr | None
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr] | None:
-    """Centre and radius of the circle f = 0 in the plane of x and y, if the radius depends on no other variable."""
-    roots = [p for p in f.atoms(sp.Pow) if p.exp == sp.Rational(1, 2) and p.has(x, y)]
-    length: sp.Expr | None = None
-    if len(roots) == 1 and not (f - roots[0]).has(x, y):
-        length = roots[0] - f
-        f = roots[0].base - length**2
-    if (roots and length is None) or size(f) > 200:
-        return None
+    """Centre and radius of the circle f = 0 in the plane of x and y; the radius is found if it is not known."""
     u, v = sp.symbols("u v", real=True)
     try:
         plane = sp.Poly(f.xreplace({x: u, y: v}), u, v)
@@ -101,10 +119,6 @@ def _circle(
         return None
     a, b = (bounded.cancel(-plane.coeff_monomial(w) / (2 * scale)) for w in (u, v))
     square = bounded.cancel(a**2 + b**2 - plane.coeff_monomial(1) / scale)
-    r = length if length is not None else cast("sp.Expr", sp.powdenest(sp.sqrt(sp.factor(square)), force=True))
-    return None if r.has(*coordinates) or (square.is_number and not square.is_positive) else (a, b, r)
-
-
-def size(f: sp.Expr) -> int:
-    """Return the number of operations in an expression."""
-    return bounded.size(f)
+    if square.is_number and not square.is_positive:
+        return None
+    return a, b, radius or cast("sp.Expr", sp.powdenest(sp.sqrt(sp.factor(square)), force=True))

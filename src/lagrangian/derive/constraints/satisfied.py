@@ -60,7 +60,7 @@ def satisfied(
         values = _drawn(sheet, wanted, random.Random(start))
         for _ in range(STEPS):
             found = evaluated(sheet, wanted, values, digits)
-            numbers = np.array([float(x) if mpmath.isfinite(x) else np.nan for x in found])
+            numbers = np.array(found, float)
             if not np.isfinite(numbers).all():
                 return None
             f, A = numbers[:count], numbers[count : count + len(slopes)].reshape(count, -1)

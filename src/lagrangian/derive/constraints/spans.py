@@ -258,4 +258,5 @@ def evaluated(sheet: Sheet, ids: Sequence[int], values: dict[int, Any], digits: 
     key = (tuple(ids), tuple(names.items()))
     if key not in sheet.programs:
         sheet.programs[key] = Program("rows", sheet.graph, names, {"x": Output(tuple(ids), (len(ids),))})
-    return [mpmath.mpf(x) for x in evaluate(sheet.programs[key], groups, digits=digits)["x"]]
+    found = evaluate(sheet.programs[key], groups, digits=digits)["x"]
+    return found if digits is None else [mpmath.mpf(x) for x in found]
