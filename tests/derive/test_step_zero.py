@@ -1,5 +1,6 @@
 """Step 0 of systems with constraints: what the page says, in every format, and what `derivation.constraints` holds."""
 
+import itertools
 import json
 from typing import Any
 
@@ -9,6 +10,9 @@ import sympy as sp
 import built_in
 import lagrangian as lg
 from constrained_systems import peaucellier, pendulum_in_plane
+from effort import at_most
+from lagrangian.derive.constraints.integrals import Integral
+from lagrangian.derive.constraints.proposal import proposals
 from lagrangian.model import time as t
 
 
@@ -143,3 +147,17 @@ def test_a_distance_between_two_points_that_always_coincide_is_refused() -> None
     s.constraint(between=(s["P"], s.point("Q", (x, y))), distance=1, name="rod")
     with pytest.raises(lg.Error, match="E302"):
         s.derive()
+
+
+def test_a_circle_is_found_beside_many_angles_and_not_sought_among_them() -> None:
+    """(x − a)² + (y − b)² = r² around a body on a chain of arms; in no sine stand only x and y of 14 coordinates."""
+    x, y, *angles = (sp.Function(n, real=True)(t) for n in ("x", "y", *(f"q{k}" for k in range(12))))
+    r = sp.Symbol("r", positive=True)
+    reach = sum(sp.sin(q) * sp.cos(p) for q, p in itertools.pairwise(angles))
+    beside = Integral(x**2 + y * reach, (), "")
+    around = Integral((x - 2) ** 2 + (y + 1) ** 2 - r**2, (), "", sp.S.Zero)
+    hinged = Integral(reach - x * y - 3 * x**2, (), "", sp.S.Zero)
+    with at_most(150_000):
+        (found,) = proposals([beside, hinged, around], [x, y, *angles], t)
+    assert found.integral is around and found.new is not None
+    assert sp.simplify(around.expression.subs(dict(found.written))) == 0

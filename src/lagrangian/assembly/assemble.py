@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.graph import Program
 from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
@@ -38,8 +39,23 @@ class Assembler:
     def __init__(self, model: Model, fixed: Collection[str] = ()) -> None:
         self.model, self.fixed = model, tuple(fixed)
         self.names = [c.name for c in model.coordinates]
-        self._positions = positions_closing(model, self.fixed)
-        self.search = None if self._positions.position is None else LoopSearch(CompiledRows(self._positions))
+
+    @cached_property
+    def _positions(self) -> Closing:
+        """The programs that move positions."""
+        position = dynamics.correction(self.model, self.fixed, position=True)
+        rows = self.model.remembered("residual", lambda: dynamics.residual(self.model))
+        return Closing(position, None, rows, self.matrix)
+
+    @cached_property
+    def search(self) -> LoopSearch | None:
+        """The search for positions; None without rows on positions."""
+        return None if self._positions.position is None else LoopSearch(CompiledRows(self._positions))
+
+    @property
+    def matrix(self) -> Program:
+        """The program of A, a₀ and γ, which is the same whatever is fixed."""
+        return self.model.remembered("constraint matrix", lambda: dynamics.constraint_matrix(self.model))
 
     @cached_property
     def closing(self) -> Closing:
@@ -191,12 +207,6 @@ def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:
                 code="E402",
             )
     return names
-
-
-def positions_closing(model: Model, fixed: Collection[str] = ()) -> Closing:
-    """The programs that move positions onto a model's constraints; coordinates in ``fixed`` stay as they are."""
-    position = dynamics.correction(model, fixed, position=True)
-    return Closing(position, None, dynamics.residual(model), dynamics.constraint_matrix(model))
 
 
 def consistent(

@@ -138,7 +138,7 @@ def _scaled(A: Array) -> Array:
 
 
 def _matrix(assembler: Assembler, q: Array, p: Array, t: float) -> Array:
-    return np.asarray(kernel_of(assembler.closing.matrix)(q=q, p=p, t=t)["A"])
+    return np.asarray(kernel_of(assembler.matrix)(q=q, p=p, t=t)["A"])
 
 
 class _Neighbours:

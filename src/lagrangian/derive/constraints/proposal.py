@@ -63,8 +63,9 @@ def _ways(
         return
     level = integral.level if integral.level is not None else sp.Symbol("c")
     moving = f.atoms(*{q.func for q in coordinates})
-    turned = {q for part in f.atoms(sp.Function) if not isinstance(part, AppliedUndef) for q in part.atoms(AppliedUndef)}
-    free = [q for q in free if q in moving and q not in turned]  # in no sine: f is no polynomial in the others
+    functions = [part for part in f.atoms(sp.Function) if not isinstance(part, AppliedUndef)]
+    turned = {q for part in functions for q in part.atoms(AppliedUndef)}  # in these f is not a polynomial
+    free = [q for q in free if q in moving and q not in turned]
     for q in free:
         slope = bounded.diff(f, q)
         if slope != 0 and not slope.has(*coordinates, time):
@@ -98,14 +99,12 @@ def _circles(
                 continue
             surface = own[0].base - radius**2
             size = bounded.size(surface)
-        if size <= LONGEST_CIRCLE and (found := _circle(surface, x, y, radius)) is not None:
-            if not found[2].has(*coordinates):
-                yield x, y, *found
+        found = _circle(surface, x, y, radius) if size <= LONGEST_CIRCLE else None
+        if found is not None and not found[2].has(*coordinates):
+            yield x, y, *found
 
 
-def _circle(
-    f: sp.Expr, x: sp.Expr, y: sp.Expr, radius: sp.Expr | None
-) -> tuple[sp.Expr, sp.Expr, sp.Expr] | None:
+def _circle(f: sp.Expr, x: sp.Expr, y: sp.Expr, radius: sp.Expr | None) -> tuple[sp.Expr, sp.Expr, sp.Expr] | None:
     """Centre and radius of the circle f = 0 in the plane of x and y; the radius is found if it is not known."""
     u, v = sp.symbols("u v", real=True)
     try:
