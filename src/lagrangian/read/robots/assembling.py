@@ -14,6 +14,7 @@ from lagrangian.model import (
     Damper,
     Dissipation,
     Floating,
+    Force,
     Frame,
     Friction,
     Gravity,
@@ -24,6 +25,7 @@ from lagrangian.model import (
     Spring,
 )
 from lagrangian.model.names import time
+from lagrangian.read.robots.closing import Loops
 from lagrangian.read.robots.driving import CarriedBy, Drives
 from lagrangian.read.robots.naming import Identifiers
 from lagrangian.read.robots.remarks import described, remarks
@@ -57,6 +59,7 @@ class Assembly:
         self.frames: dict[str, Frame] = {}
         self.coordinates: dict[str, tuple[sp.Expr, ...]] = {}
         self.order = robot.outwards()
+        self.centres: dict[str, tuple[Point, sp.Expr]] = {}
         self.carriers = {robot.root: CarriedBy(None, self.builder.origin)}
 
     def build(self) -> Builder:
@@ -75,10 +78,12 @@ class Assembly:
         if strength := length(self.robot.gravity):
             g = self.builder.standard_gravity(strength)
             self.builder.add(Gravity(direction=self.robot.gravity, g=g, place=self.robot.place))
+            self._lift(g)
+        closed = Loops(self).add()
         still = [name for name, carrier in carriers.items() if not carrier.moves and self.robot.links[name].inertial]
         if pose := self._pose():
             self.builder.look["pose"] = pose
-        self.builder.remarks.extend(remarks(self.robot, still, self.names.changed, driven))
+        self.builder.remarks.extend(remarks(self.robot, still, self.names.changed, driven, closed))
         return self.builder
 
     # -- coordinates --------------------------------------------------------------------------------------------
@@ -155,10 +160,10 @@ class Assembly:
         elif joint.kind == "planar":
             angle = self.coordinates[joint.name][2]
         if turns and angle != 0 and turns[-1].axis == joint.axis:  # two turns about one axis are one
-            angle, turns = angle + self._angle(turns[-1], own, joint), turns[:-1]
+            angle, turns = angle + self.angle(turns[-1], own, f"joint {joint.name}", joint.place), turns[:-1]
         parent = carrier.frame
         for turn in turns:
-            fixed = self._angle(turn, own, joint)
+            fixed = self.angle(turn, own, f"joint {joint.name}", joint.place)
             parent = self.builder.frame(None, fixed, axis=turn.axis, parent=parent, origin=at, place=joint.place)
         if joint.kind == "ball":
             name, held = self.names.known(joint.child), self.held[joint.name]
@@ -191,12 +196,12 @@ class Assembly:
         ]
         return self.builder.point(name, lengths, parent=carrier.at, frame=carrier.frame, place=place)
 
-    def _angle(self, turn: FixedTurn, name: str, joint: RobotJoint) -> sp.Expr:
-        """The angle of a constant turn: a multiple of π, or else a parameter."""
+    def angle(self, turn: FixedTurn, name: str, what: str, place: Place) -> sp.Expr:
+        """The angle of a constant turn: a multiple of π, or else a parameter, which belongs to ``what``."""
         if (exact := turn.exact).has(sp.pi):
             return exact
         key = {X: "roll", Y: "pitch", Z: "yaw"}.get(turn.axis, "angle")
-        return self.parameter(f"{key}_{name}", turn.angle, "rad", f"{key} of joint {joint.name}", joint.place)
+        return self.parameter(f"{key}_{name}", turn.angle, "rad", f"{key} of {what}", place)
 
     # -- elements -----------------------------------------------------------------------------------------------
 
@@ -217,11 +222,26 @@ class Assembly:
         at = self.point(carrier, given.centre, centre, given.place)
         if not any(any(row) for row in given.inertia):
             self.builder.add(Particle(mass=mass, at=at, name=link.name, place=given.place))
+            self.centres[link.name] = at, mass
             return
+        self.centres[link.name] = at, mass
         tensor = self._tensor(given, carrier, name, link.name)
         self.builder.add(
             RigidBody(mass=mass, inertia=tensor, at=at, frame=carrier.frame, name=link.name, place=given.place)
         )
+
+    def _lift(self, g: sp.Expr) -> None:
+        """Add −lift m g at the centres of mass of links that something else carries in part."""
+        down = _unit(self.robot.gravity)
+        for name, (at, mass) in self.centres.items():
+            link = self.robot.links[name]
+            if link.lift:
+                known = self.names.known(name)
+                share = self.parameter(
+                    f"lift_{known}", link.lift, None, f"share of its weight that lifts {name}", link.place
+                )
+                value = [-share * mass * g * x for x in down]
+                self.builder.add(Force(value=value, at=at, name=f"lift of {name}", place=link.place))
 
     def _tensor(self, given: Inertial, carrier: CarriedBy, name: str, link: str) -> list[list[sp.Expr]]:
         """The inertia in the axes of the frame that carries the link, a parameter for every entry that is not 0."""

@@ -63,6 +63,10 @@ class Assembled(Protocol):
         """The point at an offset in the axes of a link."""
         ...
 
+    def angle(self, turn: FixedTurn, name: str, what: str, place: Place) -> sp.Expr:
+        """The angle of a constant turn, which belongs to ``what``."""
+        ...
+
 
 class Drives:
     """Adds the inputs of a robot and their forces to its builder."""

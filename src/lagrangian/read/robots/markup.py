@@ -42,7 +42,7 @@ class Tag:
 
     ``text`` is what stands between its tags, if it has no children. ``seen`` are the attributes that the reader asked
     for, ``read`` whether it asked for the element at all: what it did not ask for is listed at the end, so that nothing
-    is left out in silence.
+    is left out in silence. ``frames`` are the elements of MJCF that move it as a whole, from the outermost.
     """
 
     name: str
@@ -53,6 +53,7 @@ class Tag:
     seen: set[str] = field(default_factory=set[str], repr=False)
     read: bool = field(default=False, repr=False)
     text: str = field(default="", repr=False)
+    frames: tuple[Tag, ...] = field(default=(), repr=False)
 
     @property
     def title(self) -> str:

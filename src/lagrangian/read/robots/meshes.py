@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import shown
+from lagrangian.read.robots.beside import beside
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.mjcf_tags import Defaults, Orientations
 from lagrangian.read.robots.rotations import ZERO, FixedPose
@@ -133,14 +134,7 @@ class Meshes:
 
     def _bytes(self, tag: Tag, folder: Path, local: str) -> bytes:
         """What a file in a folder holds, within the limits; raises `OSError` if it is not a file that can be read."""
-        path = (folder / local).resolve()
-        if not path.is_relative_to(folder.resolve()):
-            said = f"the mesh {shown(local)} is outside the folder of the robot's file"
-            fix = "nothing outside that folder is read: put it there, or give an <inertial>"
-            raise tag.error(said, fix, "E702", "file")
-        if not path.is_file():
-            raise FileNotFoundError(path)
-        with path.open("rb") as file:
+        with beside(tag, folder, local, "mesh").open("rb") as file:
             data = file.read(min(MAX_BYTES, MAX_BYTES_TOGETHER - self.read) + 1)
         self.read += len(data)
         if len(data) > MAX_BYTES or self.read > MAX_BYTES_TOGETHER:

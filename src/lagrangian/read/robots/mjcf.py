@@ -13,22 +13,20 @@ from pathlib import Path
 
 from lagrangian.quantities.source import shown
 from lagrangian.read.robots.actuators import Actuators
+from lagrangian.read.robots.equalities import Equalities
 from lagrangian.read.robots.left_out import left_out
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.meshes import Meshes
+from lagrangian.read.robots.mjcf_expanded import expand
 from lagrangian.read.robots.mjcf_masses import Masses, scaled
 from lagrangian.read.robots.mjcf_tags import Defaults, Orientations
 from lagrangian.read.robots.robot import JointKind, JointLimits, Robot, RobotJoint, RobotLink
-from lagrangian.read.robots.rotations import FixedPose, Vector, X, Z, length
+from lagrangian.read.robots.rotations import ZERO, FixedPose, Vector, X, Z, length
 from lagrangian.read.robots.tree import checked_tree
 
 GROUND = "world"
 KINDS: dict[str, JointKind] = {"hinge": "revolute", "slide": "prismatic", "free": "floating", "ball": "ball"}
 REFUSED = {
-    "include": "nothing outside the file is read: put the text of that file in its place",
-    "equality": "constraints are not read from a file: add them with system.constraint, pin, ball or weld",
-    "frame": "put its position and orientation into what it contains",
-    "replicate": "write the copies out",
     "composite": "write the bodies out",
     "flexcomp": "bodies that bend are not read",
     "attach": "put the other model in its place",
@@ -39,9 +37,6 @@ CHANGING = ("balanceinertia", "boundmass", "boundinertia", "inertiagrouprange", 
 DISABLING = ("spring", "damper", "passive", "actuation", "clampctrl")
 """Flags that change the motion where they are disabled."""
 
-TENDON = ("stiffness", "damping", "frictionloss", "armature")
-"""What makes a tendon more than data."""
-
 
 def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
     """Return the robot in the tree of a file; raises `ParseError` with the place of what is wrong.
@@ -49,18 +44,18 @@ def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
     Meshes whose mass is asked for are read from the file's ``folder``; without one they are refused.
     """
     root.read = True
-    for key, fix in REFUSED.items():
-        for tag in root.all(key):
-            raise tag.error(f"<{key}> is not supported", fix, "E405")
-    _check_tendons(root)
+    expand(root, folder)
+    _check_supported(root)
     reader = Reader.of(root, folder)
     world = root.need("worldbody", "<worldbody> … </worldbody>")
+    _check_supported(world)
     reader.links[GROUND] = RobotLink(GROUND, None, world.place)
     reader.below(world, GROUND, "main")
     if reader.total:
         scaled(reader.links, reader.total)
     top = checked_tree(root, reader.links, reader.joints)
     drives = Actuators(root, reader.joints, reader.sites, reader.orientations)
+    held = Equalities(root, GROUND, reader.joints, reader.sites, reader.orientations)
     return Robot(
         (root.get("model") or "").strip() or "robot",
         reader.links,
@@ -72,21 +67,17 @@ def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
         actuators=tuple(drives.found),
         unread=tuple(drives.unread),
         passive=bool(drives.found),
+        equalities=tuple(held.found),
+        tendons=tuple(held.tendons),
+        inactive=tuple(held.unread),
     )
 
 
-def _check_tendons(root: Tag) -> None:
-    """Raise an error for a tendon that acts; one that only names a length is data."""
-    waiting = [tag for tag in root.children if tag.name in ("tendon", "default")]
-    for tag in waiting:
-        for child in tag.children:
-            if child.name == "default":
-                waiting.append(child)
-            elif tag.name == "tendon" or child.name == "tendon":
-                for key in TENDON:
-                    if any(child.vector(key, (0.0,), (1, 2, 3))):
-                        fix = "add its springs and dampers to the system"
-                        raise child.error(f"'{key}' of a tendon is not supported", fix, "E405", key)
+def _check_supported(tag: Tag) -> None:
+    """Raise an error for what a tag contains that is not supported."""
+    for key, fix in REFUSED.items():
+        for wrong in tag.all(key):
+            raise wrong.error(f"<{key}> is not supported", fix, "E405")
 
 
 @dataclass
@@ -142,11 +133,7 @@ class Reader:
     def below(self, tag: Tag, parent: str, inherited: str) -> None:
         """Read the bodies within a tag, whose class of defaults they inherit."""
         for body in tag.all("body"):
-            for key, fix in REFUSED.items():
-                for wrong in body.all(key):
-                    raise wrong.error(f"<{key}> is not supported", fix, "E405")
-            if body.number("gravcomp", 0.0):
-                raise body.error("'gravcomp' is not supported", "add the force to the system", "E405", "gravcomp")
+            _check_supported(body)
             own = body.get("childclass") or inherited
             name = self._new(body, body.get("name") or f"body{len(self.links)}", self.links, "body")
             for site in (x for x in body.children if x.name == "site" and x.attributes.get("name")):
@@ -165,7 +152,8 @@ class Reader:
         tags = [self.defaults.put_into(tag, inherited) for tag in body.all("joint")]
         free = body.all("freejoint")
         moving = [(tag, tag.get("type") or "hinge") for tag in tags] + [(tag, "free") for tag in free]
-        self.links[name] = RobotLink(name, self.masses.inertial(body, inherited), body.place)
+        inertial, lift = self.masses.inertial(body, inherited), body.number("gravcomp", 0.0)
+        self.links[name] = RobotLink(name, inertial, body.place, lift)
         if any(kind == "free" for _, kind in moving) and (len(moving) > 1 or parent != GROUND):
             what = "a body that floats has one joint, and no body carries it"
             raise moving[0][0].error(what, "put it at the top, without other joints", "E405")
@@ -178,7 +166,7 @@ class Reader:
                 f"{name}_joint" if len(moving) == 1 else f"{name}_joint{number}"
             )
             child = name if number == len(moving) else f"{name}_{joint}"
-            x, y, z = tag.vector("pos", (0.0, 0.0, 0.0))
+            x, y, z = FixedPose(self._vector(tag, "pos", ZERO)).within(self.orientations.moved(tag)).offset
             shifted = any((x, y, z)) and kind in ("hinge", "ball")
             if shifted:  # the joint is elsewhere than the origin of the body, which follows it
                 at = FixedPose(self._sum(at, (x, y, z)), at.turns)
@@ -194,6 +182,11 @@ class Reader:
             parent, at = child, FixedPose()
 
     @staticmethod
+    def _vector(tag: Tag, key: str, default: Vector) -> Vector:
+        x, y, z = tag.vector(key, default)
+        return x, y, z
+
+    @staticmethod
     def _sum(at: FixedPose, inner: Vector) -> Vector:
         x, y, z = (float(f"{a + b:.15g}") for a, b in zip(at.offset, at.along(inner), strict=True))
         return x, y, z
@@ -205,7 +198,7 @@ class Reader:
         """A joint with its resistance, its spring and its armature."""
         if tag.get("springdamper") is not None:
             raise tag.error("'springdamper' is not supported", "give stiffness and damping", "E405", "springdamper")
-        x, y, z = tag.vector("axis", Z)
+        x, y, z = self.orientations.moved(tag).along(self._vector(tag, "axis", Z))
         if kind not in ("floating", "ball") and length((x, y, z)) == 0:
             raise tag.error("the axis is (0, 0, 0)", 'axis="0 0 1"', "E409", "axis")
         unit = self.orientations.degree if kind in ("revolute", "ball") else 1.0

@@ -9,7 +9,7 @@ from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.meshes import Meshes
 from lagrangian.read.robots.mjcf_tags import Defaults, Orientations, between
 from lagrangian.read.robots.robot import Inertial, RobotLink
-from lagrangian.read.robots.rotations import FixedPose, Vector, turned_tensor
+from lagrangian.read.robots.rotations import FixedPose, Vector, product, turned_tensor
 from lagrangian.read.robots.solids import Solid, solid, together, volume
 
 DENSITY = 1000.0
@@ -100,6 +100,9 @@ class Masses:
             raise tag.error("a sphere leads from nowhere to nowhere", "leave fromto out", "E405", "fromto")
         ends = tag.vector("fromto", (), (6,))
         centre, axes, _ = between(ends[:3], ends[3:])
+        if tag.frames:
+            moved = self.orientations.moved(tag)
+            centre, axes = FixedPose(centre).within(moved).offset, product(moved.matrix, axes)
         return made.placed(centre, axes)
 
 

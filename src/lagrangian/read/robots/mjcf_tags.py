@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.rotations import (
@@ -63,7 +63,7 @@ class Defaults:
         if name not in self.classes:
             tag.unknown("default class", name, self.classes, "class")
         given = self.classes[name].get(tag.name, {})
-        return Tag(tag.name, {**given, **tag.attributes}, tag.start, tag.file, tag.children, seen=tag.seen, read=True)
+        return replace(tag, attributes={**given, **tag.attributes}, read=True)
 
 
 @dataclass(frozen=True)
@@ -74,9 +74,23 @@ class Orientations:
     sequence: str = "xyz"
 
     def pose(self, tag: Tag) -> FixedPose:
-        """The position and orientation of a tag."""
-        x, y, z = tag.vector("pos", ZERO)
+        """The position and orientation of a tag, in its body."""
+        return self._own(tag, "pos").within(self.moved(tag)) if tag.frames else self._own(tag, "pos")
+
+    def moved(self, tag: Tag) -> FixedPose:
+        """The pose, in the body, of the frames and copies that a tag is in."""
+        made = FixedPose()
+        for frame in tag.frames:
+            made = self._own(frame, "offset" if frame.name == "replicate" else "pos").within(made)
+        return made
+
+    def _own(self, tag: Tag, key: str) -> FixedPose:
+        x, y, z = tag.vector(key, ZERO)
         return FixedPose((x, y, z), self.turns(tag))
+
+    def by_quaternion(self, values: tuple[float, float, float, float]) -> tuple[FixedTurn, ...]:
+        """The turns of a quaternion (w, x, y, z) that is not 0."""
+        return self._turns("quat", values) or ()
 
     def turns(self, tag: Tag, keys: tuple[str, ...] = WRITTEN) -> tuple[FixedTurn, ...]:
         """The orientation of a tag, in any of the five ways in which it may be written; one of them at most."""

@@ -9,10 +9,12 @@ from lagrangian.errors import Notice
 from lagrangian.read.robots.robot import JointLimits, Robot, RobotJoint
 
 
-def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str], driven: Sequence[str]) -> Iterator[Notice]:
+def remarks(
+    robot: Robot, still: Sequence[str], changed: Mapping[str, str], driven: Sequence[str], closed: Sequence[str]
+) -> Iterator[Notice]:
     """The notices of a robot: limits, actuators, joints without input, bodies at rest, names, what is not mechanics.
 
-    ``driven`` says what each actuator drives.
+    ``driven`` says what each actuator drives, ``closed`` what holds between positions.
     """
     where = f"robot '{robot.name}'"
     moving = [joint for joint in robot.joints.values() if joint.kind != "fixed"]
@@ -28,6 +30,10 @@ def remarks(robot: Robot, still: Sequence[str], changed: Mapping[str, str], driv
     if driven:
         ranges = ", whose ranges are data, which a run does not obey" if any(x.words for x in robot.actuators) else ""
         yield notice(f"actuators are inputs{ranges}: " + "; ".join(driven))
+    if closed:
+        yield notice("these hold exactly, where MuJoCo's give way: " + "; ".join(closed))
+    if robot.inactive:
+        yield notice("these do not hold: " + "; ".join(robot.inactive))
     if robot.unread:
         yield notice("these actuators are not read: " + "; ".join(robot.unread))
     targets = {x.target for x in robot.actuators}

@@ -29,11 +29,14 @@ class Inertial:
 
 @dataclass(frozen=True)
 class RobotLink:
-    """A rigid part of a robot; without ``inertial`` it has no mass."""
+    """A rigid part of a robot; without ``inertial`` it has no mass. ``lift`` is the share of its weight that something
+    outside carries.
+    """
 
     name: str
     inertial: Inertial | None
     place: Place = field(repr=False)
+    lift: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -127,11 +130,39 @@ class RobotActuator:
 
 
 @dataclass(frozen=True)
+class RobotEquality:
+    """What holds between positions: ``connect`` two places coincide, ``weld`` with their axes, too; ``joint`` the
+    coordinate of the first joint is Σ a_k x^k in that of the second, both counted from their values as described.
+    """
+
+    name: str
+    kind: Literal["connect", "weld", "joint"]
+    place: Place = field(repr=False)
+    between: tuple[RobotSite, RobotSite] | tuple[str, ...]
+    coefficients: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class RobotTendon:
+    """A tendon of the length L = Σ c q of the joints in ``parts``, with spring, damper, dry friction and inertia."""
+
+    name: str
+    parts: tuple[tuple[str, float], ...]
+    place: Place = field(repr=False)
+    rest: float = 0.0
+    stiffness: float = 0.0
+    damping: float = 0.0
+    frictionloss: float = 0.0
+    armature: float = 0.0
+
+
+@dataclass(frozen=True)
 class Robot:
     """The tree: links and joints by name, in the order of the file.
 
-    ``left_out`` lists in words what is not mechanics, ``unread`` the actuators that are not understood; ``gravity`` is
-    the acceleration of free fall [m/s²]. If the robot is ``passive``, joints without an actuator have no input.
+    ``left_out`` lists in words what is not mechanics, ``unread`` the actuators that are not understood, ``inactive``
+    the equalities that do not hold; ``gravity`` is the acceleration of free fall [m/s²]. If the robot is ``passive``,
+    joints without an actuator have no input.
     """
 
     name: str
@@ -144,6 +175,9 @@ class Robot:
     actuators: tuple[RobotActuator, ...] = ()
     unread: tuple[str, ...] = ()
     passive: bool = False
+    equalities: tuple[RobotEquality, ...] = ()
+    tendons: tuple[RobotTendon, ...] = ()
+    inactive: tuple[str, ...] = ()
 
     def outwards(self) -> list[RobotJoint]:
         """The joints limb after limb, every one after that which carries it; of one link, in the order of the file."""

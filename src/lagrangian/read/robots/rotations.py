@@ -86,6 +86,18 @@ class FixedPose:
         x, y, z = (0.0 if abs(s) <= noise else float(f"{s:.15g}") for s in turned(self.matrix, offset))
         return x, y, z
 
+    def within(self, outer: FixedPose) -> FixedPose:
+        """The same pose, which is placed in another, in the axes in which that one is placed."""
+        x, y, z = (a + b for a, b in zip(outer.offset, outer.along(self.offset), strict=True))
+        return FixedPose((x, y, z), outer.turns + self.turns).short
+
+    def seen_from(self, other: FixedPose) -> FixedPose:
+        """This pose in the axes of another, both placed in the same axes; what is rounding alone is 0."""
+        back, least = transposed(other.matrix), 1e-15 * max(1.0, length(self.offset), length(other.offset))
+        apart = turned(back, [b - a for a, b in zip(other.offset, self.offset, strict=True)])
+        x, y, z = (0.0 if abs(k) < least else float(f"{k:.15g}") for k in apart)
+        return FixedPose((x, y, z), by_matrix(product(back, self.matrix)))
+
     @property
     def short(self) -> FixedPose:
         """The same pose with at most three turns: of more, the angles are found anew from the matrix."""
