@@ -59,9 +59,6 @@ def pytest_collection_finish() -> None:
 
 
 @pytest.fixture(autouse=True, scope="session")
-def machine_code(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """A cache of machine code that all tests of a session share, whatever HOME is."""
-    shared = tmp_path_factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        shared = shared.parent
-    os.environ["LAGRANGIAN_CACHE_DIR"] = str(shared / "machine-code")
+def machine_code(pytestconfig: pytest.Config) -> None:
+    """A cache of machine code that all tests of this checkout share, also later ones, whatever HOME is."""
+    os.environ["LAGRANGIAN_CACHE_DIR"] = str(pytestconfig.rootpath / ".pytest_cache" / "machine-code")

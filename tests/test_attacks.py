@@ -142,6 +142,7 @@ def test_a_full_disk_is_one_message():
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="closing a descriptor is the shell's")
 @pytest.mark.parametrize("closed", ["derive -e lecture-1 >&-", "derive - <&-"])
 def test_a_closed_stream_is_one_message(closed):

@@ -86,6 +86,7 @@ def test_derive_says_so_where_a_check_does_not_hold(capsys: pytest.CaptureFixtur
     assert "does not hold" in error
 
 
+@pytest.mark.slow
 def test_verify_says_ok_line_by_line(capsys: pytest.CaptureFixture[str], cart: str) -> None:
     code, out, _ = call(capsys, "verify", cart, "--states", "5")
     assert code == 0 and "✗" not in out
@@ -147,6 +148,7 @@ def test_standard_input_is_read(capsys: pytest.CaptureFixture[str], monkeypatch:
     assert code == 0 and "cart" in out
 
 
+@pytest.mark.slow
 def test_a_reader_that_goes_away_is_no_traceback() -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "lagrangian", "schema"],
@@ -158,6 +160,7 @@ def test_a_reader_that_goes_away_is_no_traceback() -> None:
         assert process.stderr.read() == b""
 
 
+@pytest.mark.slow
 def test_output_is_utf8_wherever_it_goes(tmp_path: pathlib.Path) -> None:
     done = subprocess.run(
         [sys.executable, "-m", "lagrangian", "schema"],

@@ -49,6 +49,7 @@ def test_an_answer_is_read_or_refused(text: str) -> None:
             assert isinstance(parsed, Answer)
 
 
+@pytest.mark.slow
 def test_subscripts_cost_as_much_each_at_the_end_as_at_the_start() -> None:
     with at_most(700_000), pytest.raises(ParseError):
         parse_answer(r"\dot x_1" + "a_b+" * 1200, CARTS)

@@ -28,6 +28,7 @@ def run(*command: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True)
 
 
+@pytest.mark.slow
 def test_floors_import_downward_only() -> None:
     done = subprocess.run(
         [sys.executable, "-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports())"],
@@ -38,6 +39,7 @@ def test_floors_import_downward_only() -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+@pytest.mark.slow
 def test_the_linter_finds_nothing() -> None:
     done = run("ruff", "check", ".")
     assert done.returncode == 0, done.stdout

@@ -128,6 +128,7 @@ def test_energy_is_kept_over_five_seconds(opened: Opened) -> None:
     assert abs(balance - at_start) < 1e-6
 
 
+@pytest.mark.slow
 @in_browser
 def test_a_slider_changes_the_motion(opened: Opened) -> None:
     opened.run_to(1.0)
@@ -151,6 +152,7 @@ def test_a_slider_changes_the_motion(opened: Opened) -> None:
     assert ways[1] / ways[0] == pytest.approx(9.81 / 1.62, rel=0.05)
 
 
+@pytest.mark.slow
 @in_browser
 def test_a_body_follows_the_pointer_to_3_px(opened: Opened) -> None:
     page = opened.page
@@ -170,6 +172,7 @@ def test_a_body_follows_the_pointer_to_3_px(opened: Opened) -> None:
     opened.wait_for("location.hash.includes('x.theta1=')")
 
 
+@pytest.mark.slow
 @in_browser
 def test_terms_and_glyphs_light_each_other(opened: Opened) -> None:
     page = opened.page
@@ -184,6 +187,7 @@ def test_terms_and_glyphs_light_each_other(opened: Opened) -> None:
     assert sources and all("m₁" in source for source in sources)
 
 
+@pytest.mark.slow
 @in_browser
 def test_the_keyboard_plays_holds_and_steps(opened: Opened) -> None:
     page = opened.page
@@ -197,6 +201,7 @@ def test_the_keyboard_plays_holds_and_steps(opened: Opened) -> None:
     assert page.evaluate("livePage.playing()") is True
 
 
+@pytest.mark.slow
 @in_browser
 def test_a_link_restores_the_state(browser: Any, file: Path) -> None:
     made = Opened(browser, file.as_uri() + "#p.m2=2.5&x.theta1=-0.5&speed=0.5")
@@ -222,6 +227,7 @@ def test_a_page_in_a_frame_offers_no_link_to_it(browser: Any, file: Path) -> Non
     made.context.close()
 
 
+@pytest.mark.slow
 @in_browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_320_pixels_are_enough(browser: Any, file: Path, scheme: str) -> None:
@@ -343,6 +349,7 @@ def test_print_shows_the_equations_and_no_controls(opened: Opened) -> None:
     assert not opened.page.locator("#play").is_visible()
 
 
+@pytest.mark.slow
 @in_browser
 def test_copied_models_read_back_with_the_values_of_the_sliders(opened: Opened) -> None:
     opened.slide("p-1", 2.5)

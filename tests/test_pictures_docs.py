@@ -31,6 +31,7 @@ def test_the_readme_begins_with_the_picture() -> None:
     assert text[:at].count("\n") < 12
 
 
+@pytest.mark.slow
 def test_from_a_blank_file_to_a_picture_in_motion(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Equations in 11 lines; a run, a picture and an animation by a line each."""
     text = (ROOT / "docs" / "schematic.md").read_text(encoding="utf-8")

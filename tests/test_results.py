@@ -78,6 +78,7 @@ def test_every_result_shows_itself_shortly(results: dict[str, Any]) -> None:
     assert {where: len(text) for where, text in shown.items() if len(text) > LONGEST or "\n" in text} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "said"),
     [

@@ -35,6 +35,7 @@ LATER = ("codegen", "dynamics", "export", "fit", "graph", "integrate", "look", "
 """The rooms of which touching the public names needs nothing."""
 
 
+@pytest.mark.slow
 def test_touching_the_public_names_imports_no_room_that_answers_questions() -> None:
     code = "import lagrangian as lg; lg.System, lg.load, lg.example, lg.System.fit, lg.System.optimize"
     ending = "\nimport sys; print(*(m.split('.')[1] for m in sys.modules if m.startswith('lagrangian.')))"

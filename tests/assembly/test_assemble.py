@@ -84,6 +84,7 @@ def test_a_picture_closes_loops_by_numbers_as_a_run_does_by_its_elimination(monk
             assert seen_position(s.model, q, p, fixed) == pytest.approx(expected, abs=1e-12)
 
 
+@pytest.mark.slow
 def test_what_cannot_close_is_named_with_its_gap() -> None:
     dyn = four_bar().compile()
     with pytest.raises(RunError, match=r"E304.*'loop' by") as caught:

@@ -37,6 +37,7 @@ def test_a_start_in_the_flat_position_asks_where_the_motion_goes():
     assert spare(plate_on_cranks(), flat, turning) == [(CRANKS, 1)]
 
 
+@pytest.mark.slow
 def test_cranks_of_different_lengths_have_no_spare_row():
     lengths = (0.6, 0.6, 0.6003)
     start = {"a1": 1.0, "a2": 1.0, "a3": 1.0, "x": 0.3, "y": 0.5}

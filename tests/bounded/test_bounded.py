@@ -213,6 +213,7 @@ def test_a_derivative_is_written_as_sympy_writes_it(expr: sp.Expr) -> None:
         assert bounded.diff(expr, symbol) == sp.diff(expr, symbol)
 
 
+@pytest.mark.slow
 def test_the_derivative_of_a_deeply_nested_expression_takes_few_calls() -> None:
     """SymPy's own takes 2.6 million, this 470 thousand."""
     given = _nested(40).diff(q)

@@ -183,6 +183,7 @@ def test_any_change_of_a_good_answer_is_read_or_refused_with_its_place(text, dat
     check_readable_or_said(text)
 
 
+@pytest.mark.slow
 @sized(100, 8)
 @given(st.text(max_size=60))
 def test_any_text_is_read_or_refused_with_its_place(text):

@@ -64,6 +64,7 @@ def test_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert low == {"right": False, "verdict": "wrong", "hint": 0}
 
 
+@pytest.mark.slow
 def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     answers = tmp_path / "answers"
     answers.mkdir()
@@ -88,6 +89,7 @@ def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(capsys, "-e", "lecture-3b", str(tmp_path / "nowhere"))[0] == 2
 
 
+@pytest.mark.slow
 def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     answers, table = tmp_path / "answers", tmp_path / "table.csv"
     answers.mkdir()

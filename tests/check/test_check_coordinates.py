@@ -72,6 +72,7 @@ def test_wrong_in_other_coordinates_is_explained_there() -> None:
     assert verdict.mistake is not None and verdict.mistake.name == "reaction_sign"
 
 
+@pytest.mark.slow
 def test_letters_and_numbers_that_mean_a_parameter_are_read_and_told() -> None:
     verdict = derived("lecture-3a").check("m1*x1'' + c*(x1 - x2) = -F\nm2*x2'' + c*(x2 - x1) = F")
     assert verdict.right and "'c' was read as k." in map(str, verdict.notes)

@@ -83,6 +83,7 @@ def test_solved_for_the_accelerations() -> None:
     assert verdict.right
 
 
+@pytest.mark.slow
 def test_a_tiny_change_of_a_coefficient_is_wrong() -> None:
     for size in (sp.Rational(1, 10**6), sp.Rational(1, 10**12), sp.Rational(1, 10**20)):
         assert check(D, lines(ROWS[0], ROWS[1] + size * m * g * L * sp.sin(THETA))).status is Status.WRONG

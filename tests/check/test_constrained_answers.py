@@ -84,6 +84,7 @@ def test_the_equations_without_multipliers_are_right(sleigh: lg.Derivation) -> N
     assert sleigh.check("m*v' - a*m*theta'^2 = 0").status is Status.INCOMPLETE
 
 
+@pytest.mark.slow
 def test_a_nonholonomic_row_put_into_the_lagrangian_is_wrong(sleigh: lg.Derivation) -> None:
     """T* = ½ m v² + ½ (J + m a²) θ'² with the row put in gives m v' = 0 and θ'' = 0, which is not the motion."""
     assert sleigh.check("m*v' = 0\n(J + m*a^2)*theta'' = 0").status is Status.WRONG
@@ -121,6 +122,7 @@ def test_a_condition_of_rolling_may_be_integrated(wheel: lg.Derivation, integrat
     assert judged(wheel, ROLLING.replace("-r", "r") + integrated) is Status.WRONG
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", ["+", "-"])
 def test_a_constraint_in_l_is_judged_as_a_constraint(pendulum: lg.Derivation, sign: str) -> None:
     energy = f"L = m*(x'^2 + y'^2)/2 - m*g*y {sign} lambda*(x^2 + y^2 - l^2)\n"

@@ -59,6 +59,7 @@ def drum() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_mistake_in_v_has_the_extent_that_the_equations_show(drum: lg.Derivation) -> None:
     """R and r are exchanged in V; the brake of the equations, at r, is right."""
     V = "V = -m*g*x + k1*(x - r*phi)^2/2 + k2*R^2*phi^2/2"
@@ -135,6 +136,7 @@ def trough() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("slip", "said"),
     [

@@ -98,6 +98,7 @@ def test_a_sine_in_the_mass_matrix_is_no_matter_of_potential_energy() -> None:
     assert verdict.mistakes and all(m.step != 3 for m in verdict.mistakes)
 
 
+@pytest.mark.slow
 def test_a_wrong_denominator_of_one_row() -> None:
     wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
     kind, _, words = told("cart-pole", wrong)

@@ -226,12 +226,14 @@ def test_one_factor_of_an_arm_is_not_the_whole_arm() -> None:
     assert name == "force_arm" and words.endswith("comes without its arm.")
 
 
+@pytest.mark.slow
 def test_a_rate_is_quoted_as_it_was_written_and_as_it_belongs_there() -> None:
     name, words = only(carts(), "M*x'' = 0\n3*m*z'' + k*z = 0")
     assert "x' + z'" not in words and "z' + x'" not in words
     assert (name, words) == ("rate", "In T*, z' stands in place of x' - z'.")
 
 
+@pytest.mark.slow
 def test_an_inertia_about_an_end_is_too_much_for_the_bodys_own_rate() -> None:
     more = "(J/d^2 + m/4)*(w''-u'')"
     answer = f"m*(u''+w'')/4 - {more} + k*u = F*(d-a)/d + n*tau/r\nm*(u''+w'')/4 + {more} + k*w = F*a/d"

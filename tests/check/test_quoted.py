@@ -89,6 +89,7 @@ def test_no_letter_stands_in_place_of_another_where_none_is_left() -> None:
         assert "in place of" not in str(mistake.what), str(mistake.what)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "wrong", ["b*x1'^2/2", "b*x2r'^2", "b*(x1' + x2r')^2/2", "b*x1'*x2r'/2", "b*(x1'^2 + x2r'^2)/2"]
 )

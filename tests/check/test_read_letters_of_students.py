@@ -152,6 +152,7 @@ def test_indices_with_dots_and_products_with_indices() -> None:
     assert not accepted(f"{CART}\nmẍ cosθ = −mℓθ̈ + mg sinθ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("force", ["λ", "N_c", "2λ", "−λ"])
 def test_a_multiplier_beside_a_name_is_a_factor(force: str) -> None:
     radial, turning = f"m r'' - m r θ'^2 + m g cos θ = {force}", "m r^2 θ'' + 2 m r r' θ' = m g r sin θ"

@@ -143,6 +143,7 @@ def test_lists_of_values_are_statements_in_any_sentence() -> None:
     assert other.right and "Right if" in " ".join(map(str, other.notes))
 
 
+@pytest.mark.slow
 def test_coordinates_in_brackets_in_front_are_labels_only_if_all_are_there() -> None:
     assert bead().check(f"(r)  {BEAD}\n(φ)  {TUBE}").right
     assert not bead().check(f"(r)  {BEAD.replace(' = 0', ' = tau')}\n{TUBE}").right
@@ -158,6 +159,7 @@ def test_general_equations_in_matrices_are_told() -> None:
     assert verdict.right
 
 
+@pytest.mark.slow
 def test_a_multiplier_takes_up_no_mistake() -> None:
     turn = "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
     for right in ("m r'' - m r theta'^2 + m g cos(theta) = lambda", "r'' = r theta'^2 - g cos(theta) + N/m"):

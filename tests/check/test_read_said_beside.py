@@ -75,6 +75,7 @@ def test_comments_that_name_coordinates_are_read(mark: str) -> None:
     assert right(f"{mark} m = l, M = b\n{CART}\n{POLE}")  # a comment about constants stays one
 
 
+@pytest.mark.slow
 def test_a_sentence_says_what_a_letter_stands_for() -> None:
     cart = r"$$(M+m)\ddot x+ml\ddot\psi\cos\psi-ml\dot\psi^2\sin\psi+b\dot x=F$$"
     pole = r"$$(J+ml^2)\ddot\psi+ml\ddot x\cos\psi-mgl\sin\psi=0$$"

@@ -49,6 +49,7 @@ def test_the_equations_are_those_of_the_co_energy(found: tuple[lg.System, lg.Der
     assert "sinh" not in d.to_text()
 
 
+@pytest.mark.slow
 def test_the_page_shows_why_the_star_is_there(found: tuple[lg.System, lg.Derivation]) -> None:
     _, d = found
     text = " ".join(d.to_text().split())

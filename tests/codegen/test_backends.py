@@ -98,6 +98,7 @@ def points(draw_q, draw_p, t):
     return {"q": draw_q, "p": draw_p, "t": [t]}
 
 
+@pytest.mark.slow
 @sized(60, 5, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_machine_code_of_random_programs(made, q, p, t):
@@ -133,6 +134,7 @@ def test_machine_code_in_short_pieces(made, q, p, t):
     check({n: b[4] for n, b in batch.items()}, pairs)
 
 
+@pytest.mark.slow
 @sized(60, 12, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_numpy_source_of_random_programs(made, q, p, t):
@@ -143,6 +145,7 @@ def test_numpy_source_of_random_programs(made, q, p, t):
     check({n: a[1, 2] for n, a in many.items()}, pairs)
 
 
+@pytest.mark.slow
 @also_in_full
 def test_c_source_of_random_programs(c_function):
     @sized(25, 6, suppress_health_check=list(HealthCheck))
@@ -219,6 +222,7 @@ def every_function(graph, x):
     return {"f": rows}
 
 
+@pytest.mark.slow
 def test_every_function_by_hand(c_function):
     made = program(every_function, q=("a", "b"), p=("c",))
     random = np.random.default_rng(2)
@@ -248,6 +252,7 @@ def test_older_processors(cpu, lanes, fma):
     np.testing.assert_allclose(kernel(q, np.tile(p, (21, 1))), want, rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("triple", "cpu", "lanes"),
     [

@@ -326,6 +326,7 @@ def test_the_data_says_the_same() -> None:
     json.dumps(data, allow_nan=False)
 
 
+@pytest.mark.slow
 def test_the_command_and_its_exits(tmp_path: Path) -> None:
     run = CliRunner()
     same = run.invoke(app, ["compare", "-e", "lecture-3a", "-e", "lecture-3b"])
@@ -361,6 +362,7 @@ def test_a_mistake_in_what_was_given_is_exit_2(arguments: list[str], capsys: pyt
     assert "Traceback" not in captured.err
 
 
+@pytest.mark.slow
 def test_kinks_and_roots_are_compared_too() -> None:
     s = lg.System("cart on a rail")
     x = s.coordinate("x")

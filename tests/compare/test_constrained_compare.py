@@ -32,6 +32,7 @@ def pendulum(factor=1):
     return s
 
 
+@pytest.mark.slow
 def test_a_rod_pendulum_in_x_and_y_is_the_pendulum_in_theta():
     for a, b in ((bob("rod", "rod"), pendulum()), (pendulum(), bob("rod", "rod"))):
         found = lg.compare(a, b)
@@ -49,6 +50,7 @@ def test_two_ways_to_write_a_rod_are_the_same():
     assert lg.compare(bob("rod", "rod"), bob("circle", "square"))
 
 
+@pytest.mark.slow
 def test_what_differs_is_said():
     found = lg.compare(bob("rod", "rod"), pendulum(factor=1.1))
     assert (not found.same and "x'' is" in str(found.why)) or "y'' is" in str(found.why)

@@ -174,6 +174,7 @@ def test_a_file_in_other_coordinates_is_read_back() -> None:
     assert again.derive().equations == new.derive().equations
 
 
+@pytest.mark.slow
 @sized(6, 2)
 @given(
     st.integers(2, 3).flatmap(

@@ -135,6 +135,7 @@ def test_the_rolling_disc_without_multipliers() -> None:
     assert all(same(a, b) for a, b in zip(residuals(d), expected, strict=True))
 
 
+@pytest.mark.slow
 def test_the_disc_solved_for_its_accelerations() -> None:
     """Cramer's rule on request: the solution satisfies the equations, at a random state."""
     d = disc().derive()
@@ -179,6 +180,7 @@ def test_no_fewer_speeds_for_the_pendulum() -> None:
     assert "divided by x, which can vanish" in d.to_text(width=120)
 
 
+@pytest.mark.slow
 def test_multipliers_are_those_of_lagranges_method() -> None:
     """The four-bar against SymPy's `LagrangesMethod`: the same equations, its λ being ours with the other sign."""
     s = four_bar()
@@ -432,6 +434,7 @@ def test_a_rope_along_lines_is_an_atwood_machine() -> None:
     assert np.allclose(run["x1"], -1.0 - 9.81 / 5 * run.t**2 / 2, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_a_planetary_gear_has_the_ratios_of_its_wheels() -> None:
     """With the ring at rest the carrier turns by R_s/(2 (R_s + R_p)) of the sun, a planet by −R_s/(2 R_p): Willis."""
     s = lg.System("planetary gear")

@@ -211,6 +211,7 @@ def test_a_row_given_twice_is_redundant_by_name() -> None:
     assert verdict.contradictions == ()
 
 
+@pytest.mark.slow
 def test_a_combination_of_rows_names_those_that_it_repeats() -> None:
     rows = rates(dx - z * dy, dz - 2 * dtheta, dtheta + dy, (dx - z * dy) * sin(x) - 5 * (dtheta + dy))
     verdict = judge(rows, [x, y, z, theta], t)

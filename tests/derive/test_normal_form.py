@@ -244,6 +244,7 @@ def test_equations_are_those_of_sympy() -> None:
 MULTIPLES = st.fractions(min_value=-64, max_value=64, max_denominator=64).filter(bool)
 
 
+@pytest.mark.slow
 @given(st.dictionaries(st.integers(0, 6), MULTIPLES, max_size=5))
 def test_multiples_of_angles_come_out_of_a_harmonic_as_they_went_in(multiples_of: dict[int, Fraction]) -> None:
     packed = whole(sum((k * turn(j) for j, k in multiples_of.items()), Fraction(0)))

@@ -91,6 +91,7 @@ def value(expr: sp.Expr, state: dict[sp.Basic, sp.Expr]) -> sp.Expr:
     return sp.N(expr.xreplace(high).xreplace(rates).xreplace(rest), 30)
 
 
+@pytest.mark.slow
 @sized(25, 4, suppress_health_check=list(HealthCheck))
 @given(mechanisms())
 def test_readable_equations_are_the_definition(s: lg.System) -> None:

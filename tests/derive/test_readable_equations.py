@@ -304,6 +304,7 @@ def test_kinds() -> None:
     assert [term.kind for term in ring.form(m * g + 0 * x).terms()] == ["gravity"]
 
 
+@pytest.mark.slow
 @sized(40, 8)
 @given(st.dictionaries(st.tuples(*[st.integers(-1, 3)] * 4), st.integers(-4, 4).filter(bool), min_size=1, max_size=9))
 def test_factored_shapes_expand_to_what_they_came_from(terms: dict[tuple[int, ...], int]) -> None:
@@ -329,6 +330,7 @@ def test_factored_shapes_expand_to_what_they_came_from(terms: dict[tuple[int, ..
     assert tree.cost <= plain
 
 
+@pytest.mark.slow
 def test_maxima_between_moving_points_are_written_with_steps_that_a_reader_knows() -> None:
     """V = ½ k max(0, x − y)²: the force is k max(0, x − y). V = k max(x, y): it is k on the one that is ahead."""
     for potential, word in ((k * sp.Max(0, x - y) ** 2 / 2, "m ẍ + k max(0, x − y) = 0"), (k * sp.Max(x, y), "x ≥ y")):

@@ -219,6 +219,7 @@ def test_from_energies_gives_the_same_as_from_elements() -> None:
     assert sp.simplify(solved - (m1 - m2) / (m1 + m2) * g) == 0
 
 
+@pytest.mark.slow
 def test_detail_takes_the_time_derivative_term_by_term() -> None:
     """Against SymPy: each term's derivative is its own, and they add up to d/dt(∂L/∂ξ̇)."""
     s = arm(relative=True)

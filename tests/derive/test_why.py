@@ -205,6 +205,7 @@ def test_energies_alone_have_no_masses() -> None:
     assert d.reasoning is None and "--why shows the reason" not in d.to_text()
 
 
+@pytest.mark.slow
 def test_a_motor_in_space_turns_one_body_and_pushes_back_on_the_other() -> None:
     """τ on θ₁ turns the arm, b₂ acts between arm and pendulum: Γ of the pendulum about its hinge is J₂ θ̈₂ + b₂ θ̇₂ and
     the gyroscopic part −(J₂ − A₂) θ̇₁² sin θ₂ cos θ₂ (Euler's equations for a body with ω = (θ̇₂, θ̇₁ s, θ̇₁ c)).

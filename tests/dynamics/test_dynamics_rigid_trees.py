@@ -155,6 +155,7 @@ def test_a_floating_top_keeps_its_momentum():
     assert found["rate"][3:] @ (e / np.linalg.norm(e)) == pytest.approx(0, abs=1e-16)
 
 
+@pytest.mark.slow
 def test_operations_grow_with_the_number_of_joints_alone():
     links = seven_links()
 

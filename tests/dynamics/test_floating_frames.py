@@ -94,6 +94,7 @@ def two_bodies(*, given=True):
     return s
 
 
+@pytest.mark.slow
 def test_two_routes_and_the_laws_of_motion():
     checks = verify_motion(two_bodies().model, states=25)
     assert len(checks) == 7
@@ -107,6 +108,7 @@ def test_every_kind_of_force_is_derived_in_quasi_velocities(name):
     assert len(d.equations) == len(s.model.velocities) and [str(c.what) for c in d.verified if not c.holds] == []
 
 
+@pytest.mark.slow
 def test_a_wrong_law_does_not_pass(monkeypatch):
     from lagrangian.dynamics import christoffel, floating
 
@@ -250,6 +252,7 @@ def test_energy_is_kept_and_a_quaternions_length_means_nothing():
         assert found == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_points_velocity_is_the_rate_of_its_position():
     s = two_bodies()
     compiled = s.compile()

@@ -117,6 +117,7 @@ def test_the_force_on_a_knife_edge_is_that_of_a_free_body() -> None:
         assert dyn.multipliers([0, 0, theta], given)["knife edge"] == pytest.approx(force, rel=1e-12, abs=1e-13)
 
 
+@pytest.mark.slow
 def test_a_ladder_leaves_the_wall_at_two_thirds_of_its_height() -> None:
     """The wall's force is m g (3/4) cos θ (3 sin θ − 2 sin θ₀): Goldstein's and every book's problem of the ladder."""
     system = built_in.system("ladder")

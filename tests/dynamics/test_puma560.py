@@ -21,6 +21,7 @@ def test_it_is_taken_with_notices(arm: lg.System) -> None:
     assert "link 3" in repr(arm)
 
 
+@pytest.mark.slow
 def test_its_accelerations_are_those_of_newton_and_euler(arm: lg.System) -> None:
     rng = np.random.default_rng(1)
     q, v, tau = rng.uniform(-3, 3, (20, 6)), rng.uniform(-2, 2, (20, 6)), rng.uniform(-20, 20, (20, 6))

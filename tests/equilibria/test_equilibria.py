@@ -100,6 +100,7 @@ def ring() -> lg.System:
     return system
 
 
+@pytest.mark.slow
 def test_a_circle_of_rests_is_one_family_and_the_hilltop_another_rest() -> None:
     found = ring().equilibria(box={"x": (-5, 5), "y": (-5, 5)})
     assert len(found) == 2

@@ -72,6 +72,7 @@ def compare_runs(name: str, version: str, folder: pathlib.Path) -> None:
         np.testing.assert_allclose(theirs, ours.y[:, -1], rtol=0, atol=tolerance * np.abs(ours.y).max(), err_msg=kind)
 
 
+@pytest.mark.slow
 @needs_fmpy
 def test_an_fmu_is_valid_and_runs_as_ours(tmp_path: pathlib.Path) -> None:
     from fmpy.validation import validate_fmu

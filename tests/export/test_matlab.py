@@ -33,6 +33,7 @@ def octave(code: str, folder: pathlib.Path) -> str:
 QUICK = ("cart-pole",)
 
 
+@pytest.mark.slow
 @needs_octave
 @pytest.mark.parametrize("name", QUICK)
 def test_functions_give_the_numbers_of_the_compiled_code(name: str, tmp_path: pathlib.Path) -> None:

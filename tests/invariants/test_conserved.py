@@ -98,6 +98,7 @@ def test_two_free_bodies_keep_three_total_momenta() -> None:
     assert len(found) == 4
 
 
+@pytest.mark.slow
 def test_the_tops_two_momenta_are_goldsteins() -> None:
     """Goldstein, Classical Mechanics (3rd ed.), eqs. (5.53), (5.54): p_ψ = I₃(ψ̇ + φ̇ cos θ), p_φ = …"""
     system = built_in("spinning-top")

@@ -100,6 +100,7 @@ def test_the_spherical_pendulums_routhian() -> None:
     assert same(equation.lhs - equation.rhs, wanted + m * g * L * sp.sin(theta))
 
 
+@pytest.mark.slow
 def test_the_tops_effective_potential_is_goldsteins() -> None:
     """Goldstein (3rd ed.), eq. (5.60)."""
     system = built_in("spinning-top")

@@ -133,6 +133,7 @@ def test_outputs_may_be_any_expression() -> None:
     assert np.allclose(found.C[2], found.A[2], atol=1e-14)
 
 
+@pytest.mark.slow
 def test_a_drone_hovers_with_its_quaternion() -> None:
     """A floating body: twelve states, three small turns among them; thrust m g balances, tilt moves it at v̇ = g·θ."""
     system = lg.System("drone")
@@ -222,6 +223,7 @@ def test_a_mass_that_is_negative_at_the_given_values_is_refused() -> None:
         built_in("cart-pole").linearize(params={"M": -5})
 
 
+@pytest.mark.slow
 def test_python_control_linearizes_the_same_motion_to_its_own_accuracy() -> None:
     """control.linearize takes difference quotients of the compiled right-hand side."""
     import control  # two seconds for the processes that need none of it

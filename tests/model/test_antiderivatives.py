@@ -69,6 +69,7 @@ def test_energies_read_as_a_book_writes_them(law: str, energy: sp.Expr) -> None:
     assert antiderivative(parse_expression(law, {"k": k, "c": c, "delta": x}), x) == energy
 
 
+@pytest.mark.slow
 def test_a_search_ends_after_a_number_of_calls() -> None:
     """1/(1 + δ⁹⁷) has 97 logarithms: the search for them is given up, and the spring says so."""
     assert antiderivative(1 / (1 + x**97), x) is None

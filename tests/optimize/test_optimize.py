@@ -18,6 +18,7 @@ def cart() -> lg.System:
     return system
 
 
+@pytest.mark.slow
 def test_the_least_effort_from_rest_to_rest_is_a_straight_line() -> None:
     """min ∫ F² dt with x(1) = 1 and x'(1) = 0: F = 6 − 12 t, the cost 12 (Bryson and Ho, Applied Optimal Control)."""
     times = np.linspace(0, 1, 5)
@@ -126,6 +127,7 @@ def test_a_cart_pole_is_swung_up_by_a_table_of_forces() -> None:
     assert found[0].cost == pytest.approx(found[1].cost, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_units_of_what_is_to_be_reached_are_checked() -> None:
     cart = lg.example("cart-pole")
     push = {"F": ([0, 1], [0.0, 0.0])}

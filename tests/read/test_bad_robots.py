@@ -119,6 +119,7 @@ def test_an_inertia_that_no_body_has_is_a_notice():
     assert any(n.code == "E105" and "arm.urdf, line 4" in n.where for n in system.notices)
 
 
+@pytest.mark.slow
 def test_longest_chains_are_read_and_longer_ones_refused():
     one = ("1", "0.1 0 0")
     assert len(lg.loads(chain("long", [one] * 100, [{"xyz": "0.1 0 0"}] * 100)).model.bodies) == 100

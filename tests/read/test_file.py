@@ -145,6 +145,7 @@ def test_the_schema_accepts_what_the_reader_accepts(name: str, published: jsonsc
     published.validate(tomllib.loads(examples.text(name)))
 
 
+@pytest.mark.slow
 def test_schema_is_a_draft_2020_12_schema_with_a_description_on_every_field() -> None:
     made = schema()
     jsonschema.Draft202012Validator.check_schema(made)

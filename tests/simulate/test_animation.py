@@ -67,6 +67,7 @@ def test_a_rod_ends_at_its_mass_in_every_frame() -> None:
         assert place(root, rod, (length, 0), k / 100) == pytest.approx(true, abs=0.5)
 
 
+@pytest.mark.slow
 def test_a_spring_is_stretched_from_its_pivot_to_its_mass() -> None:
     system, animation = animated("elastic-pendulum")
     root, dyn = parsed(animation.to_svg()), system.compile()
@@ -178,6 +179,7 @@ def test_rounded_durations_do_not_drift(count: int, duration: float) -> None:
     assert np.abs(found - 1000 * duration * np.arange(1, count + 1) / (count - 1)).max() <= 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "mark", "at"), [("mp4", b"ftyp", 4), ("webm", b"\x1a\x45\xdf\xa3", 0)])
 def test_a_video_has_the_frames(tmp_path: pathlib.Path, kind: str, mark: bytes, at: int) -> None:
     pytest.importorskip("PIL.Image")
@@ -246,6 +248,7 @@ def test_runs_are_shown_in_real_time_unless_they_are_short_or_long(seconds: floa
     assert usual_speed(seconds) == pytest.approx(speed)
 
 
+@pytest.mark.slow
 def test_samples_that_are_too_far_apart_are_refused() -> None:
     run = built_in.system("duffing").simulate(100.0, samples=9)
     with pytest.raises(lg.RunError, match="too far apart") as refused:

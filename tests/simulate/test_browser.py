@@ -45,6 +45,7 @@ def refused(system: lg.System, method: str) -> str:
     return ""
 
 
+@pytest.mark.thinned(3)
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", rest_slow(CASES, QUICK))
 def test_a_run_is_that_of_machine_code(case: str, tmp_path: Path) -> None:
@@ -210,6 +211,7 @@ def test_a_narrow_pulse_in_time_limits_the_steps(tmp_path: Path) -> None:
     assert found["final"][1] == pytest.approx(0.005 * np.sqrt(np.pi), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["dop853", "rk4"])
 def test_a_run_that_sticks_says_so(method: str, tmp_path: Path) -> None:
     pendulum = lg.loads(FILE)
@@ -287,6 +289,7 @@ def test_without_webassembly_steps_are_fixed_and_less_exact(name: str, tmp_path:
     np.testing.assert_allclose(np.array(found["states"]).T, run.y, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_fallback_is_taken_where_webassembly_is_forbidden(tmp_path: Path) -> None:
     forbidden = "WebAssembly.compile = () => Promise.reject(new WebAssembly.CompileError('CSP'));"
     module = browser_module(built_in.system("pendulum"))
@@ -342,6 +345,7 @@ def test_the_layout_is_plain_data_with_names_units_and_values() -> None:
     assert layout["statuses"]["-3"] == "the limit on the number of steps was reached"
 
 
+@pytest.mark.slow
 def test_the_python_of_the_manual_runs(tmp_path: Path) -> None:
     manual = (Path(__file__).parents[2] / "docs" / "browser.md").read_text(encoding="utf-8")
     (code,) = re.findall(r"```python\n(.*?)```", manual, re.DOTALL)

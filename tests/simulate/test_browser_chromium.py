@@ -53,6 +53,7 @@ const states = r.states.map((x) => Array.from(x)), events = r.events.map((e) => 
 return {kind: s.kind, status: r.status, states, events};"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["double-pendulum", "four-bar", "crane"])
 def test_a_run_on_a_page_is_that_of_machine_code(name: str, browser: Any, tmp_path: Path) -> None:
     system = lg.example(name)

@@ -103,6 +103,7 @@ def test_without_ffmpeg_a_video_says_what_to_install(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_run_that_stops_early_is_shown_so_far(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     path = tmp_path / "carts.svg"
     argv = ["-e", "two-carts", "-d", "3", "--input", "F=2/(1 - t)^2", "-o", str(path)]

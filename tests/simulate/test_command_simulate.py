@@ -38,6 +38,7 @@ def test_csv_on_standard_output_holds_the_run(capsys: pytest.CaptureFixture[str]
     assert header.startswith("t,theta,theta'") and len(lines) == 5
 
 
+@pytest.mark.slow
 def test_inputs_parameters_and_methods_are_read(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     path = tmp_path / "run.csv"
     argv = ["-e", "cart-pole", "-d", "1", "-s", "m=300 g", "-i", "F=-3*x - 2*x' + sin(t)", "--init", "x'=0.1"]

@@ -63,6 +63,7 @@ def test_files(folder: pathlib.Path, capsys: pytest.CaptureFixture[str], name: s
         assert [float(line.split(",")[2]) for line in lines[1:]] == kept["max theta1"].tolist()
 
 
+@pytest.mark.slow
 def test_a_damaged_store_is_made_good_with_resume(folder: pathlib.Path, capsys: pytest.CaptureFixture[str]) -> None:
     given = ("arm.toml", "theta1=0.1,0.2", "--output-of", "max theta1", *FAST, "-o", "a.zarr")
     assert run(*given) == 0

@@ -131,6 +131,7 @@ def test_symplectic_methods_are_refused():
         assert "dop853" in str(caught.value.fix)
 
 
+@pytest.mark.slow
 def test_ensembles_and_sweeps_are_projected(tmp_path):
     theta = np.linspace(0.3, 2.0, 9)
     runs = SYSTEM.ensemble(5.0, x=np.sin(theta), y=-np.cos(theta), reduce=None, times=51)
@@ -145,6 +146,7 @@ def test_ensembles_and_sweeps_are_projected(tmp_path):
     assert swept.drift["left"].max() < 5e-15
 
 
+@pytest.mark.slow
 def test_a_store_keeps_the_drift(tmp_path):
     pytest.importorskip("zarr")
     store, given = tmp_path / "s.zarr", {"x": [1.0, 1.0, 1.0], "y": 0.0}
@@ -182,6 +184,7 @@ def test_a_reset_that_breaks_a_constraint_ends_the_run_by_name(method):
     assert not run.success and "reset of event 'kick' breaks the constraint 'rod': its rate is 2" in run.message
 
 
+@pytest.mark.slow
 def test_a_reset_that_breaks_a_constraint_fails_a_run_of_many():
     x, vy = SYSTEM.model.coordinates[0].symbol, SYSTEM.model.velocities[1].symbol
     kick = lg.event(x, direction=-1, reset={vy: vy - 1}, name="kick")

@@ -129,6 +129,7 @@ def test_accelerations_and_modes_are_those_of_the_regime() -> None:
     assert run["x'"][modes == 0] == pytest.approx(b.A * np.cos(b.w * run.t[modes == 0]), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_mass_on_a_spring_loses_an_amplitude_each_half_cycle() -> None:
     """Each half cycle is a cosine about ∓F/k: the amplitude falls by 2 F/k, until |k x| ≤ F."""
     s = lg.System("block")
@@ -239,6 +240,7 @@ def test_runs_of_an_ensemble_stop_where_they_should() -> None:
     assert run.events["bearing sticks"].t == pytest.approx([J / b * log[2]], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_block_on_an_incline_sticks_below_the_angle_of_friction() -> None:
     s = lg.System("incline")
     x = s.coordinates("x")
@@ -330,6 +332,7 @@ def test_stick_slip_on_a_steady_belt_needs_a_higher_limit_at_rest(speed: float) 
     assert run.events["belt sticks"].t[:n] == pytest.approx(slips + slipping, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_file_says_the_same() -> None:
     s = pendulum()
     text = s.to_toml()

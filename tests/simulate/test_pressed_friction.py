@@ -48,6 +48,7 @@ def test_a_bead_on_a_rough_rod_goes_up_and_stops_or_comes_back(alpha: float) -> 
     assert run.powers["rough"][0] == pytest.approx(-0.3 * 2 * G * np.cos(alpha) * 3, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_block_on_an_incline_sticks_up_to_the_angle_of_friction_at_rest() -> None:
     for over, moves in ((-1e-6, False), (1e-6, True)):
         s = bead(float(np.arctan(0.3)) + over)

@@ -74,6 +74,7 @@ def test_an_optimum_that_an_event_ends_is_held_too() -> None:
     assert [check.holds for check in found.checks] == [True, True]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("wrong")
 def test_a_wrong_gradient_of_an_optimum_is_told() -> None:
     push = {"F": ([0, 0.5, 1], [0.0, 0.1, 0.0])}
@@ -89,12 +90,14 @@ def test_sensitivities_are_held_against_ordinary_runs() -> None:
     assert check.holds
 
 
+@pytest.mark.slow
 def test_samples_that_an_event_comes_close_to_are_left_out() -> None:
     system, bounce = ball()
     (check,) = system.simulate(1.2, y=1.0, events=bounce).sensitivities(["e", "g"]).verify()
     assert check.holds
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("wrong")
 def test_wrong_sensitivities_are_told() -> None:
     run = lg.example("double-pendulum").simulate(2.0, theta1=0.5, theta2=0.2, samples=101)

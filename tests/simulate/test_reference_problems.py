@@ -27,6 +27,7 @@ def test_keplers_orbit_closes(method: str, close: float) -> None:
     assert momentum == pytest.approx(np.full(9, momentum[0]), rel=close)
 
 
+@pytest.mark.slow
 def test_the_spring_pendulum_to_ten_digits() -> None:
     """m r̈ = m r θ̇² + m g cos θ − k (r − L0), r θ̈ = −2 ṙ θ̇ − g sin θ, written by hand."""
     s = example("elastic-pendulum")

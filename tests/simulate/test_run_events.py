@@ -179,6 +179,7 @@ def test_a_condition_that_stays_zero_is_no_event(method: str) -> None:
     assert run.success and not len(run.events["force"].t) and not len(run.events["rest"].t)
 
 
+@pytest.mark.slow
 def test_ten_thousand_crossings_are_found_in_one_run() -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)
     crossing = lg.event(sp.cos(3300 * s.t) - s["q"] / 2, name="crossing")
@@ -189,6 +190,7 @@ def test_ten_thousand_crossings_are_found_in_one_run() -> None:
     assert len(run.events["crossing"].t) == np.count_nonzero(value[1:] * value[:-1] < 0) > 10_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["DOP853", "LSODA"])
 def test_a_thousand_crossings_in_a_step_of_scipys_are_found(method: str) -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)

@@ -89,6 +89,7 @@ def light_arm() -> lg.System:
     return s
 
 
+@pytest.mark.slow
 def test_rates_that_together_move_no_mass_are_named_with_their_ratio() -> None:
     """L α̇ + l θ̇ = 0 leaves the bob where it is."""
     s = light_arm()
@@ -134,6 +135,7 @@ def test_a_force_that_leaves_its_domain_is_told(method: str) -> None:
     assert "E503" in run.message or "E504" in run.message
 
 
+@pytest.mark.slow
 def test_bounds_on_steps_and_time_end_a_run() -> None:
     s = oscillator()
     for method in ("dop853", "DOP853"):

@@ -80,6 +80,7 @@ def test_inputs_of_different_kinds_run_together() -> None:
     assert run["F"] == pytest.approx(-2 * run["x'"] + 0.1 * run["F_h"])
 
 
+@pytest.mark.slow
 def test_a_potential_that_reads_an_input_is_in_the_balance() -> None:
     """A spring whose end is moved: m q̈ = −k (q − w)."""
     s = lg.System("pulled")

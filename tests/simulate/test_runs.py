@@ -42,6 +42,7 @@ def test_scipys_methods_follow_the_damped_oscillator(method: str) -> None:
     assert float(run.audit) < 1e-5
 
 
+@pytest.mark.slow
 def test_a_driven_oscillator_follows_its_closed_form() -> None:
     """m q̈ + b q̇ + k q = A sin Ω t from rest: steady state plus the decaying part that starts it at rest."""
     m, k, b, A, W = 2.0, 8.0, 0.4, 3.0, 1.3
@@ -168,6 +169,7 @@ def test_a_prescribed_motion_supplies_its_energy() -> None:
     assert run.energy[-1] > 5 * run.energy[0]
 
 
+@pytest.mark.slow
 def test_a_frame_that_floats_runs_by_its_quasi_velocities() -> None:
     """A brick turning free about its axis of greatest inertia, pushed by nothing: ω and its energy stay."""
     s = lg.System("brick")

@@ -61,6 +61,7 @@ def test_every_value_of_a_table_has_its_own_column(hold: str, method: str) -> No
         np.testing.assert_allclose(found.changes[:, :, k], raised.y - run.y, atol=2e-8)
 
 
+@pytest.mark.slow
 def test_a_bouncing_ball_against_its_closed_solution() -> None:
     """y = v₁ s − g s²/2 with s = t − t₁, v₁ = e g t₁, t₁ = √(2h/g) after the first bounce, and the same again."""
     system = ball()
@@ -86,6 +87,7 @@ def test_a_bouncing_ball_against_its_closed_solution() -> None:
         np.testing.assert_allclose(found.events["bounce"][:, j], times, rtol=1e-8, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_time_of_a_terminal_event_changes_as_the_formula_says() -> None:
     """A thrown ball lands at t = 2 v/g."""
     system = ball()
@@ -159,6 +161,7 @@ def test_names_that_do_not_fit_are_said(wrt: Any, code: str, said: str) -> None:
     assert said in str(caught.value)
 
 
+@pytest.mark.slow
 def test_what_has_no_derivative_is_refused() -> None:
     system = cart()
     v = system["x"].diff()

@@ -46,6 +46,7 @@ def test_fixed_is_read_from_the_file_and_written_to_it() -> None:
     assert lg.loads(s.to_toml()).simulate()["x"][0] == 0.3
 
 
+@pytest.mark.slow
 def test_every_run_of_an_ensemble_starts_on_its_constraints() -> None:
     s = bob()
     x = np.array([0.1, 0.5, 1.0])
@@ -56,6 +57,7 @@ def test_every_run_of_an_ensemble_starts_on_its_constraints() -> None:
     assert runs["x"][1] == pytest.approx(alone["x"], abs=1e-12)
 
 
+@pytest.mark.slow
 def test_lengths_that_vary_have_starts_of_their_own() -> None:
     runs = bob().sweep(1.0, {"l": [1.0, 2.0, 3.0]}, initial={"x": 0.3, "y": -1}, outputs=["x**2 + y**2"])
     assert runs["final x**2 + y**2"] == pytest.approx([1.0, 4.0, 9.0])

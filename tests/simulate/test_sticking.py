@@ -127,6 +127,7 @@ def test_other_ways_to_write_a_jump_are_seen_too(law: Any, words: str) -> None:
     assert run.status == -8 and words in run.message
 
 
+@pytest.mark.slow
 def test_what_crosses_a_jump_or_rests_at_a_kink_does_not_stick() -> None:
     """A force that pulls to the middle, sign(q), is crossed again and again; drag v|v| is continuous."""
     s = oscillator(m=1.0, k=0.0, b=0.0)

@@ -100,6 +100,7 @@ def resumes_and_notices_damage(system: lg.System, here: lg.Ensemble, store: str)
     assert system.sweep(1.0, GRID, **HOW, store=store, overwrite=True, seed=1).success
 
 
+@pytest.mark.slow
 def test_a_store_in_memory_is_resumed_and_checked(system: lg.System, here: lg.Ensemble) -> None:
     resumes_and_notices_damage(system, here, "memory://sweeps/a.zarr")
 

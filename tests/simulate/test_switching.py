@@ -152,6 +152,7 @@ def narrow() -> lg.System:
 PULSE = "100*exp(-((t - t1)/0.001)^2)"
 
 
+@pytest.mark.slow
 def test_a_smooth_pulse_at_a_hundred_different_times_reaches_every_run() -> None:
     runs = narrow().ensemble(100.0, params={"t1": np.linspace(1.0, 99.0, 100)}, inputs={"F": PULSE}, outputs="q'")
     assert runs["q'"] == pytest.approx(np.full(100, 0.1 * np.sqrt(np.pi)), abs=1e-8) and not runs.notices

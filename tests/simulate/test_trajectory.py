@@ -32,6 +32,7 @@ def test_it_looks_like_scipys_result(run: lg.Trajectory) -> None:
     assert run.params["L1"] == 1.0
 
 
+@pytest.mark.slow
 def test_states_accelerations_and_expressions_by_name(run: lg.Trajectory) -> None:
     theta1, theta2 = (c.symbol for c in run.model.coordinates)
     assert run["theta1"] is not None and np.array_equal(run["theta1"], run[theta1])
@@ -67,6 +68,7 @@ def test_what_is_unknown_is_refused(run: lg.Trajectory) -> None:
             run[asked]
 
 
+@pytest.mark.slow
 def test_powers_of_elements_add_up_to_the_power_supplied() -> None:
     s = oscillator()
     run = s.simulate(3.0, q=1.0, inputs={"F": "2*sin(3*t)"}, samples=31)

@@ -58,6 +58,7 @@ def test_equations_and_rows_are_those_of_the_expanded_form(name: str) -> None:
         assert abs(value(mine.second_rate, named) - value(theirs.second_rate, ordered)) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_wrong_row_and_a_wrong_force_of_a_row_are_found() -> None:
     d = derive_structured(built_in.system("four-bar").model)
     name, row = next(iter(d.multipliers.items()))

@@ -65,6 +65,7 @@ def test_long_chains_have_the_pages_of_short_ones(chain: Any) -> None:
     assert "q₁, …, q₁₂ (12)" in text and "Equation k: q_k, k = 2 … 12" in text
 
 
+@pytest.mark.slow
 def test_every_format_writes_patterns(chain: Any) -> None:
     assert "v_{xk-1}" in chain.to_latex() or "xk" in chain.to_latex()
     assert "k = 3 … 12" in chain.to_html() and "xk−1" in chain.to_html()

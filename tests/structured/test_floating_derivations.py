@@ -63,6 +63,7 @@ def _sorted(values):
     return dict(sorted(values.items(), key=lambda pair: not pair[0].has(sp.Derivative)))
 
 
+@pytest.mark.slow
 def test_every_line_is_proved_and_a_wrong_one_is_found() -> None:
     d = arm().derive()
     assert d.form == "structured" and all(c.holds for c in d.verified)

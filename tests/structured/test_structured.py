@@ -46,6 +46,7 @@ def puma_lines(puma: lg.System) -> Any:
     return puma.derive()
 
 
+@pytest.mark.slow
 def test_a_robot_is_written_in_names_and_proved(puma_lines: Any) -> None:
     d = puma_lines
     assert d.form == "structured"
@@ -56,6 +57,7 @@ def test_a_robot_is_written_in_names_and_proved(puma_lines: Any) -> None:
     assert str(d.equations[3]) == "Eq(N_x4_out, tau4(t))"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "make",
     [
@@ -201,6 +203,7 @@ def test_long_and_short_systems_are_told_apart() -> None:
     assert all(is_long(m.model) for m in (robots.puma(), robots.chain(6, relative=True), robots.platform()))
 
 
+@pytest.mark.slow
 def test_listings_grow_with_the_number_of_links() -> None:
     sizes = []
     for n in (10, 20, 40):
@@ -218,6 +221,7 @@ def test_a_system_keeps_its_own_names() -> None:
     assert proved(d)
 
 
+@pytest.mark.slow
 def test_forms_that_cannot_be_had_are_refused() -> None:
     with pytest.raises(ModelError, match=r"there is no form 'short'.*\n.*auto, expanded, structured"):
         built_in.system("pendulum").derive(form="short")  # type: ignore[arg-type]
@@ -251,6 +255,7 @@ def test_long_systems_are_compared_by_their_motions(puma_lines: Any) -> None:
     assert not other.same and "q3" in str(other)
 
 
+@pytest.mark.slow
 def test_every_format_has_the_definitions(puma_lines: Any) -> None:
     d = puma_lines
     data = json.loads(json.dumps(d.to_dict()))

@@ -292,6 +292,7 @@ def test_an_exported_source_with_a_fault_is_noticed(
     assert failing(crane().verify(states=2)) == {noticed}
 
 
+@pytest.mark.slow
 def test_the_exported_c_is_compiled_without_fused_products(
     monkeypatch: pytest.MonkeyPatch, sound: tuple[Check, ...]
 ) -> None:
@@ -310,6 +311,7 @@ def test_the_exported_c_is_compiled_without_fused_products(
     assert compilers and all("-ffp-contract=off" in command for command in compilers)
 
 
+@pytest.mark.slow
 def test_without_a_compiler_the_c_source_is_said_not_to_be_checked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exports.shutil, "which", lambda name: None)
     (check,) = [c for c in crane().verify(states=1) if str(c.what) == C]
@@ -351,6 +353,7 @@ def test_a_program_of_another_system_is_noticed(monkeypatch: pytest.MonkeyPatch)
     assert FORWARD in found
 
 
+@pytest.mark.slow
 def test_energies_that_are_not_quadratic_in_the_rates_are_verified_as_they_are() -> None:
     s = lg.System("quartic")
     x = s.coordinates("x")

@@ -81,6 +81,7 @@ def test_angles_that_go_round_are_drawn_in_turns() -> None:
     assert labels(figure) == [r"$\theta$ [turns]"]
 
 
+@pytest.mark.slow
 def test_pictures_are_written_and_figures_touch_nothing_global(run: lg.Trajectory, tmp_path: Path) -> None:
     before = plt.get_fignums()
     run.figure().savefig(tmp_path / "run.png")
@@ -165,6 +166,7 @@ def test_names_cannot_become_markup() -> None:
     assert legends(figure.axes[0]) == [r"a\$b_c"] * 2
 
 
+@pytest.mark.slow
 def test_a_single_instant_and_a_constant_are_drawn() -> None:
     s = built_in.system("pendulum")
     s.simulate(0).plot().canvas.draw()

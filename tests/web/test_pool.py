@@ -102,6 +102,7 @@ def test_more_jobs_than_the_queue_holds_are_refused(app: Served) -> None:
     check_served(app)
 
 
+@pytest.mark.slow
 def test_a_request_that_is_given_up_ends_its_job(app: Served) -> None:
     with served(PoolLimits(module="hostile_worker", workers=1), seconds=3600.0) as patient:
         for _ in range(3):

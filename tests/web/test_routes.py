@@ -110,6 +110,7 @@ def test_a_preview_tells_where_it_cannot_read_on(kind_app: Served) -> None:
     assert (error["code"], error["line"]) == ("E701", 2)
 
 
+@pytest.mark.slow
 def test_a_run_is_that_of_the_command(kind_app: Served, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     model = tmp_path / "model.toml"
     model.write_text(CART)

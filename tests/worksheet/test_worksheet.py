@@ -40,6 +40,7 @@ def check_variant(name: str, seed: int) -> None:
         assert copied.status is Status.WRONG, made.changes
 
 
+@pytest.mark.slow
 def test_a_variants_own_solution_is_right_and_a_copied_one_wrong() -> None:
     check_variant("lecture-3b", 1)
 
@@ -133,6 +134,7 @@ def test_wrong_arguments() -> None:
         sheet("lecture-3b", None).question("pdf")  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     sheets = tmp_path / "sheets"
     assert (

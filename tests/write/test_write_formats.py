@@ -467,6 +467,7 @@ def matrix_form(shown: str) -> str:
     return shown.split("Matrix form")[1].split("Energy ledger")[0]
 
 
+@pytest.mark.slow
 def test_the_lower_half_of_the_mass_matrix_is_not_printed_again(derivations) -> None:
     d = derivations["example 2"]
     for width, once in (

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -64,10 +64,11 @@ def _solved(model: Model, change: Change, given: dict[str, float]) -> dict[str, 
 
     import scipy.optimize  # imported here because it is slow to load and rarely needed
 
+    find = cast("Any", scipy.optimize).root  # SciPy has no types, and inferring this one takes half a minute
     n = len(change.new)
     for start in (position, position + 0.5, np.ones(n), np.linspace(0.3, 1.7, n)):
         try:
-            root = scipy.optimize.root(
+            root = find(
                 lambda eta: at(eta)["phi"] - position, start, jac=lambda eta: at(eta)["J"].reshape(n, n), tol=1e-14
             )
             values = at(root.x)
