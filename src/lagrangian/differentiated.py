@@ -84,7 +84,8 @@ class Differentiated(Restricted):
 
         With constraints the multipliers change too: a and λ are differentiated as the functions of q and v that
         `forward` and `multipliers` return in every state, and ``d.Minv`` is ∂a/∂Ξ, which is singular. A change of the
-        state that satisfies the constraints is still up to you.
+        state that satisfies the constraints is still up to you; where rows depend on each other wherever they hold,
+        only such changes have a derivative.
 
         Raises `ModelError` for unknown names in ``wrt``, and what `forward` raises.
         """

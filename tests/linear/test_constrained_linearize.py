@@ -36,7 +36,6 @@ def test_redundant_coordinates_change_no_linearization() -> None:
     assert np.abs(found.C - [[1, 0, 0, 0], [0, 1, 0, 0], [1, 0.7, 0, 0], [0, 0, 0, 0]]).max() < 1e-15
     assert found.stability.verdict == plain.stability.verdict == "unstable"
     assert found.controllability.complete
-    pytest.importorskip("control")
     regulator = found.lqr({"theta": 1, "x": 2}, 1)
     assert np.abs(regulator.K - plain.lqr({"theta": 1, "x": 2}, 1).K).max() < 1e-11
     assert {str(x) for x in next(iter(regulator.law.values())).atoms(sp.Function)} == {"x(t)", "theta(t)"}

@@ -48,7 +48,6 @@ def test_a_quadrotor_hovers_in_twelve_states() -> None:
 
 @pytest.mark.slow
 def test_a_regulator_brings_a_quadrotor_back() -> None:
-    pytest.importorskip("control")
     system = quadrotor()
     found = system.linearize({"body_qx": 0.0, "body_qz": 0.6, "body_qw": 0.8}, inputs=HOVER)  # hovering turned by 74°
     regulator = found.lqr({"body_x": 1, "body_y": 1, "body_z": 1, "body_rz": 1}, 1.0)

@@ -1,10 +1,12 @@
 """Poles, modes, stability, what inputs reach: against closed forms and python-control."""
 
 import builtins
+import json
 import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,9 @@ from hypothesis import strategies as st
 
 import lagrangian as lg
 from built_in import system as built_in
+from lagrangian.cli import main
 from lagrangian.errors import MissingExtra, RunError
+from lagrangian.linear.closed_loop import closed_loop
 from size import sized
 
 
@@ -347,9 +351,38 @@ def test_the_regulator_solves_riccatis_equation_and_its_law_stabilises() -> None
     assert float(-sp.diff(law, x)) == pytest.approx(found.K[0, 0], rel=1e-15)
 
 
+def test_the_regulator_is_that_of_python_control() -> None:
+    control = pytest.importorskip("control")
+    linear = built_in("acrobot").linearize()
+    found = linear.lqr({"theta1": 3, "theta2": 2, "theta1'": 1}, 0.25)
+    K, S, poles = control.lqr(linear.A, linear.B, np.diag([3.0, 2, 1, 0]), np.array([[0.25]]))
+    assert np.allclose(found.K, K, rtol=1e-8) and np.allclose(found.S, S, rtol=1e-8)
+    assert _matched(found.poles, poles) < 1e-6
+
+
+def test_a_regulator_says_what_was_checked_of_it() -> None:
+    """Riccati's and Lyapunov's equations, the poles, and the slopes of the nonlinear system with the law as it is."""
+    found = built_in("cart-pole").linearize().lqr({"x": 10, "theta": 100}, 0.5)
+    assert len(found.verified) == 4 and all(check.holds for check in found.verified)
+    assert "What was checked" in str(found)
+    wrong = replace(found, K=found.K * 1.001)
+    assert [check.holds for check in wrong.verified] == [True, False, True, True]  # it costs more than S
+    S = found.S.copy()
+    S[0, 0] *= 1.001
+    assert [check.holds for check in replace(found, S=S).verified] == [False, False, True, True]
+    (symbol, expression), *_ = found.law.items()
+    other = closed_loop(found.linear, (found.Q, found.R, found.K, found.S), {symbol: expression * 1.001})
+    assert [check.holds for check in other] == [True, True, True, False]
+
+
 def test_what_no_feedback_stabilises_is_named() -> None:
     with pytest.raises(RunError, match="not controllable"):
         built_in("lecture-3a").linearize().lqr(1, 1)
+
+
+def test_a_state_that_costs_nothing_and_does_not_decay_is_named() -> None:
+    with pytest.raises(RunError, match="the pole 0 of x would stay"):
+        built_in("cart-pole").linearize().lqr({"theta": 1}, 1)
 
 
 @pytest.mark.parametrize(
@@ -366,6 +399,38 @@ def test_what_no_feedback_stabilises_is_named() -> None:
 def test_bad_weights_are_named(Q: object, R: object, message: str) -> None:
     with pytest.raises((RunError, lg.ModelError), match=message):
         built_in("cart-pole").linearize().lqr(Q, R)
+
+
+def test_the_command_regulates(capsys: pytest.CaptureFixture[str]) -> None:
+    """K is Riccati's by SciPy; the law that is printed is read by `simulate` as it stands."""
+    assert main(["regulate", "-e", "cart-pole", "-Q", "x=10", "-Q", "theta=100", "-R", "F=0.5", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    linear = built_in("cart-pole").linearize()
+    S = scipy.linalg.solve_continuous_are(linear.A, linear.B, np.diag([10.0, 100, 0, 0]), [[0.5]])
+    assert np.allclose(found["K"], linear.B.T @ S / 0.5, rtol=1e-12) and np.allclose(found["S"], S, rtol=1e-12)
+    assert [check["holds"] for check in found["checks"]] == [True] * 4 and found["states"] == list(linear.states)
+    law = built_in("cart-pole").simulate(6.0, theta=0.1, samples=2, inputs=found["law"])
+    assert abs(law["theta"][-1]) < 1e-2 and abs(law["x"][-1]) < 1e-2
+    assert main(["regulate", "-e", "cart-pole"]) == 0
+    said = capsys.readouterr().out
+    assert "poles of the closed loop" in said and "the system with this law has the slopes A − BK" in said
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (["lecture-3a"], "no feedback can stabilize the system"),
+        (["cart-pole", "-Q", "theta=1", "-Q", "3"], "-Q takes name=weight, or one number for all"),
+        (["cart-pole", "-R", "F=-1"], "R must be positive definite"),
+        (["cart-pole", "-Q", "thta=1"], "Did you mean 'theta'?"),
+        (["cart-pole", "--at", "theta=1"], "constant inputs may hold the point, --input F=5"),
+    ],
+)
+def test_the_command_says_why_it_does_not_regulate(
+    given: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["regulate", "-e", *given]) == 2
+    assert message in capsys.readouterr().err
 
 
 def test_a_missing_python_control_is_answered_with_the_line_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:

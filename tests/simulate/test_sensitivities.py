@@ -35,6 +35,8 @@ def test_a_cart_that_a_damper_stops_against_its_closed_solution() -> None:
     """x = v m/b (1 − e^(−bt/m)) + F/b (t − m/b (1 − e^(−bt/m))), differentiated by SymPy."""
     run = cart().simulate(3.0, samples=7, initial={"x'": 0.7}, inputs={"F": 1.5})
     found = run.sensitivities(["m", "b", "x'", "F", "x"])
+    assert "not compared with runs yet" in repr(found)
+    assert found.verify()[0].holds and "equal to quotients of runs, largest relative difference" in repr(found)
     m, b, v, F, t = sp.symbols("m b v F t")
     gone = m / b * (1 - sp.exp(-b * t / m))
     x = v * gone + F / b * (t - gone)

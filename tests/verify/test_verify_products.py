@@ -2,24 +2,27 @@
 
 import pathlib
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from sympy import Abs, cos, sin
 
+import built_in
 import lagrangian as lg
-from lagrangian import compiled
+from lagrangian import compiled, dynamics
 from lagrangian.cli import main
 from lagrangian.compiled import Compiled
 from lagrangian.dynamics import programs
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.export import targets
-from lagrangian.graph import Program
+from lagrangian.graph import Output, Program
 from lagrangian.linear import jacobians
 from lagrangian.page.formula import Check, text
 from lagrangian.verify import exports, products, slopes
 from lagrangian.verify.changes import changes
+from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.states import random_states
 
 FORMULAS = "every compiled function equals the slow evaluation of its formulas, singly and in batches"
@@ -105,49 +108,104 @@ def functions_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 FAULTS = {
-    "a_q": "the compiled derivatives of the accelerations equal difference quotients",
+    "a_q": "the compiled derivatives of the accelerations, by parameters, too, equal difference quotients",
+    "a_p": "the compiled derivatives of the accelerations, by parameters, too, equal difference quotients",
+    "r_v": "so do those of the inverse dynamics",
+    "r_p": "so do those of the inverse dynamics",
+    "M": "so do those of the inverse dynamics",
     "Minv": "those by Xi fit M, and those pulled back are weighted sums of them",
+    "w_p": "those by Xi fit M, and those pulled back are weighted sums of them",
+    "w_q": "those by Xi fit M, and those pulled back are weighted sums of them",
+    "h_q": "the compiled Hessian products equal difference quotients of those pulled back",
+    "h_p": "the compiled Hessian products equal difference quotients of those pulled back",
+    "linear": "the A and B of any state equal difference quotients of ẋ",
     "step": "compiled steps by rk4, midpoint and euler are those of these rates",
     "A": "the A and B of a step equal its difference quotients",
+    "variations": "the variational equations, of which sensitivities of runs come, equal difference quotients",
 }
 
 
-def test_a_fault_in_derivatives_and_in_steps_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each fault is one entry that is off by a thousandth; all other checks pass."""
-    model = crane().model
-    functions = Compiled(model)
-    rhs, states = functions.program("rhs"), list(random_states(model, functions.program("forward"), 3, 1))
-    derivatives, step = functions.derivatives, functions.step
+def off_by_a_thousandth(functions: Compiled, wanted: str, patched: pytest.MonkeyPatch) -> None:
+    """Plant one fault: a single entry of what a function returns."""
 
-    def found() -> tuple[Check, ...]:
-        return tuple(changes(functions, rhs, states))
+    def result(name: str, keys: dict[str, str]) -> None:
+        plain = getattr(functions, name)
 
-    def off(name: str) -> Callable[..., Any]:
         def wrong(*given: Any, **named: Any) -> Any:
-            d = derivatives(*given, **named)
-            getattr(d, name)[..., -1, -1] *= 1.001
-            return d
+            found = plain(*given, **named)
+            if wanted in keys and keys[wanted] in found._values:
+                found._values[keys[wanted]][..., -1] *= 1.001
+            return found
 
-        return wrong
+        patched.setattr(functions, name, wrong)
+
+    result("derivatives", {"a_q": "a_q", "a_p": "a_p", "r_v": "r_v", "r_p": "r_p", "M": "M", "Minv": "Minv"})
+    result("pullback", {"w_q": "w_q", "w_p": "w_p"})
+    result("hessian_product", {"h_q": "w_q", "h_p": "w_p"})
+    step, linearized = functions.step, functions.linearized
 
     def wrong_step(*given: Any, **named: Any) -> Any:
-        result = step(*given, **named)
+        found = step(*given, **named)
         if named.get("derivatives"):
-            return (result[0], result[1] * (1 + 1e-3 * (wanted == "A")), result[2])
-        return result + 1e-6 * (wanted == "step")
+            return (found[0], found[1] * (1 + 1e-3 * (wanted == "A")), found[2])
+        return found + 1e-6 * (wanted == "step")
 
-    wanted = ""
-    assert said(found()) == dict.fromkeys(FAULTS.values(), True)
-    for wanted in FAULTS:
-        with monkeypatch.context() as patched:
-            if wanted in ("A", "step"):
-                patched.setattr(functions, "step", wrong_step)
-            else:
-                patched.setattr(functions, "derivatives", off(wanted))
-                patched.setattr(functions, "step", step)
-            failed = failing(found())
-        further = {FAULTS["Minv"], FAULTS["A"]} if wanted == "a_q" else set()  # what is made of these derivatives
-        assert failed == {FAULTS[wanted], *further}
+    def wrong_linear(*given: Any, **named: Any) -> Any:
+        A, B = linearized(*given, **named)
+        A[-1, 1] *= 1 + 1e-3 * (wanted == "linear")
+        return A, B
+
+    patched.setattr(functions, "step", wrong_step)
+    patched.setattr(functions, "linearized", wrong_linear)
+    if wanted == "variations":
+        made = dynamics.variational
+
+        def wrong_rates(*given: Any) -> Any:
+            found = made(*given)
+            g, ids = found.rates.graph, found.rates.outputs["xdot"].ids
+            last = (*ids[:-1], g.mul(g.const(1.001), ids[-1]))
+            return replace(found, rates=replace(found.rates, outputs={"xdot": Output(last, (len(last),))}))
+
+        patched.setattr(dynamics, "variational", wrong_rates)
+        functions._model._memo.pop("variations", None)  # made before
+
+
+@pytest.fixture(scope="module")
+def compiled_crane() -> tuple[Any, ...]:
+    model = crane().model
+    functions = Compiled(model)
+    return functions, model, list(random_states(model, functions.program("forward"), 1, 1))
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("wanted", FAULTS)
+def test_a_fault_in_derivatives_and_in_steps_is_noticed(
+    wanted: str, compiled_crane: tuple[Any, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each fault is one entry that is off by a thousandth; all other checks pass."""
+    functions, model, states = compiled_crane
+    further = {"a_q": ("Minv", "linear", "A"), "a_p": ("Minv",), "w_q": ("h_q",), "w_p": ("h_q",)}.get(wanted, ())
+    off_by_a_thousandth(functions, wanted, monkeypatch)
+    failed = failing(tuple(changes(functions, model, states)))
+    model._memo.pop("variations")
+    assert FAULTS[wanted] in failed and failed <= {FAULTS[name] for name in (wanted, *further)}
+
+
+def test_sound_derivatives_and_steps_pass(compiled_crane: tuple[Any, ...]) -> None:
+    assert said(tuple(changes(*compiled_crane))) == dict.fromkeys(FAULTS.values(), True)
+
+
+@pytest.mark.slow
+def test_derivatives_are_compared_along_rows_that_depend_on_each_other() -> None:
+    """Three cranks of one length on a platform: beside the constraints the rows are independent, and a jumps there."""
+    model = built_in.system("double-parallelogram").model
+    functions, onto = Compiled(model), OnRows(model)
+    drawn = random_states(model, functions.program("forward"), 50, 1)
+    state = next(moved for x in drawn if (moved := onto.of(x)) is not None)
+    found = said(tuple(changes(functions, model, [state])))
+    assert False not in found.values()
+    assert found[FAULTS["a_q"]] and found[FAULTS["linear"]] and found[FAULTS["h_q"]] is None
+    assert slopes.slopes(model, functions.rhs, [state], onto.of).holds
 
 
 @pytest.fixture
@@ -217,15 +275,18 @@ def test_wrong_energies_are_noticed_by_derive(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    s = lg.System("dust")
-    x = s.coordinates("x")
-    k = s.parameter("k", 2.0)
-    s.kinetic(x.diff() ** 2 / 10**12)
-    s.potential(k * x**2 / 10**12)
-    assert not failing(s.derive().verified)
+    def dust() -> lg.System:
+        s = lg.System("dust")
+        x = s.coordinates("x")
+        k = s.parameter("k", 2.0)
+        s.kinetic(x.diff() ** 2 / 10**12)
+        s.potential(k * x**2 / 10**12)
+        return s
+
+    assert not failing(dust().derive().verified)
     plain = Mechanics.potential
     monkeypatch.setattr(Mechanics, "potential", lambda self: self.graph.mul(self.graph.const(1.01), plain(self)))
-    assert DERIVED_ENERGIES in failing(s.derive().verified)
+    assert DERIVED_ENERGIES in failing(dust().derive().verified)
 
 
 @pytest.mark.sampled(3)

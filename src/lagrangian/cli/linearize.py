@@ -9,8 +9,10 @@ import typer
 from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import (
+    AtPoint,
     ConstantInputs,
     Example,
+    FixedAtPoint,
     Force,
     Json,
     OptionalFile,
@@ -24,14 +26,7 @@ from lagrangian.cli.terminal import (
 def linearize(
     file: OptionalFile = None,
     example: Example = None,
-    at: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--at",
-            metavar="NAME=VALUE",
-            help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". Repeatable.',
-        ),
-    ] = None,
+    at: AtPoint = None,
     values: Parameters = None,
     inputs: ConstantInputs = None,
     outputs: Annotated[
@@ -43,14 +38,7 @@ def linearize(
     operating_point: Annotated[
         bool, typer.Option("--operating-point", help="Linearize even if the point is not an equilibrium.")
     ] = False,
-    fixed: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--fixed",
-            metavar="NAME[,NAME]",
-            help="The point is a guess, to be moved onto the constraints; these coordinates stay. Repeatable.",
-        ),
-    ] = None,
+    fixed: FixedAtPoint = None,
     symbols: Annotated[
         bool, typer.Option("--symbols", help="Add the matrices with the parameters as symbols.")
     ] = False,

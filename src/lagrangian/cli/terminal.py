@@ -73,6 +73,23 @@ ConstantInputs = Annotated[
     typer.Option("--input", "-i", metavar="NAME=VALUE", help="Constant value of an input: F=2. Repeatable."),
 ]
 
+AtPoint = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--at",
+        metavar="NAME=VALUE",
+        help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". Repeatable.',
+    ),
+]
+FixedAtPoint = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--fixed",
+        metavar="NAME[,NAME]",
+        help="The point is a guess, to be moved onto the constraints; these coordinates stay. Repeatable.",
+    ),
+]
+
 InputSignals = Annotated[
     list[str] | None,
     typer.Option(

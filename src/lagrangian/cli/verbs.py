@@ -38,6 +38,12 @@ VERBS = {
         "Compare the equations of two systems; exit 0 if both describe the same motion, 1 if they differ.",
     ),
     "linearize": ("linearize", "linearize", "Linearize about an equilibrium: A, B, C, D, poles, modes, stability."),
+    "regulate": (
+        "regulate",
+        "regulate",
+        "Find the linear-quadratic regulator about an equilibrium: law, gains, closed-loop poles; exit 1 if a check "
+        "fails.",
+    ),
     "equilibria": (
         "equilibria",
         "equilibria",

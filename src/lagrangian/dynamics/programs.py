@@ -17,7 +17,8 @@ the model's values as defaults.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import wraps
 
 from lagrangian.dynamics import christoffel
 from lagrangian.dynamics.describe import describe
@@ -62,6 +63,17 @@ def _matrix(rows: Sequence[Sequence[int]]) -> Output:
     return Output(tuple(x for row in rows for x in row), (len(rows), len(rows[0]) if rows else 0))
 
 
+def _once(make: Callable[[Model], Program]) -> Callable[[Model], Program]:
+    """Each program is made once for a model: everything that asks for it gets the same."""
+
+    @wraps(make)
+    def found(model: Model) -> Program:
+        return model.remembered(("program", make.__name__), lambda: make(model))
+
+    return found
+
+
+@_once
 def forward(model: Model) -> Program:
     """q, v, u, p, t → a [rad/s² or m/s²], shape (n,).
 
@@ -71,18 +83,21 @@ def forward(model: Model) -> Program:
     return _program(model, "forward", graph, {"a": _vector(m.forward())})
 
 
+@_once
 def rhs(model: Model) -> Program:
     """x, u, p, t → ẋ = [q̇; v̇] of x = [q; v], shape (n_q + n_v,)."""
     graph, _, m = _start(model, state=True)
     return _program(model, "rhs", graph, {"xdot": _vector([*m.motion.rates, *m.forward()])}, groups=("x",))
 
 
+@_once
 def rates(model: Model) -> Program:
     """q, v, u, p, t → q̇ = N(q) v, shape (n_q,): v itself, but for frames that float."""
     graph, _, m = _start(model)
     return _program(model, "rates", graph, {"qdot": _vector(m.motion.rates)})
 
 
+@_once
 def inverse(model: Model) -> Program:
     """q, v, a, u, p, t → the generalized forces that are missing, M a + C v + G − Ξ, shape (n,)."""
     graph, _, m = _start(model)
@@ -90,6 +105,7 @@ def inverse(model: Model) -> Program:
     return _program(model, "inverse", graph, {"r": _vector(m.inverse(a))}, groups=("q", "v", "a"))
 
 
+@_once
 def inverse_from_lagrangian(model: Model) -> Program:
     """The same as `inverse` by the independent route, from L = T − V: d/dt ∂L/∂q̇ − ∂L/∂q − Ξ."""
     graph, _, m = _start(model)
@@ -99,30 +115,35 @@ def inverse_from_lagrangian(model: Model) -> Program:
     )
 
 
+@_once
 def mass_matrix(model: Model) -> Program:
     """q, v, u, p, t → M, shape (n, n); it does not read v and u."""
     graph, _, m = _start(model)
     return _program(model, "mass_matrix", graph, {"M": _matrix(m.mass_matrix())})
 
 
+@_once
 def bias(model: Model) -> Program:
     """q, v, u, p, t → C v + G − Ξ, shape (n,): what `inverse` gives at a = 0."""
     graph, _, m = _start(model)
     return _program(model, "bias", graph, {"h": _vector(m.bias())})
 
 
+@_once
 def potential_force(model: Model) -> Program:
     """q, v, u, p, t → G = ∂V/∂q, shape (n,): weights, springs and raw potentials."""
     graph, _, m = _start(model)
     return _program(model, "potential_force", graph, {"G": _vector(m.potential_force())})
 
 
+@_once
 def coriolis(model: Model) -> Program:
     """q, v, u, p, t → C, shape (n, n), by Christoffel's symbols; Ṁ − 2C is skew."""
     graph, _, m = _start(model)
     return _program(model, "coriolis", graph, {"C": _matrix(christoffel.coriolis(m))})
 
 
+@_once
 def energy(model: Model) -> Program:
     """q, v, u, p, t → T and V [J], one number each."""
     graph, _, m = _start(model)
@@ -130,6 +151,7 @@ def energy(model: Model) -> Program:
     return _program(model, "energy", graph, outputs)
 
 
+@_once
 def loss(model: Model) -> Program:
     """q, v, u, p, t → the power that dampers take [W], one number."""
     graph, _, m = _start(model)

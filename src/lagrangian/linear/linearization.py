@@ -49,8 +49,9 @@ class Linearization(Written, LinearModel):
         return to_control(self)
 
     def lqr(self, Q: Any, R: Any) -> Regulator:
-        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), computed by python-control.
+        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), which minimizes ∫ (δxᵀQ δx + δuᵀR δu) dt.
 
-        ``Q`` is the weight of states, ``R`` that of inputs: a matrix, one number, or weights by name.
+        ``Q`` is the weight of states, ``R`` that of inputs: a matrix, one number, or weights by name. Raises `RunError`
+        if no feedback stabilizes the system, or weights do not fit.
         """
         return lqr(self, Q, R)

@@ -1,4 +1,4 @@
-"""Uses python-control: a linearization as a StateSpace with names, and the linear-quadratic regulator."""
+"""The linear-quadratic regulator of a linearization, and the linearization as python-control's StateSpace."""
 
 from __future__ import annotations
 
@@ -12,12 +12,17 @@ from numpy.typing import NDArray
 from lagrangian.errors import MissingExtra, RunError
 from lagrangian.linear.linear_model import LinearModel
 from lagrangian.linear.modes import slowest_first
-from lagrangian.linear.reach import controllable
+from lagrangian.linear.reach import controllable, observable
 from lagrangian.linear.regulator import Regulator
 from lagrangian.linear.stability import shown
 from lagrangian.values.values import Group, number
 
 Array = NDArray[np.float64]
+
+ON_THE_AXIS = 1e-9
+"""The part of a pole below which its real part is rounding."""
+
+WEIGHED = "give a weight to the states whose modes do not decay by themselves"
 
 
 def python_control() -> ModuleType:
@@ -46,11 +51,14 @@ def to_control(linear: LinearModel) -> Any:
 
 
 def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
-    """The regulator that minimizes ∫ (δxᵀQ δx + δuᵀR δu) dt, computed by python-control.
+    """The regulator that minimizes ∫ (δxᵀQ δx + δuᵀR δu) dt: K = R⁻¹BᵀS, where S solves Riccati's equation.
 
     ``Q`` and ``R``: a matrix, a number (times the identity), or weights of the diagonal by name (0 if not named).
-    Raises `RunError` if an uncontrollable mode does not decay, and for weights that do not fit.
+    Raises `RunError` if an uncontrollable mode does not decay, if one that does not decay costs nothing, and for
+    weights that do not fit.
     """
+    import scipy.linalg  # slow to load
+
     reach = controllable(linear.A, linear.B, linear.states)
     lost = [m for m in reach.missing if not m.pole.real < 0]
     if lost:
@@ -66,16 +74,24 @@ def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
         raise RunError("Q must be positive semidefinite", fix="give weights that are not negative", code="E501")
     if np.linalg.eigvalsh(r).min() <= 0:
         raise RunError("R must be positive definite", fix="give every input a positive weight", code="E501")
-    try:
-        K, S, poles = python_control().lqr(linear.A, linear.B, q, r)
-    except (np.linalg.LinAlgError, ValueError) as trouble:
+    free = [
+        m for m in observable(linear.A, q, linear.states).missing if not abs(m.pole.real) > ON_THE_AXIS * abs(m.pole)
+    ]
+    if free:
+        names = ", ".join(free[0].combination)
         raise RunError(
-            f"Riccati's equation has no solution: {trouble}",
-            fix="give a weight to the states whose modes do not decay by themselves",
-            code="E522",
-        ) from trouble
-    poles = np.asarray(poles, complex)
-    return Regulator(linear, np.atleast_2d(K), np.asarray(S), poles[slowest_first(poles)])
+            f"the pole {shown(free[0].pole)} of {names} would stay: Q costs nothing there", fix=WEIGHED, code="E522"
+        )
+    try:
+        S = np.asarray(scipy.linalg.solve_continuous_are(linear.A, linear.B, q, r), float)
+    except (np.linalg.LinAlgError, ValueError) as trouble:
+        raise RunError(f"Riccati's equation has no solution: {trouble}", fix=WEIGHED, code="E522") from trouble
+    K: Array = np.asarray(np.linalg.solve(r, linear.B.T @ S), float)
+    poles: NDArray[np.complex128] = np.asarray(np.linalg.eigvals(linear.A - linear.B @ K), complex)
+    if not (poles.real < 0).all():
+        worst = complex(poles[int(np.argmax(poles.real))])
+        raise RunError(f"the closed loop would have the pole {shown(worst)}", fix=WEIGHED, code="E522")
+    return Regulator(linear, q, r, K, S, poles[slowest_first(poles)])
 
 
 def _weights(given: Any, what: str, noun: str, names: tuple[str, ...]) -> Array:

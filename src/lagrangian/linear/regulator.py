@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrangian.linear.closed_loop import closed_loop
 from lagrangian.linear.linear_model import LinearModel
 from lagrangian.linear.report import symbol
 from lagrangian.model import Model
 from lagrangian.page.figures import complex_figure, figure, matrix, plain_numbers
-from lagrangian.page.formula import Item, Name, Table, Text, formula, text
+from lagrangian.page.formula import Check, Item, Name, Table, Text, formula, text
+from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
 from lagrangian.write.written import Written
 
@@ -31,10 +34,13 @@ class Regulator(Written):
     """A regulator u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S``, the poles of A − B K [1/s], slowest
     first.
 
-    ``law`` is this feedback as input symbol → expression of coordinates and rates, for the inputs of a simulation.
+    ``Q`` and ``R`` are the weights of states and inputs. ``law`` is this feedback as input symbol → expression of
+    coordinates and rates, for the inputs of a simulation.
     """
 
     linear: LinearModel = field(repr=False)
+    Q: Array
+    R: Array
     K: Array
     S: Array
     poles: NDArray[np.complex128]
@@ -56,6 +62,11 @@ class Regulator(Written):
             found[u.symbol] = sp.Add(sp.Float(linear.inputs_at[u.name], 17), *terms)
         return found
 
+    @cached_property
+    def verified(self) -> tuple[Check, ...]:
+        """The checks of S, of the poles and of the law, each with its figure; see `lagrangian.linear.closed_loop`."""
+        return closed_loop(self.linear, (self.Q, self.R, self.K, self.S), self.law)
+
     def report(self) -> Report[Model]:
         """Return the report."""
         return regulator_report(self)
@@ -64,7 +75,7 @@ class Regulator(Written):
 def regulator_report(found: Regulator) -> Report[Model]:
     """Return the report of a regulator."""
     linear = found.linear
-    K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))
+    K, S, Q, R, x, u = (Name(name) for name in ("K", "S", "Q", "R", "x vector", "u vector"))
     names = [(name, linear.at[name]) for name in (linear.states if linear.back is None else linear.at)]
     names += [*zip(linear.inputs, linear.inputs_at.values(), strict=True)]
     point = tuple((_symbol(found, name), text(figure(value))) for name, value in names)
@@ -74,15 +85,20 @@ def regulator_report(found: Regulator) -> Report[Model]:
         _ordered(found, x, linear.states),
         formula(K, matrix(_swept(found.K, np.sqrt(np.abs(np.diag(found.S)))))),
         *([] if linear.back is None else [text(TURNS)]),
+        text("As inputs of a run, such as `lagrangian simulate --input`:"),
+        *(text(f"{name} = {law}") for name, law in _typed(found).items()),
         text("about the point"),
         Table((text("state, input"), text("value")), point),
     )
     poles = tuple((text(complex_figure(complex(pole))),) for pole in found.poles)
     cost = text("Starting from δ", x, ", the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
+    weights = text("It minimizes ∫ (δ", x, "ᵀ ", Q, " δ", x, " + δ", u, "ᵀ ", R, " δ", u, ") dt, with")
     parts = (
         Part(text("The law"), law),
+        Part(text("The weights"), (weights, formula(Q, matrix(found.Q)), formula(R, matrix(found.R)))),
         Part(text("The poles of the closed loop"), (Table((text("pole [1/s]"),), poles),)),
         Part(text("Riccati's matrix"), (cost, formula(S, matrix(_swept(found.S, np.sqrt(np.abs(np.diag(found.S)))))))),
+        Part(text("What was checked"), (), found.verified),
     )
     return Report(f"{linear.model.name}: linear-quadratic regulator", linear.model, parts, _data(found))
 
@@ -113,7 +129,16 @@ def _data(found: Regulator) -> dict[str, Any]:
         "inputs": list(linear.inputs),
         "at": dict(linear.at),
         "inputs_at": dict(linear.inputs_at),
+        "Q": found.Q.tolist(),
+        "R": found.R.tolist(),
         "K": found.K.tolist(),
         "S": found.S.tolist(),
         "poles": plain_numbers(found.poles),
+        "law": _typed(found),
+        "checks": [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in found.verified],
     }
+
+
+def _typed(found: Regulator) -> dict[str, str]:
+    """The law as people type it: name of the input → expression, with as many digits as a double has."""
+    return {plain(u): plain(expr) for u, expr in found.law.items()}

@@ -63,6 +63,10 @@ class Model(Brief):
         counts = ("coordinates", "parameters", "inputs", "elements")
         return cut(f"<Model {self.name!r}: {', '.join(f'{len(getattr(self, x))} {x}' for x in counts)}>")
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What is pickled: the description alone, without what was made of it."""
+        return {**self.__dict__, "_memo": {}}
+
     def sparing(self, spare: tuple[SpareRows, ...]) -> Model:
         """The same model, with what is known of rows that follow from others."""
         if spare == self.spare:

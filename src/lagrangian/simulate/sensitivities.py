@@ -62,6 +62,7 @@ class Sensitivities(Guided):
     _task: Task = field(repr=False)
     _columns: Columns = field(repr=False)
     _run: VariedRun = field(repr=False)
+    _compared: str = "not compared with runs yet: verify() does"
 
     def __getitem__(self, asked: Any) -> Array:
         """Return the derivatives of a state, an expression (SymPy or text) or a point's path, (S, …, k)."""
@@ -129,7 +130,10 @@ class Sensitivities(Guided):
 
         exact = (self._run.changes[kept] @ d / size).ravel()
         what = "the derivatives of the states equal difference quotients of runs without variational equations"
-        return (quotients.held(what, exact, states, z, d),)
+        check = quotients.held(what, exact, states, z, d)
+        verdict = {True: "equal to quotients of runs", False: "NOT equal to quotients of runs", None: ""}[check.holds]
+        self._compared = ", ".join(x for x in (verdict, check.figure) if x)
+        return (check,)
 
     def _own_name(self, name: str) -> str | None:
         """Quantities are accessed as entries, not as attributes."""
@@ -141,6 +145,7 @@ class Sensitivities(Guided):
 
         names = self.wrt[:SHOWN]
         words = [f"derivatives at the end, t = {self.t[-1]:g} s; {len(self.t)} samples"]
+        words.append(self._compared)
         words += [f"and {len(self.wrt) - len(names)} more columns"] if len(self.wrt) > len(names) else []
         rows = [
             (state, *(f"{x:.6g}" for x in found[-1, : len(names)]))
@@ -150,7 +155,8 @@ class Sensitivities(Guided):
 
     def __repr__(self) -> str:
         """Name what was differentiated by what."""
-        return f"<Sensitivities of {', '.join(self._task.states)} to {', '.join(self.wrt)}, {len(self.t)} samples>"
+        to = f"{', '.join(self._task.states)} to {', '.join(self.wrt)}, {len(self.t)} samples"
+        return f"<Sensitivities of {to}; {self._compared}>"
 
 
 def sensitivities(run: Recorded, wrt: Any) -> Sensitivities:

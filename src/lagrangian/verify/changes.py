@@ -1,10 +1,12 @@
 """Compares the derivatives of a compiled system, and its single steps, with difference quotients and textbook formulas.
 
-    derivatives    ∂a/∂q δq + ∂a/∂v δv + ∂a/∂u δu is the difference quotient of a along a random direction;
-                   ∂a/∂Ξ M ∂a/∂Ξ = ∂a/∂Ξ
-    pullback       wᵀ ∂a/∂(q, v, u)
+    derivatives    ∂a/∂q δq + ∂a/∂v δv + ∂a/∂u δu is the difference quotient of a along a random direction, and ∂a/∂p
+                   that by each parameter; of the forces r of inverse dynamics likewise; ∂a/∂Ξ M ∂a/∂Ξ = ∂a/∂Ξ
+    pullback       wᵀ ∂a/∂(q, v, u, p), and its own difference quotient for Hessian products
+    linearized     A δx + B δu is the difference quotient of ẋ
     step           Runge's and Kutta's formulas with rates by the slow evaluator
     A, B of it     A δx + B δu is the difference quotient of the step
+    sensitivities  the variational equations along every column are difference quotients of ẋ
 
 A wrong entry changes the result along a random direction, whichever entry it is.
 """
@@ -12,18 +14,22 @@ A wrong entry changes the result along a random direction, whichever entry it is
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import Error
+from lagrangian import dynamics
+from lagrangian.errors import Error, RunError
 from lagrangian.graph import Program, reached
+from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
-from lagrangian.verify.slopes import POINTS, SETTLED, TOLERANCE, WIDTH, extrapolated
+from lagrangian.verify.neighbours import BESIDE, Changing, Function, Neighbourhood, quotient, resolved
+from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.slopes import POINTS, TOLERANCE
 from lagrangian.verify.states import State, evaluated, relative
 
 Array: TypeAlias = NDArray[np.float64]
@@ -39,23 +45,6 @@ many, and compiling them would take most of the time of a verification."""
 
 STEP = 1e-2
 """The length of a step [s] where nothing changes faster than by 1 a second; shorter elsewhere."""
-
-
-class Changing(Protocol):
-    """The functions of `lagrangian.Compiled` that are compared."""
-
-    @property
-    def forward(self) -> Callable[..., Array]: ...  # noqa: D102
-    @property
-    def mass_matrix(self) -> Callable[..., Array]: ...  # noqa: D102
-    @property
-    def rates(self) -> Callable[..., Array]: ...  # noqa: D102
-    @property
-    def derivatives(self) -> Callable[..., Any]: ...  # noqa: D102
-    @property
-    def pullback(self) -> Callable[..., Any]: ...  # noqa: D102
-    @property
-    def step(self) -> Callable[..., Any]: ...  # noqa: D102
 
 
 @dataclass
@@ -77,49 +66,44 @@ class _Found:
         return Check(what, self.worst < tolerance, f"largest relative difference {self.worst:.1e} at {at}")
 
 
-@dataclass
-class _Place:
-    """A state, and a random direction from it: δq along the velocities, δv, δu."""
-
-    state: State
-    seed: int
-    q: Array = field(init=False)
-    v: Array = field(init=False)
-    u: Array = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.q, self.v, self.u = (np.array(self.state[group], float) for group in ("q", "v", "u"))
-        source = random.Random(self.seed)
-        self.dq, self.dv, self.weights = (np.array([source.uniform(-1, 1) for _ in self.v]) for _ in range(3))
-        self.du = np.array([source.uniform(-1, 1) for _ in self.u])
-        self.size = np.array(self.state["a"])  # of terms that may cancel to rounding
-        self.fixed = {"p": np.array(self.state["p"], float), "t": self.state["t"][0]}
-
-
-Comparison: TypeAlias = Callable[[Changing, _Place], float | None]
+Comparison: TypeAlias = Callable[[Changing, Neighbourhood], float | None]
 """Functions and a place → a relative difference, or None where quotients do not settle."""
 
 
-def changes(functions: Changing, rhs: Program, states: Sequence[State]) -> Iterator[Check]:
+def changes(functions: Changing, model: Model, states: Sequence[State]) -> Iterator[Check]:
     """Yield the checks, each at the first few states where it can be made: quotients do not settle across a kink."""
+    rhs = dynamics.rhs(model)
+    nodes = len(reached(rhs.graph, rhs.ids))
+    places = [Neighbourhood(model, state, k) for k, state in enumerate(states)]
+    if model.constraints:
+        onto = OnRows(model)
+        for place in places:
+            place.kept_on_rows(functions, onto)
     A, B, M, Xi = Name("A"), Name("B"), Name("M"), Name("Xi")
+    derivatives = text("the compiled derivatives of the accelerations, by parameters, too, equal difference quotients")
+    pulled = text("those by ", Xi, " fit ", M, ", and those pulled back are weighted sums of them")
+    hessians = text("the compiled Hessian products equal difference quotients of those pulled back")
+    varied = text("the variational equations, of which sensitivities of runs come, equal difference quotients")
     comparisons: list[tuple[Text, float, Comparison]] = [
-        (text("the compiled derivatives of the accelerations equal difference quotients"), TOLERANCE, _derivatives),
-        (text("those by ", Xi, " fit ", M, ", and those pulled back are weighted sums of them"), ROUNDING, _products),
+        (derivatives, TOLERANCE, _derivatives),
+        (text("so do those of the inverse dynamics"), TOLERANCE, _inverse_derivatives),
+        (pulled, ROUNDING, _products),
+        (hessians, TOLERANCE, _hessian_products),
+        (text("the ", A, " and ", B, " of any state equal difference quotients of ẋ"), TOLERANCE, _linear),
         (text("compiled steps by rk4, midpoint and euler are those of these rates"), ROUNDING, partial(_steps, rhs)),
         (text("the ", A, " and ", B, " of a step equal its difference quotients"), TOLERANCE, _step_derivatives),
+        (varied, TOLERANCE, _variations),
     ]
-    nodes = len(reached(rhs.graph, rhs.ids))
     for what, tolerance, compare in comparisons:
         found = _Found()
         if nodes > MOST_NODES and not isinstance(compare, partial):  # all but steps
             long = f"the accelerations have {nodes} nodes, and derivatives of more than {MOST_NODES} take long"
             yield Check(what, None, f"not checked: {long}")
             continue
-        for k, state in enumerate(states):
+        for place in places:
             if found.points == POINTS:
                 break
-            _attempted(found, partial(compare, functions, _Place(state, k)))
+            _attempted(found, partial(compare, functions, place))
         yield found.check(what, tolerance)
 
 
@@ -136,31 +120,162 @@ def _attempted(found: _Found, compare: Callable[[], float | None]) -> None:
         found.note(difference)
 
 
-def _derivatives(functions: Changing, place: _Place) -> float | None:
-    """How far the derivatives of a are from a quotient along the direction of a place."""
+def _derivatives(functions: Changing, place: Neighbourhood) -> float | None:
+    """How far the derivatives of a are from a quotient along the direction of a place, and by every parameter."""
     d = functions.derivatives(place.q, place.v, place.u, **place.fixed)
-    quotient = _quotient(functions, place, lambda q, v, u: functions.forward(q, v, u=u, **place.fixed))
+    found = [_off(functions, place, place.forward(functions), (d.a_q, d.a_v, d.a_u), place.a)]
+    if place.parameters:
+        d = functions.derivatives(place.q, place.v, place.u, wrt=place.parameters, **place.fixed)
+        found.append(_off_by_parameters(place, place.forward(functions), d.a_p, place.a))
+    return _largest(found)
+
+
+def _inverse_derivatives(functions: Changing, place: Neighbourhood) -> float | None:
+    """How far the derivatives of r are from quotients, and the r and M beside them from those of other functions."""
+    wanted = (*dynamics.VARIED, *place.parameters)
+    d = functions.derivatives(place.q, place.v, place.u, a=place.a, wrt=wanted, **place.fixed)
+    r = functions.inverse(place.q, place.v, place.a, u=place.u, **place.fixed)
+    M = functions.mass_matrix(place.q, v=place.v, **place.fixed)
+    terms = M * place.a
+    found = [
+        _off(functions, place, place.inverse(functions), (d.r_q, d.r_v, d.r_u), terms),
+        relative(d.r - r, r, terms),
+        relative(d.M - M, M),
+    ]
+    if place.parameters:
+        found.append(_off_by_parameters(place, place.inverse(functions), d.r_p, terms))
+    return _largest(found)
+
+
+def _off(functions: Changing, place: Neighbourhood, f: Function, slopes: Sequence[Array], terms: Array) -> float | None:
+    """How far slopes by q, v and u are from the quotient of f along the direction of a place."""
+    quotient = place.along(functions, f)
     if quotient is None:
         return None
-    parts = d.a_q @ place.dq, d.a_v @ place.dv, d.a_u @ place.du
-    return relative(sum(parts) - quotient, quotient, *parts, place.size)
+    parts = [slope @ d for slope, d in zip(slopes, (place.dq, place.dv, place.du), strict=True)]
+    return relative(sum(parts) - quotient, quotient, *parts, terms, resolved(place, f))
 
 
-def _products(functions: Changing, place: _Place) -> float:
-    """How far pulled-back weights are from weighted derivatives, and ∂a/∂Ξ from an inverse of M."""
-    q, v, u = place.q, place.v, place.u
-    d = functions.derivatives(q, v, u, **place.fixed)
-    pulled = functions.pullback(q, v, u, place.weights, **place.fixed)
-    M = functions.mass_matrix(q, v=v, **place.fixed)
+def _off_by_parameters(place: Neighbourhood, f: Function, slopes: Mapping[str, Array], terms: Array) -> float | None:
+    """How far slopes by parameters are from quotients of f, column by column, each in units of its parameter."""
+    quotients = place.by_parameters(f)
+    if quotients is None:
+        return None
+    found = np.array(list(slopes.values())).T
+    unit, least = np.where(place.p != 0, np.abs(place.p), 1.0), resolved(place, f)
     return max(
-        relative(place.weights @ d.a_q - pulled.q, d.a_q, place.size),
-        relative(place.weights @ d.a_v - pulled.v, d.a_v, place.size),
-        relative(place.weights @ d.a_u - pulled.u, d.a_u, place.size),
-        relative(d.Minv @ M @ d.Minv - d.Minv, np.abs(d.Minv) @ np.abs(M) @ np.abs(d.Minv)),
+        relative((x - y) * one, x * one, y * one, terms, least)
+        for x, y, one in zip(found.T, quotients.T, unit, strict=True)
     )
 
 
-def _steps(rhs: Program, functions: Changing, place: _Place) -> float:
+def _largest(found: Sequence[float | None]) -> float | None:
+    """The largest difference, not-a-number if one is; None if quotients did not settle."""
+    known = [x for x in found if x is not None]
+    return float(np.max(known)) if len(known) == len(found) else None
+
+
+def _products(functions: Changing, place: Neighbourhood) -> float:
+    """How far pulled-back weights are from weighted derivatives, and ∂a/∂Ξ from an inverse of M."""
+    q, v, u, w = place.q, place.v, place.u, place.weights
+    d = functions.derivatives(q, v, u, **place.fixed)
+    pulled = functions.pullback(q, v, u, w, **place.fixed)
+    M = functions.mass_matrix(q, v=v, **place.fixed)
+    off = [w @ slope - row for slope, row in ((d.a_q, pulled.q), (d.a_v, pulled.v), (d.a_u, pulled.u))]
+    if place.dependent:
+        off = [np.atleast_1d(off[0] @ place.dq + off[1] @ place.dv), off[2]]
+    found = [
+        *(relative(x, d.a_q, d.a_v, d.a_u, place.a) for x in off),
+        relative(pulled.a - d.a, d.a),
+        relative(d.Minv @ M @ d.Minv - d.Minv, np.abs(d.Minv) @ np.abs(M) @ np.abs(d.Minv)),
+    ]
+    if place.parameters:
+        by_p = functions.derivatives(q, v, u, wrt=place.parameters, **place.fixed)
+        pulled = functions.pullback(q, v, u, w, wrt=place.parameters, **place.fixed)
+        for name, column in by_p.a_p.items():
+            found.append(relative(w @ column - pulled.p[name], column, place.a))
+    return float(np.max(found))
+
+
+def _hessian_products(functions: Changing, place: Neighbourhood) -> float | None:
+    """How far Hessian products are from quotients of pulled-back weights along (δq, δv)."""
+    if place.dependent:
+        raise RunError(BESIDE, code="E503")
+    wanted = (*dynamics.VARIED, *place.parameters)
+    given = place.q, place.v, place.u, place.weights
+    d = functions.hessian_product(*given, place.dq, place.dv, wrt=wanted, **place.fixed)
+    moved, found = functions.rates(place.q, place.dq), list[float | None]()
+    for wrt in (dynamics.VARIED, place.parameters) if place.parameters else (dynamics.VARIED,):
+
+        def pulled(h: float, wrt: tuple[str, ...] = wrt) -> Array:
+            s = np.array([[h], [-h]])
+            q, v = place.q + s * moved, place.v + s * place.dv
+            return _joined(functions.pullback(q, v, place.u, place.weights, wrt=wrt, **place.fixed), wrt)
+
+        change = quotient(pulled)
+        found.append(None if change is None else relative(_joined(d, wrt) - change, change, place.a))
+    return _largest(found)
+
+
+def _joined(pulled: Any, wrt: Sequence[str]) -> Array:
+    """All that was pulled back, in one row for each state."""
+    if wrt == dynamics.VARIED:
+        return np.concatenate([pulled.q, pulled.v, pulled.u], axis=-1)
+    return np.stack(list(pulled.p.values()), axis=-1)
+
+
+def _linear(functions: Changing, place: Neighbourhood) -> float | None:
+    """How far A δx + B δu is from a quotient of ẋ.
+
+    δq = N ξ varies along the velocities, so that ξ̇ = N⁺ (δ(N v) − Ṅ ξ); N = 1 without floating frames.
+    """
+    A, B = functions.linearized(place.q, place.v, place.u, **place.fixed)
+    a = place.along(functions, place.forward(functions))
+    rate = place.along(functions, lambda q, v, u, p: functions.rates(q, v))
+    flow = functions.rates(place.q, place.v)
+    turned = quotient(lambda h: functions.rates(place.q + np.array([[h], [-h]]) * flow, place.dq))
+    if a is None or rate is None or turned is None:
+        return None
+    N = functions.rates(place.q, np.eye(len(place.v))).T
+    along = np.linalg.lstsq(N, rate - turned, rcond=None)[0]
+    parts = A @ np.concatenate([place.dq, place.dv]), B @ place.du
+    return relative(sum(parts) - np.concatenate([along, a]), *parts, place.a)
+
+
+def _variations(functions: Changing, place: Neighbourhood) -> float | None:
+    """How far the variational equations of all states, inputs and parameters are from quotients of ẋ."""
+    if place.dependent:
+        raise RunError(BESIDE, code="E503")
+    n, x = len(place.q), np.concatenate([place.q, place.v])
+    kinds: dict[Literal["x", "u", "p", "knot"], int] = {"x": len(x), "u": len(place.u), "p": len(place.p)}
+    columns = [dynamics.VariedColumn(kind, k, f"{kind}{k}") for kind, count in kinds.items() for k in range(count)]
+    rates = place.model.remembered("variations", lambda: dynamics.variational(place.model, columns, {}).rates)
+    units = np.array([abs(place.p[c.at]) or 1.0 if c.kind == "p" else 1.0 for c in columns])
+    source = random.Random(place.seed)
+    changes = np.array([[source.uniform(-1, 1) for _ in x] for _ in columns])
+    given = {**place.state, "x": [*x.tolist(), *(changes / units[:, None]).ravel().tolist()]}
+    xdot, *slopes = np.array(evaluated(rates, given)["xdot"], float).reshape(1 + len(columns), len(x))
+
+    def rhs(x: Array, u: Array, p: Array) -> Array:
+        q, v = x[..., :n], x[..., n:]
+        return np.concatenate([functions.rates(q, v), functions.forward(q, v, u=u, p=p, t=place.t)], axis=-1)
+
+    found = [relative(xdot - rhs(x, place.u, place.p), xdot)]
+    for column, change, slope, unit in zip(columns, changes, slopes, units, strict=True):
+        du, dp = np.zeros_like(place.u), np.zeros_like(place.p)
+        if column.kind != "x":
+            (du if column.kind == "u" else dp)[column.at] = unit
+
+        def shifted(h: float, dx: Array = change, du: Array = du, dp: Array = dp) -> Array:
+            return np.stack([rhs(x + s * dx, place.u + s * du, place.p + s * dp) for s in (h, -h)])
+
+        if (along := quotient(shifted)) is None:
+            return None
+        found.append(relative(slope * unit - along, along, xdot))
+    return float(np.max(found))
+
+
+def _steps(rhs: Program, functions: Changing, place: Neighbourhood) -> float:
     """How far steps are from the textbook's formulas, with the slow evaluator's rates."""
 
     def rates(x: Array, t: float) -> Array:
@@ -175,11 +290,11 @@ def _steps(rhs: Program, functions: Changing, place: _Place) -> float:
     return worst
 
 
-def _step_derivatives(functions: Changing, place: _Place) -> float | None:
+def _step_derivatives(functions: Changing, place: Neighbourhood) -> float | None:
     """How far A and B of a step are from a quotient of the step."""
     dt, places = _length(functions, place), len(place.q)
     x1, A, B = functions.step(place.q, place.v, place.u, dt, derivatives=True, **place.fixed)
-    quotient = _quotient(functions, place, lambda q, v, u: functions.step(q, v, u, dt, **place.fixed))
+    quotient = place.along(functions, lambda q, v, u, p: functions.step(q, v, u, dt, p=p, t=place.t))
     if quotient is None:
         return None
     N = functions.rates(x1[:places], np.eye(len(place.v))).T  # q̇ = N v after the step
@@ -188,23 +303,10 @@ def _step_derivatives(functions: Changing, place: _Place) -> float | None:
     return relative(sum(parts) - np.concatenate([along, quotient[places:]]), *parts)
 
 
-def _length(functions: Changing, place: _Place) -> float:
+def _length(functions: Changing, place: Neighbourhood) -> float:
     """A step in which no state changes by much more than 0.01."""
     a = functions.forward(place.q, place.v, u=place.u, **place.fixed)
     return STEP / (1 + float(np.abs([*a, *place.v]).max(initial=0.0)))
-
-
-def _quotient(functions: Changing, place: _Place, f: Callable[[Array, Array, Array], Array]) -> Array | None:
-    """The derivative of f(q, v, u) along the direction of a place; None where quotients do not settle."""
-    along = functions.rates(place.q, place.dq)
-    levels = []
-    for k in range(3):
-        h = WIDTH / 2**k
-        signs = np.array([[h], [-h]])
-        values = f(place.q + signs * along, place.v + signs * place.dv, place.u + signs * place.du)
-        levels.append((values[0] - values[1]) / (2 * h))
-    found, doubt = extrapolated(levels)
-    return found if doubt <= SETTLED * (float(np.abs(found).max(initial=0.0)) or 1.0) else None
 
 
 def _euler(f: Rates, x: Array, t: float, h: float) -> Array:

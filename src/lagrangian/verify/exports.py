@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from lagrangian.graph import Program
 from lagrangian.page.formula import Check, text
-from lagrangian.verify.states import State, cancelling, evaluated, relative
+from lagrangian.verify.states import Expected, State, cancelling, relative
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -27,6 +27,12 @@ Sources: TypeAlias = Callable[[str, str], Mapping[str, str]]
 
 Call: TypeAlias = Callable[[State], Sequence[Array]]
 """A function of an exported file that takes a state and returns its outputs in order."""
+
+Caller: TypeAlias = Callable[[str, Program], Call]
+"""The name of a program, and the program → its function in an exported file."""
+
+Unrun: TypeAlias = tuple[bool | None, str]
+"""Whether a file that could not be run is at fault (False) or this machine (None), and why."""
 
 TOLERANCE = 1e-9
 """Two numbers are equal if their difference, relative to the largest term of the output, is at most this."""
@@ -52,24 +58,35 @@ PATIENCE = 300
 
 
 def exported(
-    program: Callable[[str], Program], names: Sequence[str], sources: Sources, states: Sequence[State]
+    programs: Mapping[str, Program], sources: Sources, expected: Expected, states: Sequence[State]
 ) -> tuple[Check, ...]:
     """Return checks of the exported Python, the exported C and the exported JavaScript.
 
-    ``program(name)`` returns the programs in the source, and ``names`` lists them. If no C compiler is found, ``holds``
-    is None for the check of C, and so it is for that of JavaScript if Node is not found.
+    ``programs`` are those in the source, by name. If no C compiler is found, ``holds`` is None for the check of C, and
+    so it is for that of JavaScript if Node is not found.
     """
-    programs = {name: program(name) for name in names}
     with tempfile.TemporaryDirectory(prefix="lagrangian-", ignore_cleanup_errors=True) as folder:
-        return (
-            _python(programs, sources("python", STEM), states, Path(folder)),
-            _c(programs, sources("c", STEM), states, Path(folder)),
-            _javascript(programs, sources("javascript", STEM), states, Path(folder)),
+        kept = Path(folder)
+        made = (
+            _python(sources("python", STEM), kept),
+            _c(sources("c", STEM), kept),
+            _javascript(programs, sources("javascript", STEM), states, kept),
+        )
+        languages = ("Python", "C", "JavaScript")
+        return tuple(
+            Check(text(f"the exported {language} gives the same numbers"), *_judged(run, programs, expected, states))
+            for language, run in zip(languages, made, strict=True)
         )
 
 
-def _python(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path) -> Check:
-    what = text("the exported Python gives the same numbers")
+def _judged(
+    run: Caller | Unrun, programs: Mapping[str, Program], expected: Expected, states: Sequence[State]
+) -> tuple[bool | None, str]:
+    """Whether the functions of a file agree with their programs, or why they could not be called; and the figure."""
+    return run if isinstance(run, tuple) else _compared(programs, run, expected, states)
+
+
+def _python(texts: Mapping[str, str], folder: Path) -> Caller:
     module = _imported(folder, texts)
 
     def caller(name: str, program: Program) -> Call:
@@ -82,7 +99,7 @@ def _python(programs: Mapping[str, Program], texts: Mapping[str, str], states: S
 
         return call
 
-    return Check(what, *_compared(programs, caller, states))
+    return caller
 
 
 def _imported(folder: Path, texts: Mapping[str, str]) -> ModuleType:
@@ -97,11 +114,10 @@ def _imported(folder: Path, texts: Mapping[str, str]) -> ModuleType:
     return module
 
 
-def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path) -> Check:
-    what = text("the exported C gives the same numbers")
+def _c(texts: Mapping[str, str], folder: Path) -> Caller | Unrun:
     compiler = next((path for name in COMPILERS if (path := shutil.which(name))), None)
     if compiler is None:
-        return Check(what, None, f"not checked: no C compiler was found (looked for {', '.join(COMPILERS)})")
+        return None, f"not checked: no C compiler was found (looked for {', '.join(COMPILERS)})"
     for file_name, source in texts.items():
         (folder / file_name).write_text(source, encoding="utf-8")
     library = folder / f"{STEM}.shared"
@@ -109,10 +125,10 @@ def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequen
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
-        return Check(what, None, f"not checked: the C compiler could not be run ({error})")
+        return None, f"not checked: the C compiler could not be run ({error})"
     if done.returncode:
         said = next((line for line in done.stderr.splitlines() if "error" in line), f"exit {done.returncode}")
-        return Check(what, False, f"the C compiler refuses it: {said[:200]}")
+        return False, f"the C compiler refuses it: {said[:200]}"
     loaded = ctypes.CDLL(str(library))
 
     def caller(name: str, program: Program) -> Call:
@@ -127,16 +143,15 @@ def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequen
 
         return call
 
-    return Check(what, *_compared(programs, caller, states))
+    return caller
 
 
 def _javascript(
     programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path
-) -> Check:
-    what = text("the exported JavaScript gives the same numbers")
+) -> Caller | Unrun:
     node = shutil.which(NODE)
     if node is None:
-        return Check(what, None, "not checked: Node was not found (looked for node)")
+        return None, "not checked: Node was not found (looked for node)"
     for file_name, source in texts.items():
         (folder / file_name).write_text(source, encoding="utf-8")
     (folder / "calls.js").write_text(_CALLS, encoding="utf-8")
@@ -151,10 +166,10 @@ def _javascript(
             command, input=json.dumps(wanted), capture_output=True, text=True, timeout=PATIENCE, check=False
         )
     except (OSError, subprocess.TimeoutExpired) as error:
-        return Check(what, None, f"not checked: Node could not be run ({error})")
+        return None, f"not checked: Node could not be run ({error})"
     if done.returncode:
         said = next((line for line in done.stderr.splitlines() if "Error" in line), f"exit {done.returncode}")
-        return Check(what, False, f"Node refuses it: {said[:200]}")
+        return False, f"Node refuses it: {said[:200]}"
     answers = iter(json.loads(done.stdout))
     known = {(name, id(state)): next(answers) for state in states for name in programs}
 
@@ -162,20 +177,20 @@ def _javascript(
         ends = np.cumsum([len(output.ids) for output in program.outputs.values()])[:-1]
         return lambda state: np.split(np.array(known[name, id(state)], float), ends)
 
-    return Check(what, *_compared(programs, caller, states))
+    return caller
 
 
 def _compared(
-    programs: Mapping[str, Program], caller: Callable[[str, Program], Call], states: Sequence[State]
+    programs: Mapping[str, Program], caller: Caller, expected: Expected, states: Sequence[State]
 ) -> tuple[bool, str]:
     """Whether every function agrees with the slow evaluation of its program, and the figure."""
     worst, calls = 0.0, {name: caller(name, program) for name, program in programs.items()}
     for state in states:
-        M = np.array(evaluated(programs["mass_matrix"], state)["M"], float)
-        for name, program in programs.items():
+        M = np.array(expected.at("mass_matrix", state)["M"], float)
+        for name, call in calls.items():
             terms = np.ravel(cancelling(name, state, M))
-            for expected, answer in zip(evaluated(program, state).values(), calls[name](state), strict=True):
-                found = np.ravel(np.array(expected, float))
+            for slow, answer in zip(expected.at(name, state).values(), call(state), strict=True):
+                found = np.ravel(np.array(slow, float))
                 worst = float(np.maximum(worst, relative(np.ravel(answer) - found, found, terms)))
     n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
     return worst < TOLERANCE, f"largest relative difference {worst:.1e} at {n}"

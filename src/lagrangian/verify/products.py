@@ -17,7 +17,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -30,12 +29,13 @@ from lagrangian.errors import Error
 from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
-from lagrangian.verify.changes import Changing, changes
+from lagrangian.verify.changes import changes
 from lagrangian.verify.exports import Sources, exported
 from lagrangian.verify.foreign.checks import foreign_checks, not_run
+from lagrangian.verify.neighbours import Changing, depends
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import slopes
-from lagrangian.verify.states import State, cancelling, evaluated, random_states, relative
+from lagrangian.verify.states import Expected, State, cancelling, evaluated, random_states, relative
 
 _log = logging.getLogger(__name__)
 TOLERANCE = 1e-9
@@ -49,9 +49,6 @@ Array: TypeAlias = NDArray[np.float64]
 
 
 Function: TypeAlias = Callable[..., Array]
-
-
-Programs: TypeAlias = Callable[[str], Program]
 
 
 class Functions(Changing, Protocol):
@@ -101,20 +98,22 @@ def verify_products(
     if model.constraints and not (found := _on_rows(model, found)):
         what = text("every compiled function, where the constraints hold")
         return (Check(what, None, "not checked: no random position could be moved to where the constraints hold"),)
-    program = cache(functions.program)  # the same programs are used at every state
+    expected = Expected(functions.program)
     _log.info("verifying: the compiled functions")
     try:
-        compiled = _compiled(model, functions, program, found)
+        compiled = _compiled(model, functions, expected, found)
     except Error as error:  # a compiled function refused a state at which its formulas are finite
         culprit = without_value(model, values=True)
         why = f"{culprit} has no finite real value with the values that parameters have" if culprit else str(error)
         return (Check(text("every compiled function can be evaluated"), False, why),)
     _log.info("verifying: the exported sources and the linearization")
-    written = exported(program, functions.exported, sources, found)
+    written = exported({name: functions.program(name) for name in functions.exported}, sources, expected, found)
     if exports:
         written += (*foreign_checks(model, found), *not_run())
     _log.info("verifying: the derivatives and the steps")
-    return (*compiled, *written, slopes(model, functions.rhs, found), *changes(functions, program("rhs"), found))
+    dependent = bool(model.constraints) and any(depends(functions, state) for state in found)
+    linear = slopes(model, functions.rhs, found, OnRows(model).of if dependent else None)
+    return (*compiled, *written, linear, *changes(functions, model, found))
 
 
 def _on_rows(model: Model, states: Sequence[State]) -> list[State]:
@@ -123,13 +122,13 @@ def _on_rows(model: Model, states: Sequence[State]) -> list[State]:
     return [moved for state in states if (moved := rows.of(state)) is not None]
 
 
-def _compiled(model: Model, functions: Functions, program: Programs, states: Sequence[State]) -> list[Check]:
+def _compiled(model: Model, functions: Functions, expected: Expected, states: Sequence[State]) -> list[Check]:
     """Compare the compiled functions with the slow evaluator and with each other."""
     worst, routes = Worst(), _Routes(model)
     batch = _calls(functions, _stacked(states))
     for k, state in enumerate(states):
         answers = {name: answer[k] for name, answer in batch.items()}
-        _against_formulas(program, state, answers, worst)
+        _against_formulas(expected, state, answers, worst)
         if k < ONE_BY_ONE:
             for name, answer in _calls(functions, {group: np.array(x) for group, x in state.items()}).items():
                 terms = cancelling(name, state, answers["mass_matrix"])
@@ -181,16 +180,15 @@ def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
     return found
 
 
-def _against_formulas(program: Programs, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
+def _against_formulas(expected: Expected, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
     """Compare every result with the slow evaluation of its own program."""
-    x = [*state["q"], *state["v"]]
     for name, answer in answers.items():
         if name in ("T", "V"):
-            slow: Any = evaluated(program("energy"), state)[name]
+            found: Any = expected.at("energy", state)[name]
         else:
-            (slow,) = evaluated(program(name), {**state, "x": x}).values()
-        expected = np.array(slow, float)
-        worst.note("formulas", answer - expected, expected, cancelling(name, state, answers["mass_matrix"]))
+            (found,) = expected.at(name, state).values()
+        slow = np.array(found, float)
+        worst.note("formulas", answer - slow, slow, cancelling(name, state, answers["mass_matrix"]))
 
 
 class _Routes:

@@ -8,13 +8,15 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import Error
+from lagrangian.errors import Error, RunError
 from lagrangian.linear.linearize import linearize
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.verify.states import State
 
 Array: TypeAlias = NDArray[np.float64]
+Moved: TypeAlias = Callable[[dict[str, list[float]]], dict[str, list[float]] | None]
+"""A state → one that satisfies the constraints, or None."""
 
 TOLERANCE = 1e-6
 """The allowed difference from a quotient, relative to the largest derivative: the accuracy of quotients in doubles."""
@@ -29,11 +31,12 @@ POINTS = 3
 """The number of states at which quotients are computed."""
 
 
-def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> Check:
+def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], onto: Moved | None = None) -> Check:
     """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients converge.
 
     Central quotients D(h) = (f(x + h) − f(x − h))/2h at h, h/2 and h/4 are extrapolated to h → 0 (Richardson), which
-    leaves O(h⁶). A state where two extrapolations differ by more than `SETTLED`, as across a kink, is skipped.
+    leaves O(h⁶). A state where two extrapolations differ by more than `SETTLED`, as across a kink, is skipped. With
+    ``onto``, which moves a state onto the rows of constraints, x is varied along the constraints alone.
     """
     what = text("the linearization's ", Name("A"), " and ", Name("B"), " equal difference quotients of these rates")
     worst, points, refused = 0.0, 0, ""
@@ -45,8 +48,15 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> 
         except Error as error:
             refused = refused or error.what
             continue
-        quotients, doubt = _quotients(rhs, state)
-        if found.back is not None:  # of the minimal states of floating frames
+        basis = None if onto is None else found.basis
+        try:
+            quotients, doubt = _quotients(rhs, state, basis, onto)
+        except Error as error:
+            refused = refused or error.what
+            continue
+        if basis is not None:
+            quotients = quotients[[list(found.at).index(name) for name in found.states]]
+        elif found.back is not None:  # of the minimal states of floating frames
             m = len(found.at)
             along = found.back @ quotients[:, :m] @ found.basis - found.transport
             quotients = np.hstack([along, found.back @ quotients[:, m:]])
@@ -79,18 +89,36 @@ def linearized(model: Model, state: State) -> Any:
     )
 
 
-def _quotients(rhs: Callable[..., Array], state: State) -> tuple[Array, float]:
-    """∂ẋ/∂[x; u], shape (n, n + m), and the largest change in the last extrapolation."""
-    point = np.array([*state["q"], *state["v"], *state["u"]])
-    n = len(state["q"]) + len(state["v"])
-    steps = WIDTH * (1 + np.abs(point))
-    levels = []
+def _quotients(
+    rhs: Callable[..., Array], state: State, basis: Array | None = None, onto: Moved | None = None
+) -> tuple[Array, float]:
+    """∂ẋ/∂[x; u], shape (n, n + m), and the largest change in the last extrapolation.
+
+    With ``basis`` x changes along its columns, in place of every entry for itself, and is moved ``onto`` the rows.
+    """
+    x, u = np.array([*state["q"], *state["v"]]), np.array(state["u"])
+    own: Array = np.diag(WIDTH * (1 + np.abs(x))) if basis is None else WIDTH * basis.T
+    changes = np.zeros((len(own) + len(u), len(x) + len(u)))
+    changes[: len(own), : len(x)] = own
+    changes[len(own) :, len(x) :] = np.diag(WIDTH * (1 + np.abs(u)))
+    widths = changes.max(axis=1) if basis is None else np.array([WIDTH] * len(own) + [*WIDTH * (1 + np.abs(u))])
+    levels: list[Array] = []
     for k in range(3):
-        offsets = np.diag(steps / 2**k)
-        around = np.concatenate([point + offsets, point - offsets])
-        f = rhs(state["t"][0], around[:, :n], u=around[:, n:], p=np.array(state["p"]))
-        levels.append((f[: len(point)] - f[len(point) :]).T / (2 * steps / 2**k))
+        around = np.concatenate([x, u]) + np.concatenate([changes, -changes]) / 2**k
+        if basis is not None and onto is not None:
+            around[:, : len(x)] = [_moved(onto, state, row[: len(x)]) for row in around]
+        f = rhs(state["t"][0], around[:, : len(x)], u=around[:, len(x) :], p=np.array(state["p"]))
+        levels.append((f[: len(changes)] - f[len(changes) :]).T / (2 * widths / 2**k))
     return extrapolated(levels)
+
+
+def _moved(onto: Moved, state: State, x: Array) -> list[float]:
+    """A neighbour x moved onto the rows; raises `RunError` where that fails."""
+    n = len(state["q"])
+    found = onto({**state, "q": x[:n].tolist(), "v": x[n:].tolist()})
+    if found is None:
+        raise RunError("a neighbour cannot be moved to where the constraints hold", code="E503")
+    return [*found["q"], *found["v"]]
 
 
 def extrapolated(levels: Sequence[Array]) -> tuple[Array, float]:
