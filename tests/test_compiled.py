@@ -141,19 +141,19 @@ P, X = np.array([1.0, 0.2, 0.3, 0.006, 0.1, 9.81]), np.concatenate([Q, V])
 COLUMN = np.ones((512, 1))
 MANY = COLUMN * Q, COLUMN * V
 CALLS = {
-    "forward": (3, lambda c, p: c.forward(Q, V)),
-    "forward, all arrays": (4, lambda c, p: c.forward(Q, V, U, P, 0.25)),
-    "forward, new parameters": (4, lambda c, p: c.forward(Q, V, p=p)),
-    "forward, mappings": (7, lambda c, p: c.forward(Q, V, {"F": 0.5}, dict(zip(c.parameters, P, strict=True)))),
-    "forward, a new mapping": (5, lambda c, p: c.forward(Q, V, None, dict(zip(c.parameters, p, strict=True)))),
-    "forward, lists": (5, lambda c, p: c.forward([0.1, 0.2], [0.3, 0.1])),
-    "inverse": (5, lambda c, p: c.inverse(Q, V, V, U, P)),
-    "mass_matrix, new parameters": (6, lambda c, p: c.mass_matrix(Q, p)),
-    "energy": (5, lambda c, p: c.energy(Q, V)),
-    "rhs": (5, lambda c, p: c.rhs(0.25, X, U, P)),
-    "many, new parameters": (16, lambda c, p: c.forward(*MANY, p=p)),
-    "many, a set for each": (21, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
-    "a few, new parameters": (17, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
+    "forward": (2, lambda c, p: c.forward(Q, V)),
+    "forward, all arrays": (3, lambda c, p: c.forward(Q, V, U, P, 0.25)),
+    "forward, new parameters": (3, lambda c, p: c.forward(Q, V, p=p)),
+    "forward, mappings": (6, lambda c, p: c.forward(Q, V, {"F": 0.5}, dict(zip(c.parameters, P, strict=True)))),
+    "forward, a new mapping": (4, lambda c, p: c.forward(Q, V, None, dict(zip(c.parameters, p, strict=True)))),
+    "forward, lists": (4, lambda c, p: c.forward([0.1, 0.2], [0.3, 0.1])),
+    "inverse": (3, lambda c, p: c.inverse(Q, V, V, U, P)),
+    "mass_matrix, new parameters": (3, lambda c, p: c.mass_matrix(Q, p)),
+    "energy": (3, lambda c, p: c.energy(Q, V)),
+    "rhs": (3, lambda c, p: c.rhs(0.25, X, U, P)),
+    "many, new parameters": (15, lambda c, p: c.forward(*MANY, p=p)),
+    "many, a set for each": (20, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
+    "a few, new parameters": (16, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
 }
 
 

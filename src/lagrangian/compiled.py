@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -53,6 +53,8 @@ class Compiled(Differentiated):
     def __init__(self, model: Model, *, lanes: int | None = None, threads: int | None = None) -> None:
         self._model, self._lanes, self._threads = model, lanes, threads
         self._kernels: dict[str, machine.Kernel] = {}
+        # The quick ways into the programs: a method tries its own before it does anything else.
+        self._quick: dict[str, Callable[[tuple[Any, ...]], Any]] = dict.fromkeys(_PROGRAMS, _not_compiled)
         self._seen: dict[Any, machine.Kernel] = {}
         self.coordinates = tuple(c.name for c in model.coordinates)
         self.velocities = tuple(v.name for v in model.velocities)
@@ -62,6 +64,9 @@ class Compiled(Differentiated):
         self.exported = exported(model)
         """The programs that a source file is written of."""
         self._kernel("forward")  # so that a coordinate without mass is found now, not at the first call
+
+    def __reduce__(self) -> Any:
+        return partial(type(self), lanes=self._lanes, threads=self._threads), (self._model,)
 
     def __repr__(self) -> str:
         """Name the system and its coordinates."""
@@ -83,13 +88,15 @@ class Compiled(Differentiated):
             if name in _SOLVING:
                 self._admit(found)
             self._kernels[name] = found
+            self._quick[name] = found.quick
         return found
 
     def forward(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return the accelerations q̈, shape ``(..., n)``; for chains and trees the time is O(n)."""
-        return self._called(self._kernels["forward"], (q, v, u, p, t))
+        answer = self._quick["forward"](given := (q, v, u, p, t))
+        return self._closer("forward", given) if answer is None else answer
 
     def inverse(
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
@@ -99,7 +106,8 @@ class Compiled(Differentiated):
         With constraints, the forces Aᵀ λ of their rows are part of what is missing: on a motion by `forward` nothing
         else is.
         """
-        return self._called(self._kernel("inverse"), (q, v, a, u, p, t))
+        answer = self._quick["inverse"](given := (q, v, a, u, p, t))
+        return self._closer("inverse", given) if answer is None else answer
 
     def mass_matrix(
         self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0, *, v: ArrayLike | None = None
@@ -109,19 +117,21 @@ class Compiled(Differentiated):
         If T* is not quadratic in the rates, M depends on them, and ``v`` must be given; otherwise there is a
         `RunError`.
         """
-        if v is None and not self.quadratic:
+        if v is None and not self._quadratic:
             raise RunError(
                 "M depends on the rates: the kinetic co-energy is not quadratic in them",
                 fix="give the rates as well, mass_matrix(q, v=…)",
                 code="E501",
             )
-        return self._called(self._kernel("mass_matrix"), (q, v, None, p, t))
+        answer = self._quick["mass_matrix"](given := (q, v, None, p, t))
+        return self._closer("mass_matrix", given) if answer is None else answer
 
     def bias(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return C v + G − Ξ(u), which is `inverse` at a = 0."""
-        return self._called(self._kernel("bias"), (q, v, u, p, t))
+        answer = self._quick["bias"](given := (q, v, u, p, t))
+        return self._closer("bias", given) if answer is None else answer
 
     def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
         """Return C(q, v), made of Christoffel symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric.
@@ -136,37 +146,47 @@ class Compiled(Differentiated):
                 fix="use bias(q, v), which contains all velocity and position terms",
                 code="E501",
             )
-        return self._called(self._kernel("coriolis"), (q, v, None, p, t))
+        answer = self._quick["coriolis"](given := (q, v, None, p, t))
+        return self._closer("coriolis", given) if answer is None else answer
 
     def potential_force(
         self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return ∂V/∂q, shape ``(..., n)``, from gravity, springs and potentials (Nᵀ ∂V/∂q if q̇ = N v)."""
-        return self._called(self._kernel("potential_force"), (q, None, u, p, t))
+        answer = self._quick["potential_force"](given := (q, None, u, p, t))
+        return self._closer("potential_force", given) if answer is None else answer
 
     def energy(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return T* + V [J], shape ``(...)``."""
-        both = self._called(self._kernel("energy"), (q, v, u, p, t))
+        answer = self._quick["energy"](given := (q, v, u, p, t))
+        both = self._closer("energy", given) if answer is None else answer
         return both["T"] + both["V"]
 
     def energies(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return T* and V [J], each of shape ``(...)``."""
-        both = self._called(self._kernel("energy"), (q, v, u, p, t))
+        answer = self._quick["energy"](given := (q, v, u, p, t))
+        both = self._closer("energy", given) if answer is None else answer
         return both["T"], both["V"]
 
     def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
         """Return q̇ = N(q) v, shape ``(..., n_q)``, which equals v except for floating frames."""
         unread = np.ones(len(self.parameters))  # q̇ = N(q) v has no parameters, and they may have no values
-        return self._called(self._kernel("rates"), (q, v, None, unread, 0.0))
+        answer = self._quick["rates"](given := (q, v, None, unread, 0.0))
+        return self._closer("rates", given) if answer is None else answer
 
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
         """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side that ODE solvers
         need."""
-        return self._called(self._kernel("rhs"), (x, u, p, t))
+        answer = self._quick["rhs"](given := (x, u, p, t))
+        return self._closer("rhs", given) if answer is None else answer
+
+    def _closer(self, name: str, given: tuple[Any, ...]) -> Any:
+        """The result of a program that is not compiled yet, or whose arguments need a closer look."""
+        return self._called(self._kernel(name), given)
 
     def _called(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Any:
         """Call a kernel with coordinates or states, …, inputs, parameters and t; if the result is not finite, explain
@@ -258,3 +278,7 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
 }
 _STILL = ("mass_matrix", "potential_force")
 _SOLVING = ("forward", "rhs")
+
+
+def _not_compiled(_: tuple[Any, ...]) -> None:
+    """Stand in for a program that is not compiled yet."""

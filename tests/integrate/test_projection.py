@@ -13,7 +13,8 @@ from lagrangian.codegen import compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program, jacobian
 from lagrangian.integrate import METHODS, Projection, RunStatus, Signals, Solver
-from lagrangian.integrate.scipy_methods import SCIPY, Interval, integrate_scipy
+from lagrangian.integrate.method_names import SCIPY
+from lagrangian.integrate.scipy_methods import Interval, integrate_scipy
 
 STEP = {"rk4": 0.005, "gauss4": 0.005}
 TOLERANCES = {"rtol": 1e-12, "atol": 1e-15}  # those of a step by default

@@ -28,8 +28,6 @@ from lagrangian.cli.terminal import (
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error
-from lagrangian.simulate.animation import ENDINGS
-from lagrangian.write.tables import check_target
 
 if TYPE_CHECKING:
     from lagrangian.simulate.animation import Animation
@@ -101,6 +99,9 @@ def animate(
         raise Error("no file was given", fix="name one with -o: -o motion.svg, .html, .gif, .mp4 or .webm", code="E401")
     shown = str(output) == "-"
     if not shown:
+        from lagrangian.simulate.animation import ENDINGS
+        from lagrangian.write.tables import check_target
+
         check_target(output, list(ENDINGS), overwrite=force)
     system = open_system(file, example)
     run = system.simulate(

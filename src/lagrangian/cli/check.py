@@ -7,13 +7,10 @@ from typing import Annotated, Any
 
 import typer
 
-from lagrangian.check.reading import decode_answer
-from lagrangian.check.verb import check_answer, read_text
-from lagrangian.cli.check_class import Allowed, ClassOptions, FeedbackKind, check_folder
+from lagrangian.cli.class_options import Allowed, ClassOptions, FeedbackKind
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, Output, Width, open_system, standard_bytes
 from lagrangian.errors import Error
-from lagrangian.structured.choose import derive_in_form
 
 CLASS = "A folder of answers"
 """The group of options for a folder in the help."""
@@ -112,6 +109,11 @@ def check(
       lagrangian check carts.toml answers/ -o summary.csv --answers table.csv
       lagrangian check carts.toml answers/ --points T=2,V=2,equations=4 --feedback replies/ --hint 1
     """
+    from lagrangian.check.reading import decode_answer
+    from lagrangian.check.verb import check_answer, read_text
+    from lagrangian.cli.check_class import check_folder
+    from lagrangian.structured.choose import derive_in_form
+
     model_file, answer_file = _named(file, answer, example)
     path = None if answer_file == "-" else Path(answer_file)
     options = ClassOptions(

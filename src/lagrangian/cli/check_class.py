@@ -1,9 +1,7 @@
-"""``lagrangian check MODEL FOLDER``: the options for a class, and the files that are written."""
+"""``lagrangian check MODEL FOLDER``: every answer in a folder is judged, and files are written."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from enum import StrEnum
 from pathlib import Path
 
 import typer
@@ -17,6 +15,7 @@ from lagrangian.check.classes import (
     feedback_files,
     scheme_of,
 )
+from lagrangian.cli.class_options import ClassOptions
 from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import Format
 from lagrangian.cli.progress import status
@@ -26,51 +25,6 @@ from lagrangian.write.tables import check_target
 
 SUMMARIES = [".csv", ".txt", ".json"]
 """The endings of files for the results of a folder."""
-
-
-class Allowed(StrEnum):
-    """Which coordinates an answer may have."""
-
-    ANY = "any"
-    GIVEN = "given"
-
-
-class FeedbackKind(StrEnum):
-    """The formats of the files for students."""
-
-    TEXT = "text"
-    MARKDOWN = "markdown"
-    HTML = "html"
-
-
-@dataclass(frozen=True)
-class ClassOptions:
-    """The options that are only for a folder of answers."""
-
-    require: str | None = None
-    coordinates: Allowed = Allowed.ANY
-    points: str | None = None
-    feedback: Path | None = None
-    feedback_format: FeedbackKind = FeedbackKind.HTML
-    answers: Path | None = None
-    moodle: Path | None = None
-    gradescope: Path | None = None
-    roster: Path | None = None
-    store: Path | None = None
-    processes: int | None = None
-
-    def refuse(self) -> None:
-        """Raise `Error` if any option is given, because there is only one answer."""
-        for field in fields(self):
-            if getattr(self, field.name) != field.default:
-                option = "--" + field.name.replace("_", "-")
-                fix = f"name a folder, or leave {option} out"
-                raise Error(f"{option} is for a folder of answers", fix=fix, code="E404")
-
-    @property
-    def for_students(self) -> bool:
-        """Whether anything is written that students get."""
-        return any(x is not None for x in (self.feedback, self.moodle, self.gradescope))
 
 
 def check_folder(

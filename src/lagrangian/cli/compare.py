@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lagrangian.cli.formats import FormatOption, Notation, NotationOption, chosen, put_report
 from lagrangian.cli.terminal import Force, Json, Output, Width, example_names, open_system
-from lagrangian.compare import compare as compared
 from lagrangian.errors import Error
-from lagrangian.system import System
+
+if TYPE_CHECKING:
+    from lagrangian.system import System
 
 
 def compare(
@@ -56,6 +57,8 @@ def compare(
       lagrangian compare mine.toml theirs.toml --change "x2 = x1 + x2r" -o both.html
     """
     wanted = chosen(format, json, output, force)
+    from lagrangian.compare import compare as compared
+
     a, b = _two(files or [], examples or [])
     found = compared(a, b, _changes(change))
     put_report(found.report(), wanted, width, output, notation=notation)

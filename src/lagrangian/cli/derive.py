@@ -13,7 +13,6 @@ from lagrangian.cli.door import put, say
 from lagrangian.cli.door import width as columns
 from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
-from lagrangian.derive import pages
 from lagrangian.errors import Error
 
 if TYPE_CHECKING:
@@ -77,6 +76,8 @@ def derive(
         option = "--brief" if brief else "--describe" if describe else "--detail"
         what = f"{option} is for the steps of a derivation, and --why writes another page"
         raise Error(what, fix=f"leave {option} out, or --why", code="E406")
+    from lagrangian.derive import pages
+
     derivation = open_system(file, example).derive(detail=detail.value, form=form.value)
     if why:
         _reasons(derivation.why, wanted, notation, full, width, output)

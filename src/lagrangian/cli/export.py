@@ -13,9 +13,6 @@ from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system
 from lagrangian.errors import Error
-from lagrangian.export import exported_files
-from lagrangian.model.without_friction import check_no_friction
-from lagrangian.verify.foreign.checks import NOT_RUN, RUNNERS
 
 
 class Language(StrEnum):
@@ -61,6 +58,9 @@ def export(
     """
     if output.exists() and not output.is_dir():
         raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")
+    from lagrangian.export import exported_files
+    from lagrangian.model.without_friction import check_no_friction
+
     model = open_system(file, example).model
     check_no_friction(model, "there is nothing to export")
     files = {output / title: text for title, text in exported_files(model, to.value, name).items()}
@@ -81,6 +81,8 @@ def export(
 
 def _proof(to: str) -> str:
     """What is known of the numbers of an export, and what checks them."""
+    from lagrangian.verify.foreign.checks import NOT_RUN, RUNNERS
+
     if to in NOT_RUN:
         return f"not checked: {NOT_RUN[to]}"
     option = " --exports" if to in RUNNERS else ""

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lagrangian import dynamics
 from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.door import fail, put, say
 from lagrangian.cli.formats import as_json
-from lagrangian.cli.run_summary import figures, summary
 from lagrangian.cli.terminal import (
     COMPUTING,
     INTEGRATION,
@@ -37,11 +35,7 @@ from lagrangian.cli.terminal import (
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error, ModelError, Place
-from lagrangian.integrate import METHODS
-from lagrangian.integrate.scipy_methods import SCIPY
-from lagrangian.simulate.inputs import MAX_KNOTS
-from lagrangian.write import write_with
-from lagrangian.write.tables import ENDINGS, check_target
+from lagrangian.integrate.method_names import MACHINE, SCIPY
 
 if TYPE_CHECKING:
     from lagrangian.simulate.ensemble import Ensemble
@@ -49,8 +43,8 @@ if TYPE_CHECKING:
 
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
 
-MAX_BYTES = 64 * MAX_KNOTS
-"""The largest size in bytes of a table: that many lines of two long numbers."""
+MAX_BYTES = 64_000_000
+"""The largest size in bytes of a table: a million lines of two long numbers."""
 
 
 Results = Annotated[
@@ -76,7 +70,7 @@ Method = Annotated[
     str | None,
     typer.Option(
         metavar="NAME",
-        help=f"One of {', '.join(METHODS)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
+        help=f"One of {', '.join(MACHINE)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
         rich_help_panel=INTEGRATION,
     ),
 ]
@@ -120,6 +114,8 @@ def simulate(
       lagrangian simulate carts.toml -d 10 --set k=80 --init "x2=0.4 m" -o run.csv
       lagrangian simulate cart.toml -d "500 ms" --input "F=3*sin(t)" --method taylor
     """
+    from lagrangian import dynamics
+
     _check_targets(output, plot, force)
     system = open_system(file, example)
     asked = names(reactions)
@@ -144,6 +140,8 @@ def simulate(
 
 def _check_targets(output: Path | None, plot: Path | None, force: bool) -> None:
     """Raise `Error`, before anything is computed, if the results or a picture cannot be written."""
+    from lagrangian.write.tables import ENDINGS, check_target
+
     for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
         if path is not None and str(path) != "-":
             check_target(path, list(endings), overwrite=force)
@@ -178,6 +176,8 @@ def save_plot(runs: Trajectory | Ensemble, path: Path | None) -> None:
     """Draw a picture of what was computed into a file, if one is named."""
     if path is None:
         return
+    from lagrangian.write import write_with
+
     figure, kind = runs.figure(), path.suffix.lower().removeprefix(".")
     write_with(path, lambda beside: figure.savefig(beside, format=kind, dpi=150))
     say(f"wrote {path}")
@@ -185,6 +185,8 @@ def save_plot(runs: Trajectory | Ensemble, path: Path | None) -> None:
 
 def _put(run: Trajectory, output: Path | None, json: bool, force: bool) -> None:
     """Write the results into their file, and the summary or the results to standard output."""
+    from lagrangian.cli.run_summary import figures, summary
+
     piped = output is not None and str(output) == "-"
     if output is not None and not piped:
         say(f"wrote {run.save(output, overwrite=force)}")
@@ -213,6 +215,8 @@ def input_signal(name: str, value: str) -> Any:
 
 def _columns(path: str) -> tuple[list[float], list[float]]:
     """Return the times and values of a CSV file; a first line of names is skipped."""
+    from lagrangian.simulate.inputs import MAX_KNOTS
+
     times: list[float] = []
     values: list[float] = []
     for number, line in enumerate(_table_text(path).splitlines(), 1):

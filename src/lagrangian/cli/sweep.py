@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,7 +14,6 @@ from lagrangian.cli.door import StandardOutput, ask, put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
 from lagrangian.cli.simulate import PICTURES, integration_options, save_plot
-from lagrangian.cli.sweep_summary import figures, summary
 from lagrangian.cli.terminal import (
     COMPUTING,
     INTEGRATION,
@@ -37,11 +36,12 @@ from lagrangian.cli.terminal import (
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error
-from lagrangian.integrate import METHODS
-from lagrangian.integrate.estimate import NotStarted, SweepEstimate
+from lagrangian.integrate.method_names import MACHINE
 from lagrangian.interrupts import interrupts
-from lagrangian.simulate.ensemble import ENDINGS, Ensemble, write_csv
-from lagrangian.write.tables import check_target
+
+if TYPE_CHECKING:
+    from lagrangian.integrate.estimate import SweepEstimate
+    from lagrangian.simulate.ensemble import Ensemble
 
 STORE = ".zarr"
 LISTED = 10
@@ -85,7 +85,7 @@ Resume = Annotated[
     bool,
     typer.Option("--resume", help="Continue an interrupted sweep in its .zarr store.", rich_help_panel=OUTPUT),
 ]
-Method = Annotated[str, typer.Option(metavar="NAME", help=f"One of {', '.join(METHODS)}.", rich_help_panel=INTEGRATION)]
+Method = Annotated[str, typer.Option(metavar="NAME", help=f"One of {', '.join(MACHINE)}.", rich_help_panel=INTEGRATION)]
 Times = Annotated[
     int,
     typer.Option(
@@ -204,6 +204,8 @@ def _go_on(estimate: SweepEstimate) -> bool:
 @contextlib.contextmanager
 def _unless_declined() -> Iterator[None]:
     """End the command with status 0 if the user does not want the sweep."""
+    from lagrangian.integrate.estimate import NotStarted
+
     try:
         yield
     except NotStarted:
@@ -234,6 +236,9 @@ def _store_options(output: str | None, resume: bool, force: bool) -> dict[str, A
 
 def _check_targets(output: str | None, plot: Path | None, resume: bool, force: bool) -> None:
     """Raise `Error`, before anything is computed, if a file cannot be written, or cannot be resumed."""
+    from lagrangian.simulate.ensemble import ENDINGS
+    from lagrangian.write.tables import check_target
+
     if output is not None and not _is_store(output) and output != "-":
         if resume:
             raise Error("only a .zarr store can be resumed", fix="-o sweep.zarr --resume", code="E802")
@@ -259,6 +264,9 @@ def _outputs(given: list[str] | None) -> dict[str, str] | None:
 
 
 def _put(runs: Ensemble, output: str | None, force: bool, json: bool) -> None:
+    from lagrangian.cli.sweep_summary import figures, summary
+    from lagrangian.simulate.ensemble import write_csv
+
     piped = output is not None and output == "-"
     if output is not None and not piped and not _is_store(output):
         runs.save(output, overwrite=force)

@@ -88,8 +88,21 @@ _ENDING = re.compile(r"[;.] [Ee]xit \d")
 """The text before the exit codes in the line of a verb, which the list of verbs omits."""
 
 
+def _flags_off(params: list[Any]) -> list[Any]:
+    """Let flags that are not given be False: Typer's own, such as --help, are None, and to convert that to a bool
+    Typer imports pydantic, which takes longer than most of these verbs."""
+    for param in params:
+        if getattr(param, "is_bool_flag", False) and param.default is None:
+            param.default = False
+    return params
+
+
 class Grouped(typer.core.TyperCommand):
     """A verb whose help lists its options by group, in the order in which the groups first appear."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the options and arguments."""
+        return _flags_off(super().get_params(ctx))
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments, then the options of every group."""
@@ -136,3 +149,7 @@ class Verbs(typer.core.TyperGroup):
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         self.commands = {name: Deferred(name, *where) for name, where in VERBS.items()}
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the options of the command itself."""
+        return _flags_off(super().get_params(ctx))

@@ -8,7 +8,6 @@ import typer
 
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
-from lagrangian.verify.report import verification_report
 
 
 def verify(
@@ -37,6 +36,8 @@ def verify(
       lagrangian verify carts.toml --json
     """
     wanted = chosen(format, json, output, force)
+    from lagrangian.verify.report import verification_report
+
     system = open_system(file, example)
     checks = system.verify(states=states, seed=seed, exports=exports)
     put_report(verification_report(system.model, checks), wanted, width, output)

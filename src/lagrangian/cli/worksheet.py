@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,8 +14,10 @@ from lagrangian.cli.formats import ENDINGS, Format, Notation, NotationOption, as
 from lagrangian.cli.progress import status
 from lagrangian.cli.terminal import OUTPUT, Example, Force, Json, OptionalFile, open_system, output_option
 from lagrangian.errors import Error
-from lagrangian.worksheet import Worksheet, sheet_files
 from lagrangian.write import check_free
+
+if TYPE_CHECKING:
+    from lagrangian.worksheet import Worksheet
 
 MAX_VARIANTS = 1000
 """The most variants of one command."""
@@ -82,6 +84,8 @@ def worksheet(
         raise Error(what, fix="-o sheets/, with the format in -f", code="E402")
     if folder is None and variants:
         raise Error("variants are written into a folder", fix="-o sheets/", code="E401")
+    from lagrangian.worksheet import sheet_files
+
     system = open_system(file, example)
     if folder is None:
         sheet = system.worksheet(notation=notation.value)

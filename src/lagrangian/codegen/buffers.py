@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from operator import itemgetter
@@ -47,21 +47,22 @@ class Look:
         self.address, self._owner, self._call = address, owner, _LOOK(address)
 
     def __call__(self, rows: NDArray[np.float64]) -> int:
-        """Call it with rows (k, n), k > 0, in C order."""
-        return self._call(address(rows), len(rows))
+        """Call it with rows (..., n) in C order, of which there is at least one."""
+        return self._call(address(rows), rows.size // rows.shape[-1])
 
 
 class Slot:
     """The position of a group of inputs in a call, and the values that are accepted there."""
 
-    __slots__ = ("address", "default", "pack", "pick", "place", "places", "scalar", "shape", "size", "values")
+    __slots__ = ("address", "default", "pack", "pick", "place", "places", "put", "scalar", "shape", "size", "values")
 
     def __init__(self, place: int, group: InputGroup) -> None:
         self.place, self.size, self.scalar, self.values = place, len(group.entries), group.scalar, group.defaults
         self.shape = (self.size,)
         self.places = {name: k for k, name in enumerate(group.entries)}
         self.pick = _picking(group.entries)
-        self.pack = struct.Struct(f"{self.size}d").pack
+        numbers = struct.Struct(f"{self.size}d")
+        self.pack, self.put = numbers.pack, numbers.pack_into
         self.default: NDArray[np.float64] | None = None if None in group.defaults else np.array(group.defaults, float)
         self.address = None if self.default is None else address(self.default)
 
@@ -102,16 +103,20 @@ def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:
 Row: TypeAlias = tuple[Slot, NDArray[np.float64], int]
 """A group of inputs, the array in which a stage holds one row of it, and the address of this array."""
 
+Part: TypeAlias = tuple[int, Any, Any, Callable[[Any], Sequence[float] | None] | None, Callable[..., None]]
+"""A group of inputs for one state: its position, a `memoryview` of the doubles to write, the default (None: a value
+must be given), `Slot.plain` (None for time, a single number), and a function that writes numbers to the view."""
+
 
 class Stage:
     """The blocks for one call with one state, and the table of their addresses that is passed to machine code.
 
     ``own`` is a shared block for parameters that are passed with a state: those with the bytes ``key``. ``parts`` are
-    written before a call: position, array, shape (None for a single number), default (None: a value must be given;
-    `NOTHING`: no numbers at all), `Slot.plain`. ``reads`` return new copies of the outputs.
+    written before a call. ``reads`` are the outputs: names, and functions that return
+    new copies.
     """
 
-    def __init__(self, sizes: Sizes, slots: Sequence[Slot], shapes: Sequence[tuple[int, ...]]) -> None:
+    def __init__(self, sizes: Sizes, slots: Sequence[Slot], shapes: Mapping[str, tuple[int, ...]]) -> None:
         block, self.hoisted, self.own = aligned(sum(sizes.groups)), aligned(sum(sizes.hoisted)), aligned(sizes.shared)
         self.out, self.scratch = aligned(sum(sizes.outputs)), aligned(sizes.scratch)
         places = (block, None, self.out, self.scratch, self.hoisted, self.own, None)
@@ -121,19 +126,19 @@ class Stage:
         self.key: bytes | None = None
         self.look: Look | None = None
         self.rows: list[Row] = []
-        self.parts: list[tuple[int, NDArray[np.float64], tuple[int] | None, NDArray[np.float64] | None, Any]] = []
+        self.parts: list[Part] = []
         start = 0
         for slot in slots:
             part = block[start : start + slot.size]
-            shape = None if slot.scalar else slot.shape
             self.rows.append((slot, part, self.table[0] + 8 * start))
-            self.parts.append((slot.place, part, shape, slot.default if slot.size else NOTHING, slot.plain))
+            default, plain = (slot.values[0], None) if slot.scalar else (slot.default, slot.plain)
+            self.parts.append((slot.place, part.data, default, plain, slot.put))
             start += slot.size
-        self.reads: list[Callable[[], Any]] = []
+        self.reads: list[tuple[str, Callable[[], Any]]] = []
         start = 0
-        for size, shape in zip(sizes.outputs, shapes, strict=True):
+        for size, (name, shape) in zip(sizes.outputs, shapes.items(), strict=True):
             result = self.out[start : start + size].reshape(shape)
-            self.reads.append(result.copy if shape else partial(result.__getitem__, ()))
+            self.reads.append((name, result.copy if shape else partial(result.__getitem__, ())))
             start += size
 
     def share(self, shared: NDArray[np.float64]) -> None:
@@ -162,4 +167,3 @@ def address(array: NDArray[Any]) -> int:
 
 _CHARACTER: Any = ctypes.c_char.from_buffer
 _LOOK = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)
-NOTHING = np.empty(0)

@@ -23,7 +23,7 @@ from lagrangian.quantities.largest import LARGEST
 
 from .arguments import FLOAT, PLAIN, InputGroup
 from .batch import Array, Engine, Shapes
-from .buffers import NOTHING, Look, Row, Slot, Stage, address
+from .buffers import Look, Row, Slot, Stage, address
 from .driver import NOT_FINITE
 from .sizes import Sizes
 
@@ -31,7 +31,9 @@ Entry: TypeAlias = Callable[[Any], int]
 """A function in machine code that is called with the table of a stage; it returns 0 if everything is finite."""
 
 _WORD = 8  # bytes of a number
-_least, _most = np.minimum.reduce, np.maximum.reduce  # without the Python around array.min() and array.max()
+_ALL = slice(None)
+_SQUARE = LARGEST**2
+"""If the squares of numbers add up to at most this, all are finite, and none is larger than `LARGEST`."""
 _PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
 """Tables as machine code reads them, by the number of their entries."""
 
@@ -61,6 +63,7 @@ class Quick:
         self.admit: Callable[[Array], Look | None] | None = None  # checks hoisted values before their use
         self._threads, self._owner = threads, owner
         self._hoisted_groups = Slot(early[0], groups[early[0]]) if early else None
+        self._early_at = early[0] if early else None
         self._state_groups = [Slot(k, groups[k]) for k in late]
         self._lead_at = next((slot.place for slot in self._state_groups if not slot.scalar), None)
         self._outputs = outputs
@@ -77,41 +80,37 @@ class Quick:
             stage = self.stage()
         bad = 1
         try:
-            for place, part, shape, default, plain in stage.parts:
-                array = given[place]
-                if type(array) is ndarray:
-                    if array.shape != shape or (array.dtype is not FLOAT and array.dtype != FLOAT):
+            first = None if self._lead_at is None else given[self._lead_at]
+            if type(first) is ndarray and first.ndim > 1:
+                answer = self._many(stage, given, first.shape[:-1])
+                self.stages.append(stage)
+                return answer
+            for place, view, default, plain, put in stage.parts:
+                found = given[place]
+                if found is None:
+                    found = default
+                if plain is None:  # time
+                    if type(found) not in PLAIN:
                         break
-                    part[...] = array  # a third of the time of part[:]
-                elif array is None:
-                    if default is None:
-                        break
-                    if default is not NOTHING:
-                        part[...] = default
-                elif shape is None:
-                    if type(array) not in PLAIN:
-                        break
-                    part[0] = array
+                    view[0] = found
+                elif type(found) is ndarray:
+                    view[_ALL] = found  # a ValueError unless it is one row of as many doubles
                 else:
-                    array = plain(array)
-                    if array is None:
+                    numbers = plain(found)
+                    if numbers is None:
                         break
-                    part[...] = array
+                    put(view, 0, *numbers)
             else:
-                early = None if self._hoisted_groups is None else given[self._hoisted_groups.place]
+                early = None if self._early_at is None else given[self._early_at]
                 if early is not None:
                     bad = self._own(stage, early, self.single, self.both)
                 elif self.standard is not None:
                     if stage.shared is not self.standard:
                         stage.share(self.standard)
                     bad = self.single(stage.where)
-        except OverflowError:  # an integer larger than all floats
+        except (ValueError, struct.error):  # or an integer larger than all floats
             bad = 1
-        answer = None if bad else stage.reads[0]() if self._alone else self.answer(stage)
-        if bad and self._lead_at is not None:
-            first = given[self._lead_at]
-            if type(first) is ndarray and first.ndim > 1:
-                answer = self._many(stage, given, first.shape[:-1])
+        answer = None if bad else stage.reads[0][1]() if self._alone else {name: read() for name, read in stage.reads}
         self.stages.append(stage)
         return answer
 
@@ -156,20 +155,18 @@ class Quick:
             return self.stages.pop()
         except IndexError:
             assert self.sizes is not None
-            return Stage(self.sizes, self._state_groups, tuple(self._outputs.values()))
+            return Stage(self.sizes, self._state_groups, self._outputs)
 
     def answer(self, stage: Stage) -> Any:
         """The outputs of a stage, copied."""
-        if self._alone:
-            return stage.reads[0]()
-        answers = {}
-        for name, read in zip(self._outputs, stage.reads, strict=True):
-            answers[name] = read()
-        return answers
+        return stage.reads[0][1]() if self._alone else {name: read() for name, read in stage.reads}
 
     def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
         """Evaluate many states in arrays of one leading shape; an argument may have one row for all states, held in the
         stage."""
+        count = lead[0] if len(lead) == 1 else math.prod(lead)
+        if not count:
+            return None
         slot, rows, engine = self._hoisted_groups, stage.rows, self.engines.get("batch")
         early = None if slot is None else given[slot.place]
         if slot is None or early is None:
@@ -180,15 +177,13 @@ class Quick:
         elif type(early) is ndarray and early.ndim > 1:
             if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
                 return None
-            if early.size and not (_least(early, None) >= -LARGEST and _most(early, None) <= LARGEST):
+            if not np.vdot(early, early) <= _SQUARE:
                 return None  # a parameter is too large or not finite
-            if self.admit is not None:
-                self.admit(early)
+            self._admit_each(stage, early)
             rows, engine = [*rows, (slot, stage.hoisted, 0)], self.engines.get("sweep")
         elif self._own(stage, early, _made, self.parameters) != 0:
             return None
-        count = lead[0] if len(lead) == 1 else math.prod(lead)
-        if engine is None or not count:
+        if engine is None:
             return None
         if count >= engine.lanes:
             return self._computed(stage, engine, rows, given, lead, count)
@@ -199,6 +194,14 @@ class Quick:
         if type(answer) is dict:
             return {name: array[:count].reshape(lead + array.shape[1:]) for name, array in answer.items()}
         return None if answer is None else answer[:count].reshape(lead + answer.shape[1:])
+
+    def _admit_each(self, stage: Stage, early: Array) -> None:
+        """Have many rows of hoisted values checked: by machine code, once there is some."""
+        if self.admit is None or (stage.look is not None and early.flags.c_contiguous and stage.look(early) == 0):
+            return
+        look = self.admit(early)
+        if look is not None:
+            stage.ask(look)
 
     def _computed(
         self,

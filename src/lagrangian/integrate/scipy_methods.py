@@ -28,9 +28,6 @@ from lagrangian.integrate.status import RunStatus
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
 
-SCIPY = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
-"""SciPy's methods by their names in `scipy.integrate.solve_ivp`."""
-
 IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
 """The methods that use a Jacobian."""
 

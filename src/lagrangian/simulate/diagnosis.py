@@ -9,7 +9,8 @@ from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
-from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Outcome
+from lagrangian.integrate.method_names import SCIPY
+from lagrangian.integrate.scipy_methods import IMPLICIT, Outcome
 from lagrangian.integrate.status import RunStatus
 from lagrangian.page.plain import plain
 from lagrangian.simulate import drift, sticking

@@ -19,7 +19,8 @@ from lagrangian import dynamics
 from lagrangian.graph import Output, Program, jacobian
 from lagrangian.integrate import Events, Projection, RunStatus, Signals, Solution, Solver
 from lagrangian.integrate.crossings import Crossings, Hit
-from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
+from lagrangian.integrate.method_names import SCIPY
+from lagrangian.integrate.scipy_methods import IMPLICIT, Bounds, Outcome, integrate_scipy
 from lagrangian.model import Model
 from lagrangian.simulate import resets
 from lagrangian.simulate.events import Event

@@ -18,7 +18,7 @@ from lagrangian.integrate import METHODS
 from lagrangian.integrate.chunks import MEMORY
 from lagrangian.integrate.ensemble import Progress
 from lagrangian.integrate.estimate import Confirm
-from lagrangian.integrate.scipy_methods import SCIPY
+from lagrangian.integrate.method_names import SCIPY
 from lagrangian.model import Model
 from lagrangian.simulate.events import Event, listed_events
 from lagrangian.values.dimensions import NONE, SECOND

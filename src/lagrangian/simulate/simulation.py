@@ -18,7 +18,8 @@ from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Graph, Program
 from lagrangian.integrate import METHODS
 from lagrangian.integrate.crossings import Hit
-from lagrangian.integrate.scipy_methods import SCIPY, Bounds, Outcome
+from lagrangian.integrate.method_names import SCIPY
+from lagrangian.integrate.scipy_methods import Bounds, Outcome
 from lagrangian.model import Model
 from lagrangian.simulate import drift, slipping, spared
 from lagrangian.simulate.admission import check_masses
