@@ -132,7 +132,7 @@ def test_actuators_are_inputs_and_what_is_not_read_is_told():
     text = DRIVEN.replace(
         "</actuator>",
         '<muscle joint="elbow"/>\n<general joint="elbow" dyntype="integrator"/><position joint="wrist"/>'
-        '<motor name="pull" tendon="t"/><position joint="elbow" dampratio="1"/></actuator>',
+        '<motor name="pull" body="t"/><position joint="elbow" dampratio="1"/></actuator>',
     )
     system = lg.loads(text)
     names = [u.name for u in system.model.inputs]
@@ -144,7 +144,7 @@ def test_actuators_are_inputs_and_what_is_not_read_is_told():
         "<muscle> (line 37): it has a state or a law of its own",
         "<general> (line 38): its dyntype is 'integrator'",
         "<position> (line 38): its effort depends on how far its joint has turned",
-        "motor 'pull' (line 38): it drives something other than one joint or site",
+        "motor 'pull' (line 38): it drives something other than one joint, tendon or site",
         "its dampratio needs what is not read",
         "no actuator drives these joints, so they have no input: hook",
     ):

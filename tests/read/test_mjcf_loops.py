@@ -35,7 +35,9 @@ LEGS = """<mujoco><compiler angle="degree"/><include file="parts/post.xml"/>
   <fixed name="cord" stiffness="5" damping=".2" springlength=".3" armature=".1">
     <joint joint="hip-0" coef="1"/><joint joint="ankle-0" coef="-.5"/>
   </fixed>
+  <fixed name="belt"><joint joint="hip-1" coef="2"/><joint joint="ankle-1" coef=".25"/></fixed>
 </tendon>
+<actuator><position name="grip" tendon="belt" kp="3" gear="-2"/><motor tendon="cord"/><motor joint="turn"/></actuator>
 </mujoco>
 """
 

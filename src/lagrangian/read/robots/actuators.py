@@ -14,13 +14,14 @@ from dataclasses import dataclass, replace
 from lagrangian.quantities.source import shown
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.mjcf_tags import Orientations
-from lagrangian.read.robots.robot import RobotActuator, RobotJoint, RobotSite
+from lagrangian.read.robots.robot import RobotActuator, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, Vector
+from lagrangian.read.robots.tendons import Tendons
 
 READ = ("general", "motor", "position", "velocity", "damper")
 RANGES = {"ctrlrange": "control", "forcerange": "effort"}
 DATA = ("ctrllimited", "forcelimited", "inheritrange", "group", "lengthrange", "actlimited", "actrange", "class")
-PUSHING = ("joint", "jointinparent", "site")
+PUSHING = ("joint", "jointinparent", "site", "tendon")
 
 
 @dataclass(frozen=True)
@@ -125,11 +126,12 @@ class Actuators:
         root: Tag,
         joints: Mapping[str, RobotJoint],
         sites: Mapping[str, tuple[Tag, str]],
+        tendons: Tendons,
         orientations: Orientations,
     ) -> None:
         self.joints = {name: joint for name, joint in joints.items() if joint.kind != "fixed"}
         self.carrying = {joint.child: joint for joint in joints.values()}
-        self.sites, self.orientations = sites, orientations
+        self.sites, self.tendons, self.orientations = sites, tendons, orientations
         self.classes = dict(_defaults(root))
         self.found: list[RobotActuator] = []
         self.unread: list[str] = []
@@ -157,12 +159,12 @@ class Actuators:
         """The actuator, or why it is not read."""
         given = [key for key in PUSHING if tag.get(key) is not None]
         if len(given) != 1:
-            return "it drives something other than one joint or site"
+            return "it drives something other than one joint, tendon or site"
         key = given[0]
         gain = law.gains if law.affine_gain else (law.gains[0], 0.0, 0.0)
         bias = law.biases if law.affine_bias else ZERO
         by_length, by_rate = bool(gain[1] or bias[1]), bool(gain[2] or bias[2])
-        target: str | RobotSite
+        target: str | RobotSite | RobotTendon
         name, gear = tag.get(key) or "", law.gear
         if key == "site":
             target = self._site(tag, name)
@@ -170,6 +172,11 @@ class Actuators:
                 return "its effort depends on how its site moves"
             if not self._moves(target.link):
                 return "its site does not move"
+        elif key == "tendon":
+            pulled, gear = self.tendons.pulled(tag, name), gear[:1]
+            if isinstance(pulled, str):
+                return pulled
+            target = pulled
         else:
             if name not in self.joints:
                 tag.unknown("joint", name, self.joints, key)

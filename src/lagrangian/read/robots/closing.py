@@ -7,7 +7,7 @@ import sympy as sp
 from lagrangian.errors import Place
 from lagrangian.model import Ball, Constraint, Damper, Frame, Friction, Kinetic, Point, Spring, Weld
 from lagrangian.model.names import time
-from lagrangian.read.robots.driving import Assembled
+from lagrangian.read.robots.driving import Assembled, tendon_length
 from lagrangian.read.robots.robot import RobotEquality, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, FixedPose
 
@@ -75,9 +75,8 @@ class Loops:
 
     def _tendon(self, given: RobotTendon) -> None:
         """½ k (L − rest)², a damper, dry friction and ½ J L̇² with L = Σ c q."""
-        joints = [(self.robot.joints[name], c) for name, c in given.parts]
-        length = sp.Add(*(_exact(c) * self.assembly.coordinate(joint) for joint, c in joints))
-        along, name, place = joints[0][0].kind == "prismatic", self.assembly.names.of(given.name), given.place
+        length, first = tendon_length(self.assembly, given), self.robot.joints[given.parts[0][0]]
+        along, name, place = first.kind == "prismatic", self.assembly.names.of(given.name), given.place
         unit = "m" if along else "rad"
 
         def parameter(letter: str, value: float, units: tuple[str, str], what: str) -> sp.Expr:

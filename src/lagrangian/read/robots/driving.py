@@ -15,7 +15,7 @@ from lagrangian.errors import Place
 from lagrangian.model import Builder, Floating, Force, Frame, Point, Torque
 from lagrangian.model.names import time
 from lagrangian.read.robots.naming import Identifiers, identifier
-from lagrangian.read.robots.robot import Robot, RobotActuator, RobotJoint, RobotSite
+from lagrangian.read.robots.robot import Robot, RobotActuator, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector
 
 TURNING_OR_SLIDING = ("revolute", "continuous", "prismatic")
@@ -68,6 +68,12 @@ class Assembled(Protocol):
         ...
 
 
+def tendon_length(assembly: Assembled, tendon: RobotTendon) -> sp.Expr:
+    """L = Σ c q."""
+    parts = ((sp.Rational(repr(c)), assembly.robot.joints[name]) for name, c in tendon.parts)
+    return sp.Add(*(c * assembly.coordinate(joint) for c, joint in parts))
+
+
 class Drives:
     """Adds the inputs of a robot and their forces to its builder."""
 
@@ -114,12 +120,26 @@ class Drives:
 
     def _where(self, actuator: RobotActuator) -> str:
         target = actuator.target
+        if isinstance(target, RobotTendon):
+            return f"tendon {target.name}"
         return f"a point of {target.link}" if isinstance(target, RobotSite) else target
+
+    def _joint_of(self, actuator: RobotActuator) -> RobotJoint | None:
+        """The joint that an actuator drives, of a tendon its first one (they are of one kind); None for a site."""
+        target = actuator.target
+        if isinstance(target, RobotSite):
+            return None
+        return self.robot.joints[target if isinstance(target, str) else target.parts[0][0]]
+
+    def _length(self, actuator: RobotActuator, joint: RobotJoint) -> sp.Expr:
+        """What an actuator of a hinge, a slide or a tendon moves."""
+        if isinstance(actuator.target, RobotTendon):
+            return tendon_length(self.assembly, actuator.target)
+        return self.assembly.coordinate(joint)
 
     def _actuator(self, actuator: RobotActuator) -> str:
         """Add the input of an actuator, and what it does; return the name of the input."""
-        target = actuator.target
-        joint = self.robot.joints[target] if isinstance(target, str) else None
+        joint = self._joint_of(actuator)
         units = ALONG if joint is not None and joint.kind == "prismatic" else ABOUT
         scalar = joint is not None and joint.kind in TURNING_OR_SLIDING
         unit = {"motor": units[0], "position servo": units[3], "velocity servo": units[4]}.get(actuator.kind)
@@ -132,7 +152,7 @@ class Drives:
         ]
         L, rate = sp.S.Zero, sp.S.Zero
         if joint is not None and scalar:
-            L = gear[0] * self.assembly.coordinate(joint)
+            L = gear[0] * self._length(actuator, joint)
             rate = sp.diff(L, time)
         elif joint is not None and joint.kind == "ball":
             omega = self.assembly.held[joint.name].angular_velocity
@@ -171,7 +191,7 @@ class Drives:
         if actuator.name:
             own = identifier(actuator.name)
             return self.names.unused(own) or self.names.unused(f"u_{own}") or f"u_{own}"
-        if joint is None:
+        if joint is None or isinstance(actuator.target, RobotTendon):
             return f"u_{identifier(self._where(actuator))}"
         letter = "u" if actuator.kind != "motor" else "F" if joint.kind == "prismatic" else "tau"
         return f"{letter}_{self.names.known(joint.name)}"
@@ -191,7 +211,7 @@ class Drives:
         if joint is None:
             self._push(actuator, efforts)
         elif joint.kind in TURNING_OR_SLIDING:
-            q, (effort,) = self.assembly.coordinate(joint), efforts
+            q, (effort,) = self._length(actuator, joint), efforts
             along = joint.kind == "prismatic"
             add(Force(value=effort, deflection=q, place=place) if along else Torque(value=effort, on=q, place=place))
         elif joint.kind == "ball":

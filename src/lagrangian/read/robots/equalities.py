@@ -1,4 +1,4 @@
-"""Reads what MJCF asks of positions (<equality>) and the springs of fixed tendons (<tendon>).
+"""Reads what MJCF asks of positions (<equality>).
 
 MuJoCo's equalities give way; here they hold. At the pose that the file describes:
 
@@ -9,25 +9,22 @@ MuJoCo's equalities give way; here they hold. At the pose that the file describe
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.mjcf_tags import Orientations
-from lagrangian.read.robots.robot import RobotEquality, RobotJoint, RobotSite, RobotTendon
+from lagrangian.read.robots.robot import RobotEquality, RobotJoint, RobotSite
 from lagrangian.read.robots.rotations import ZERO, FixedPose
+from lagrangian.read.robots.tendons import check_scalar
 
-SCALAR = ("revolute", "prismatic")
 PLAIN = (0.0, 1.0, 0.0, 0.0, 0.0)
 """The coefficients of q₁ = q₂."""
-
-TENDON = ("stiffness", "damping", "frictionloss", "armature")
-"""What makes a tendon more than data."""
 
 
 @dataclass
 class Equalities:
-    """The equalities and tendons of one file that act, and ``unread``: those that do not hold."""
+    """The equalities of one file, and ``unread``: those that do not hold."""
 
     root: Tag
     world: str
@@ -35,7 +32,6 @@ class Equalities:
     sites: Mapping[str, tuple[Tag, str]]
     orientations: Orientations
     found: list[RobotEquality] = field(default_factory=list[RobotEquality])
-    tendons: list[RobotTendon] = field(default_factory=list[RobotTendon])
     unread: list[str] = field(default_factory=list[str])
 
     def __post_init__(self) -> None:
@@ -48,10 +44,6 @@ class Equalities:
                     self.unread.append(f"{tag.title} (line {tag.place.line}): it is not active")
                 else:
                     self.found.append(self._equality(tag))
-        _refuse_defaults(self.root)
-        for outer in self.root.all("tendon"):
-            for tag in outer.children:
-                self.tendons += self._tendon(tag)
 
     # -- equalities ----------------------------------------------------------------------------------------------------
 
@@ -90,15 +82,10 @@ class Equalities:
         if tag.get("joint2") is not None:
             names.append(tag.word("joint2", "shoulder"))
         for key, name in zip(("joint1", "joint2"), names, strict=False):
-            self._scalar(tag, name, key)
+            check_scalar(tag, name, key, self.joints)
         given = tag.vector("polycoef", PLAIN, (1, 2, 3, 4, 5))
         coefficients = (*given, *PLAIN[len(given) :])
         return RobotEquality(tag.get("name") or "", "joint", tag.place, tuple(names), coefficients)
-
-    def _scalar(self, tag: Tag, name: str, key: str) -> None:
-        moving = {n: joint for n, joint in self.joints.items() if joint.kind in SCALAR}
-        if name not in moving:
-            tag.unknown("hinge or slide", name, moving, key)
 
     def _link(self, tag: Tag, key: str, default: str | None = None) -> str:
         name = tag.word(key, "hand") if default is None or tag.get(key) is not None else default
@@ -122,50 +109,3 @@ class Equalities:
         while (joint := self.carrying.get(link)) is not None:
             pose, link = pose.within(joint.pose), joint.parent
         return pose
-
-    # -- tendons -------------------------------------------------------------------------------------------------------
-
-    def _tendon(self, tag: Tag) -> Iterator[RobotTendon]:
-        """A tendon that acts; one that only names a length is data."""
-        values = {key: _first(tag, key) for key in TENDON}
-        if not any(values.values()):
-            return
-        if tag.name != "fixed":
-            key = next(key for key in TENDON if values[key])
-            fix = "the springs of fixed tendons are read; add those of others with system.spring after loading"
-            raise tag.error(f"'{key}' of a tendon through sites is not supported", fix, "E405", key)
-        tag.read = True
-        parts: list[tuple[str, float]] = []
-        for part in tag.all("joint"):
-            name = part.word("joint", "elbow")
-            self._scalar(part, name, "joint")
-            parts.append((name, part.number("coef")))
-        if len({self.joints[name].kind for name, _ in parts}) != 1:
-            what = "it has no joints" if not parts else "its joints turn and slide, so that its length has no unit"
-            raise tag.error(what, "name joints of one kind, <joint joint=… coef=…/>", "E405")
-        low, *high = tag.vector("springlength", (-1.0,), (1, 2))
-        if high and high[0] != low and values["stiffness"]:
-            raise tag.error("a spring with slack is not supported", "give one length", "E405", "springlength")
-        rest = sum(c * self.joints[name].rest for name, c in parts) if low == -1 else low
-        yield RobotTendon(tag.get("name") or "tendon", tuple(parts), tag.place, rest=rest, **values)
-
-
-def _first(tag: Tag, key: str) -> float:
-    """The coefficient of a linear law; one that is not linear is refused."""
-    first, *more = tag.vector(key, (0.0,), (1, 2, 3))
-    if any(more):
-        raise tag.error(f"'{key}' is that of a law that is not linear", "give one number", "E405", key)
-    if first < 0:
-        raise tag.error(f"the {key} is negative ({first:g})", "give 0 or more", "E406", key)
-    return first
-
-
-def _refuse_defaults(root: Tag) -> None:
-    """Raise an error for a class of defaults in which tendons act."""
-    waiting = root.all("default")
-    for tag in waiting:
-        waiting += [child for child in tag.children if child.name == "default"]
-        for child in (child for child in tag.children if child.name == "tendon"):
-            for key in TENDON:
-                if any(child.vector(key, (0.0,), (1, 2, 3))):
-                    raise child.error(f"a default '{key}' of tendons is not supported", "give it to each", "E405", key)

@@ -22,6 +22,7 @@ from lagrangian.read.robots.mjcf_masses import Masses, scaled
 from lagrangian.read.robots.mjcf_tags import Defaults, Orientations
 from lagrangian.read.robots.robot import JointKind, JointLimits, Robot, RobotJoint, RobotLink
 from lagrangian.read.robots.rotations import ZERO, FixedPose, Vector, X, Z, length
+from lagrangian.read.robots.tendons import Tendons
 from lagrangian.read.robots.tree import checked_tree
 
 GROUND = "world"
@@ -54,7 +55,8 @@ def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
     if reader.total:
         scaled(reader.links, reader.total)
     top = checked_tree(root, reader.links, reader.joints)
-    drives = Actuators(root, reader.joints, reader.sites, reader.orientations)
+    tendons = Tendons(root, reader.joints)
+    drives = Actuators(root, reader.joints, reader.sites, tendons, reader.orientations)
     held = Equalities(root, GROUND, reader.joints, reader.sites, reader.orientations)
     return Robot(
         (root.get("model") or "").strip() or "robot",
@@ -68,7 +70,7 @@ def read_mjcf(root: Tag, folder: Path | None = None) -> Robot:
         unread=tuple(drives.unread),
         passive=bool(drives.found),
         equalities=tuple(held.found),
-        tendons=tuple(held.tendons),
+        tendons=tuple(tendons.acting),
         inactive=tuple(held.unread),
     )
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from lagrangian.codes import Code
 from lagrangian.errors import Notice
-from lagrangian.read.robots.robot import JointLimits, Robot, RobotJoint
+from lagrangian.read.robots.robot import JointLimits, Robot, RobotActuator, RobotJoint, RobotTendon
 
 
 def remarks(
@@ -36,7 +36,7 @@ def remarks(
         yield notice("these do not hold: " + "; ".join(robot.inactive))
     if robot.unread:
         yield notice("these actuators are not read: " + "; ".join(robot.unread))
-    targets = {x.target for x in robot.actuators}
+    targets = {name for x in robot.actuators for name in driven_joints(x)}
     if robot.passive and (idle := [j.name for j in moving if j.name not in targets]):
         yield notice("no actuator drives these joints, so they have no input: " + ", ".join(idle))
     for joint in moving:
@@ -51,6 +51,14 @@ def remarks(
         yield notice("names were made identifiers: " + ", ".join(f"'{a}' is {b}" for a, b in changed.items()))
     if robot.left_out:
         yield notice("these are no part of the mechanics and are left out: " + ", ".join(robot.left_out))
+
+
+def driven_joints(actuator: RobotActuator) -> list[str]:
+    """The joints that an actuator drives: one, those of a tendon, or none where it pushes at a site."""
+    target = actuator.target
+    if isinstance(target, RobotTendon):
+        return [name for name, _ in target.parts]
+    return [target] if isinstance(target, str) else []
 
 
 def described(joint: RobotJoint) -> str:

@@ -99,16 +99,31 @@ class RobotSite:
 
 
 @dataclass(frozen=True)
-class RobotActuator:
-    """What drives a joint, or pushes at a site, by an input u: the effort gain · u + bias, times ``gear``.
+class RobotTendon:
+    """A tendon of the length L = Σ c q of the joints in ``parts``, with spring, damper, dry friction and inertia."""
 
-    gain = g₀ + g₁ L + g₂ L̇ and bias = b₀ + b₁ L + b₂ L̇ with L = gear · q and L̇ = gear · v. ``gear`` is a number for a
-    hinge or a slide, three for a ball joint (about the axes of what turns, or ``in_parent`` of what carries it), six
-    (force and moment) for what floats and for a site. ``words`` is what the file says of it besides, as data.
+    name: str
+    parts: tuple[tuple[str, float], ...]
+    place: Place = field(repr=False)
+    rest: float = 0.0
+    stiffness: float = 0.0
+    damping: float = 0.0
+    frictionloss: float = 0.0
+    armature: float = 0.0
+
+
+@dataclass(frozen=True)
+class RobotActuator:
+    """What drives a joint or a tendon, or pushes at a site, by an input u: the effort gain · u + bias, times ``gear``.
+
+    gain = g₀ + g₁ L + g₂ L̇ and bias = b₀ + b₁ L + b₂ L̇ with L = gear · q, or gear times the length of a tendon, and L̇
+    its rate. ``gear`` is a number for a hinge, a slide or a tendon, three for a ball joint (about the axes of what
+    turns, or ``in_parent`` of what carries it), six (force and moment) for what floats and for a site. ``words`` is
+    what the file says of it besides, as data.
     """
 
     name: str
-    target: str | RobotSite
+    target: str | RobotSite | RobotTendon
     place: Place = field(repr=False)
     gear: tuple[float, ...] = (1.0,)
     gain: Vector = (1.0, 0.0, 0.0)
@@ -140,20 +155,6 @@ class RobotEquality:
     place: Place = field(repr=False)
     between: tuple[RobotSite, RobotSite] | tuple[str, ...]
     coefficients: tuple[float, ...] = ()
-
-
-@dataclass(frozen=True)
-class RobotTendon:
-    """A tendon of the length L = Σ c q of the joints in ``parts``, with spring, damper, dry friction and inertia."""
-
-    name: str
-    parts: tuple[tuple[str, float], ...]
-    place: Place = field(repr=False)
-    rest: float = 0.0
-    stiffness: float = 0.0
-    damping: float = 0.0
-    frictionloss: float = 0.0
-    armature: float = 0.0
 
 
 @dataclass(frozen=True)
