@@ -121,8 +121,8 @@ def test_a_bridge_has_a_loop_below_two_others() -> None:
     assert max(height["L1"], height["L2"]) < height["R3"]
 
 
-def test_the_charges_of_a_circuit_alone_flow_within_its_wires() -> None:
-    """In a page dots move along these ways; beside what moves, a circuit belongs to the picture at rest alone."""
+def test_the_charges_of_circuits_flow_within_their_wires() -> None:
+    """In a page dots move along these ways, also beside bodies, to which the circuit gives way."""
     system, (q1, q2), (L, C) = _circuit(2, letters="L C")
     system.inductor(L, q1)
     system.inductor(L, -q2, name="second")
@@ -135,7 +135,9 @@ def test_the_charges_of_a_circuit_alone_flow_within_its_wires() -> None:
     assert one.box[2] < two.box[0]
     assert all(part.moves for part in scene.parts if part.kind == "wire")
     beside = picture("dc-motor").scene
-    assert not beside.flows and not any(part.moves for part in beside.parts if part.kind == "wire")
+    assert [flow.coordinate for flow in beside.flows] == ["q"]
+    assert {part.kind for part in beside.parts if part.aside} >= {"wire", "resistor"}
+    assert not any(part.aside for part in beside.parts if part.kind in ("link", "gravity", "pin"))
 
 
 def test_loops_that_do_not_lie_in_a_row_are_told() -> None:

@@ -212,8 +212,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
     low, high = _extent(board, 0)
     drawn = len(board.parts)
     draw_circuits(board, np.array([low[0], (low[1] + high[1]) / 2]))
-    if not board.handles:  # nothing else moves: the circuit is shown in motion, too
-        board.parts[drawn:] = [replace(x, moves=x.kind != "coordinate") for x in board.parts[drawn:]]
+    board.parts[drawn:] = [replace(x, moves=x.kind != "coordinate", aside=True) for x in board.parts[drawn:]]
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
     if board.stage.dimension == 3:
         draw_fixed_axes(board, np.array([low[0] - 12.0, high[1] + 10.0]))
@@ -243,7 +242,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
         room,
         {c.name: float(x) for c, x in zip(model.coordinates, board.q, strict=True)},
         tuple(board.solids),
-        () if board.handles else tuple(_moved_flow(flow, origin) for flow in board.flows),
+        tuple(_moved_flow(flow, origin) for flow in board.flows),
     )
     return scene, board.stage.program(anchors)
 

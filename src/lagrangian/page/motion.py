@@ -75,7 +75,7 @@ class SceneMotion:
     @property
     def parts(self) -> list[ScenePart]:
         """The parts that are drawn in motion, from back to front."""
-        return drawing_order(part for part in self.scene.parts if part.moves)
+        return drawing_order(part for part in self.scene.parts if part.moves and not part.aside)
 
     def fewer(self, every: int) -> SceneMotion:
         """Return the same motion with every second, third, … frame, and its last frame."""

@@ -109,6 +109,8 @@ class ScenePart:
     """In space: the solid to which it belongs, as its number in ``Scene.solids``."""
     facing: bool = False
     """Whether it is one side of a plane in space: drawn only where y = 1 is counter-clockwise from x = 1 as seen."""
+    aside: bool = False
+    """Whether it stands beside what moves, such as a circuit: in a page it gives way to the bodies."""
 
     @property
     def dashes(self) -> Pair:
@@ -176,7 +178,7 @@ class Scene:
     eye [px]. A page asks which of them lies in front as things move and as the view turns."""
 
     flows: tuple[Flow, ...] = ()
-    """The charges that flow, in the picture of a circuit alone."""
+    """The charges that flow around the loops of circuits."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""
@@ -213,7 +215,7 @@ def _part(part: ScenePart) -> dict[str, Any]:
         "shiftTowards": placement.shift_towards,
         "across": placement.across,
     }
-    data["facing"], data["group"] = part.facing, part.group
+    data["facing"], data["group"], data["aside"] = part.facing, part.group, part.aside
     if isinstance(shape, Disc):
         data["disc"] = [*shape.centre, shape.radius]
     elif isinstance(shape, Trace):

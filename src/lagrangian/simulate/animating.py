@@ -88,7 +88,7 @@ def animate(
     if look is not None and trail is not None:
         raise RunError("trail and look were both given", fix="give the trail to look(trail=…)", code="E404")
     scene, kernel = _drawn(run, (trail,) if isinstance(trail, (str, Point)) else trail, look)
-    if scene.flows or not any(part.moves for part in scene.parts):  # charges flow in pages alone
+    if not any(part.moves and not part.aside for part in scene.parts):  # charges flow in pages alone
         what = f"nothing moves in the picture of '{run.model.name}': it has no body, only circuits"
         raise RunError(what, fix="run.plot() shows its charges over time", code="E406")
     times, duration = _times(run, speed, float(fps))

@@ -31,10 +31,14 @@ function depthOrder(picture) {
   const eye = [0, 1, 2].map((i) => across[(i + 2) % 3] * down[(i + 1) % 3] - across[(i + 1) % 3] * down[(i + 2) % 3]);
   const far = (anchor) => eye[0] * r[3 * anchor] + eye[1] * r[3 * anchor + 1] + eye[2] * r[3 * anchor + 2];
   const items = scene.solids.map(([a, b, radius, lift]) => ({ ends: [picture.seen(a), picture.seen(b)], far: [far(a), far(b)], radius, lift: lift * pixel, behind: new Set() }));
+  for (const item of items) item.box = [0, 1].map((i) => [Math.min(item.ends[0][i], item.ends[1][i]) - item.radius, Math.max(item.ends[0][i], item.ends[1][i]) + item.radius]);
+  const apart = (one, two) => one.box.some(([low, high], i) => low > two.box[i][1] || high < two.box[i][0]);
   const at = ({ far: [a, b], lift }, s) => a + s * (b - a) + lift;
   items.forEach((one, i) => {
     for (let j = 0; j < i; j++) {
-      const two = items[j], [s, t, gap] = nearestOf(one.ends, two.ends);
+      const two = items[j];
+      if (apart(one, two)) continue;
+      const [s, t, gap] = nearestOf(one.ends, two.ends);
       if (gap > one.radius + two.radius) continue;
       const difference = at(one, s) - at(two, t);
       if (difference > 0.75 * pixel) one.behind.add(j);

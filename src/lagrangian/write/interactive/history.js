@@ -8,17 +8,20 @@
 function makeHistory(states, inputs, most = 40000) {
   const width = 1 + states + 3 + inputs; // t, x, T, V, balance, u
   let rows = new Float64Array(2048 * width);
-  const self = { count: 0, width, T: 1 + states, V: 2 + states, balance: 3 + states, u: 4 + states, add, at, clear, index, state };
+  // the edition changes whenever a sample is no longer what it was
+  const self = { count: 0, edition: 0, width, T: 1 + states, V: 2 + states, balance: 3 + states, u: 4 + states, add, at, keep, index, state };
 
-  function clear() {
-    self.count = 0;
+  /** Keep the first samples alone. */
+  function keep(count) {
+    self.count = count;
+    self.edition++;
   }
 
   /** Append a sample; of a very long run, the older half is dropped. */
   function add(t, x, T, V, balance, u) {
     if (self.count === most) {
       rows.copyWithin(0, (most / 2) * width, most * width);
-      self.count = most / 2;
+      keep(most / 2);
     }
     if ((self.count + 1) * width > rows.length) {
       const larger = new Float64Array(Math.min(2 * rows.length, most * width));

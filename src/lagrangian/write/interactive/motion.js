@@ -6,6 +6,8 @@ class Motion {
   context = this.canvas.getContext("2d");
   /** What a hand holds, if anything. */
   held = null;
+  /** Where the anchors of trails were at samples of one edition of the history, one after another. */
+  passed = { edition: -1, spots: new Map() };
 
   /**
    * @param {PageState} state
@@ -23,6 +25,7 @@ class Motion {
     const widen = (pair, x) => ([pair[0], pair[1]] = [Math.min(pair[0], x), Math.max(pair[1], x)]);
     const passed = run.measure(state.stored(0), state.span);
     picture.spread(passed);
+    this.passed.edition = -1;
     for (const { x, t } of passed) {
       picture.place(x, t);
       const wider = [...box];
@@ -32,6 +35,7 @@ class Motion {
       const [h, , T, V] = run.energies(x, t);
       for (const e of [T, V, h]) widen(energy, e);
     }
+    picture.giveWay(box);
     const margin = 6;
     for (const [low, high, least] of picture.scene.size.map((length, i) => [i, i + 2, 0.3 * length])) {
       const lacking = Math.max(0, least - (box[high] - box[low])) / 2;
@@ -55,7 +59,7 @@ class Motion {
     this.grow();
     picture.fit(state.reach.box, width, height);
     this.follow(width, height);
-    if (state.set.trail) state.data.trail.forEach((anchor) => this.drawTrail(anchor));
+    if (state.set.trail) state.data.trail.forEach((_, k) => this.drawTrail(k));
     this.place();
     picture.draw(context, colours, state.lit, width);
     if (this.held) this.drawHeld();
@@ -77,13 +81,25 @@ class Motion {
     if (Number.isFinite(x + y)) [picture.left, picture.top] = [picture.left + inside(x, width), picture.top + inside(y, height)];
   }
 
-  /** The path of an anchor in the last seconds, fading. */
-  drawTrail(anchor) {
+  /** The positions of the anchors of trails at a sample; each sample is computed once, for it may take long in space. */
+  spots(sample) {
+    const { state, picture, passed } = this, { history, data } = state, { depth } = picture;
+    if (passed.edition !== history.edition) this.passed = { edition: history.edition, spots: new Map() };
+    let found = this.passed.spots.get(sample);
+    if (!found) {
+      const r = picture.place(state.stored(sample), history.at(sample, 0));
+      found = Float64Array.from({ length: depth * data.trail.length }, (_, i) => r[data.trail[Math.floor(i / depth)] * depth + (i % depth)]);
+      this.passed.spots.set(sample, found);
+    }
+    return found;
+  }
+
+  /** The path of an anchor in the last seconds, fading: of that number among those of trails. */
+  drawTrail(number) {
     const { state, picture, context } = this, end = state.history.index(state.shown), pieces = 12;
     const length = Math.min(end, 800), stride = Math.max(1, Math.round(length / 300)), points = [];
     for (let i = end - length; i <= end; i += stride) {
-      picture.place(state.stored(i), state.history.at(i, 0));
-      points.push(picture.onCanvas(anchor));
+      points.push(picture.onCanvas(number, undefined, this.spots(i)));
     }
     context.lineWidth = 1.5;
     context.strokeStyle = state.colours.accent;

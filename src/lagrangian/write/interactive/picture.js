@@ -13,12 +13,19 @@ function cornersOf({ disc, path }) {
 /** About how far dots that move with a charge are from each other [px], and how often the most that flowed sends them round. */
 const DOTS = 26, ROUNDS = 2;
 
+/** How far what stands aside is from the bodies [px]. */
+const ASIDE = 24;
+
 class Picture {
   zoom = 1;
   left = 0;
   top = 0;
   /** Displacements: r is replaced by rest + factor · (r − middle). */
   displaced = { factor: 1, middle: null };
+  /** How far to the left what stands beside the bodies has to give way [px]. */
+  aside = 0;
+  /** Floors begin to the right of this [px]. */
+  floorFrom = -Infinity;
 
   /**
    * @param {any} scene  the scene as data
@@ -44,9 +51,9 @@ class Picture {
     return r;
   }
 
-  /** The place of an anchor in pixels of the picture, before the zoom. */
-  seen(anchor, shift) {
-    const { scene, depth, r } = this, [across, down] = this.view;
+  /** The place of an anchor in pixels of the picture, before the zoom; of `r`, positions of anchors [m]. */
+  seen(anchor, shift, r = this.r) {
+    const { scene, depth } = this, [across, down] = this.view;
     let x = scene.origin[0] + (shift ? shift[0] : 0), y = scene.origin[1] + (shift ? shift[1] : 0);
     for (let i = 0; i < depth; i++) {
       x += scene.scale * across[i] * r[anchor * depth + i];
@@ -56,8 +63,8 @@ class Picture {
   }
 
   /** The place of an anchor on the canvas. */
-  onCanvas(anchor, shift) {
-    const [x, y] = this.seen(anchor, shift);
+  onCanvas(anchor, shift, r = this.r) {
+    const [x, y] = this.seen(anchor, shift, r);
     return [this.left + this.zoom * x, this.top + this.zoom * y];
   }
 
@@ -125,10 +132,13 @@ class Picture {
     context.lineCap = context.lineJoin = "round";
     for (const part of this.ordered()) {
       const transform = part.trace ? null : this.axes(part.placement);
+      if (part.aside && transform) transform[4] -= this.aside;
       if (part.facing && transform && transform[0] * transform[3] >= transform[1] * transform[2]) continue; // its back is seen
       context.globalAlpha = !lit || part.elements.some((name) => lit.has(name)) ? 1 : 0.22;
       const line = colours[part.paint === "inside" ? "inside" : part.role] ?? colours.ink;
       context.setLineDash(part.dashed ? [5 * bold, 4 * bold] : []);
+      const clipped = part.kind === "floor" && this.floorFrom > -Infinity;
+      if (clipped) this.clipFloor(context, width);
       context.beginPath();
       if (part.trace) this.join(context, part.trace);
       else for (const moved of this.copies(part, transform, width)) this.trace(context, part, transform, moved);
@@ -141,11 +151,21 @@ class Picture {
         context.strokeStyle = line;
         context.stroke();
       }
+      if (clipped) context.restore();
     }
     context.setLineDash([]);
     context.globalAlpha = 1;
     context.fillStyle = colours.coordinate ?? colours.ink;
     for (const flow of this.scene.flows) this.drawFlow(context, flow);
+  }
+
+  /** Until it is restored, draw only where floors may be: not under what stands aside. */
+  clipFloor(context, width) {
+    const from = this.left + this.zoom * this.floorFrom;
+    context.save();
+    context.beginPath();
+    context.rect(from, -1e5, Math.max(0, width - from), 2e5);
+    context.clip();
   }
 
   /** Dots inside a loop, which go along with its charge: however far that went so far is so many rounds. */
@@ -159,7 +179,7 @@ class Picture {
       const along = ((n / count + flow.offset) % 1) * round, s = along < 0 ? along + round : along;
       const [x, y] = s < w ? [x0 + s, y0] : s < w + h ? [x1, y0 + s - w] : s < 2 * w + h ? [x1 - (s - w - h), y1] : [x0, y1 - (s - 2 * w - h)];
       context.beginPath();
-      context.arc(this.left + this.zoom * x, this.top + this.zoom * y, 2.4 * this.zoom, 0, 2 * Math.PI);
+      context.arc(this.left + this.zoom * (x - this.aside), this.top + this.zoom * y, 2.4 * this.zoom, 0, 2 * Math.PI);
       context.fill();
     }
   }
@@ -172,14 +192,26 @@ class Picture {
     return [...this.parts].sort((a, b) => key(a) - key(b));
   }
 
-  /** Widen a box [left, top, right, bottom], in pixels of the picture, by everything that moves. */
-  cover(box) {
+  /** Let what stands aside, such as a circuit, give way to bodies that fill a box, and widen the box by it. */
+  giveWay(box) {
+    const own = [Infinity, Infinity, -Infinity, -Infinity];
+    this.aside = 0;
+    this.cover(own, true);
+    if (own[2] === -Infinity) return;
+    if (box[0] < Infinity) this.aside = Math.max(0, own[2] + ASIDE - box[0]);
+    this.floorFrom = own[2] - this.aside + ASIDE / 3;
+    this.cover(box, true);
+  }
+
+  /** Widen a box [left, top, right, bottom], in pixels of the picture, by everything that moves, or that stands aside. */
+  cover(box, aside = false) {
     const add = (x, y) => ([box[0], box[1], box[2], box[3]] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)]);
     for (const { part, corners } of this.bounds) {
+      if (part.aside !== aside) continue;
       if (part.trace) part.trace.anchors.forEach((anchor, i) => add(...this.seen(anchor, part.trace.shifts[i])));
       else {
         const [a, b, c, d, e, f] = this.axes(part.placement);
-        for (const [x, y] of corners) add(a * x + c * y + e, b * x + d * y + f);
+        for (const [x, y] of corners) add(a * x + c * y + e - (aside ? this.aside : 0), b * x + d * y + f);
       }
     }
   }

@@ -41,7 +41,7 @@ class Run {
   begin(x, p, u) {
     [this.p, this.u, this.trouble, this.occurred] = [Float64Array.from(p), Float64Array.from(u), "", []];
     this.supplied = 0;
-    this.history.clear();
+    this.history.keep(0);
     this.sample(this.closed(x, 0), 0);
   }
 
@@ -49,7 +49,7 @@ class Run {
   cut(t) {
     const { history } = this;
     if (t >= this.end) return;
-    history.count = history.index(t) + 1;
+    history.keep(history.index(t) + 1);
     this.end = this.lastAt(0);
     this.occurred = this.occurred.filter((event) => event.t <= this.end);
     this.supply(this.last(), this.lastAt(history.balance));
@@ -78,7 +78,7 @@ class Run {
     [this.p, this.u, this.trouble] = [Float64Array.from(p), Float64Array.from(u), ""];
     const x = this.closed(this.last(), this.end);
     this.supply(x, before);
-    history.count--;
+    history.keep(history.count - 1);
     this.sample(x, this.end);
   }
 
