@@ -1,4 +1,4 @@
-"""The mass matrix of the PUMA 560 beside the one by hand in B. Armstrong, O. Khatib, J. Burdick (ICRA 1986, 510-518).
+"""The PUMA 560 beside the matrix by hand in B. Armstrong, O. Khatib, J. Burdick (ICRA 1986, 510-518), and Craig's arm.
 
 Their a_ij and I_k are quoted without the paper at hand. That the entries here agree with them vouches for the
 quotation, but not for I_1 and I_3: the paper's masses and inertias give 1.55 and 1.60. These masses, centres and
@@ -8,9 +8,12 @@ inertias, with the inertia 0.066 of link 3 about z for 0.086, are also in puma56
 import numpy as np
 import pytest
 import robots
+import sympy as sp
 
+import lagrangian as lg
 from lagrangian import dynamics
 from lagrangian.graph import evaluate
+from lagrangian.structured.derive import derive_structured
 
 I = [0, 1.43, 1.75, 1.38, 0.69, 0.372, 0.333, 0.298, -0.134, 0.0238, -0.0213, -0.0142, -0.011, -3.79e-3, 1.64e-3]
 I += [1.25e-3, 1.24e-3, 6.42e-4, 4.31e-4, 3e-4, -2.02e-4, -1e-4, -5.8e-5, 4e-5]
@@ -67,3 +70,30 @@ def test_the_entries_of_m_are_those_by_hand() -> None:
     ours = [*constants[2:5], *(constants[5:11] / 2), *constants[11:]]
     assert ours == pytest.approx([I[k] for k in (7, 10, 11, 5, 12, 15, 16, 18, 22, 20, 21)], rel=1e-2)
     assert [constants[0] - MOTOR[1], constants[1]] == pytest.approx([1.553, 1.602], rel=1e-3)  # I_1, I_3: see above
+
+
+@pytest.mark.slow
+def test_two_links_in_names_are_craigs_closed_equations() -> None:
+    """J. J. Craig, Introduction to Robotics, the arm of two point masses by iterated Newton-Euler equations (quoted
+    without the book at hand). His n_i, summed inwards, are the left-hand sides N_i⁺ = τ_i here."""
+    s = lg.System("two links")
+    q1, q2 = s.coordinates("q1 q2")
+    l1, l2, m1, m2 = s.parameters("l1 l2 m1 m2", l1=1, l2=2, m1=3, m2=4)
+    upper = s.frame(q1)
+    elbow = upper.point(l1, 0)
+    s.particle(m1, at=elbow)
+    s.particle(m2, at=s.frame(q2, parent=upper, origin=elbow).point(l2, 0, at=elbow))
+    g = s.gravity().g
+    for q, tau in zip((q1, q2), s.inputs("tau1 tau2"), strict=True):
+        s.torque(tau, on=q)
+    d = derive_structured(s.model)
+    assert [e.rhs.func.__name__ for e in d.equations] == ["tau1", "tau2"]
+    assert [str(e.lhs) for e in d.equations] == ["N_1_out", "N_2_out"]
+    (v1, a1), (v2, a2) = ((q.diff(), q.diff().diff()) for q in (q1, q2))
+    c2, s2, c1, c12 = sp.cos(q2), sp.sin(q2), sp.cos(q1), sp.cos(q1 + q2)
+    first = m2 * l2**2 * (a1 + a2) + m2 * l1 * l2 * c2 * (2 * a1 + a2) + (m1 + m2) * l1**2 * a1
+    first += -m2 * l1 * l2 * s2 * v2**2 - 2 * m2 * l1 * l2 * s2 * v1 * v2 + m2 * l2 * g * c12 + (m1 + m2) * l1 * g * c1
+    second = m2 * l1 * l2 * c2 * a1 + m2 * l1 * l2 * s2 * v1**2 + m2 * l2 * g * c12 + m2 * l2**2 * (a1 + a2)
+    for k, by_hand in enumerate((first, second)):
+        apart = sp.expand(sp.expand_trig(d.expanded(k).lhs - by_hand))
+        assert sp.expand(apart.subs({sp.sin(q) ** 2: 1 - sp.cos(q) ** 2 for q in (q1, q2)})) == 0
