@@ -202,3 +202,14 @@ def test_a_floating_body_has_arrows_to_its_place() -> None:
     labels = {x for label in picture.scene.labels if label.role == "coordinate" for x in label.names}
     assert labels == {"base_x", "base_y", "base_z"}
     assert all(picture.pose[name] * picture.scene.scale > 50 for name in labels)
+
+
+def test_a_limb_that_turns_freely_hangs_on_a_ball() -> None:
+    system = lg.System("pendulum on a ball joint")
+    m, L, J, Jz = system.parameters("m L J J_z", m=1.0, L=0.5, J=0.02, J_z=0.004)
+    limb = system.ball_frame("limb", origin=system.point("shoulder", (0, 0, 1)))
+    system.rigid_body(m, (J, J, Jz), at=limb.point((0, 0, -L)), frame=limb, name="arm")
+    system.gravity(direction=(0, 0, -1))
+    scene = system.look().scene
+    (ball,) = [part for part in scene.parts if part.kind == "ball joint"]
+    assert ball.placement.at is not None and scene.positions[ball.placement.at] == (0.0, 0.0, 1.0)

@@ -19,8 +19,8 @@ from lagrangian.look.cast import Player
 from lagrangian.look.effort_glyphs import LENGTH, EffortArtist
 from lagrangian.look.holds import Motions
 from lagrangian.look.space_bodies import SpaceBodies, Track
-from lagrangian.look.space_solids import CIRCLE, across
-from lagrangian.look.space_supports import curved_arrow, round_axis
+from lagrangian.look.space_solids import CIRCLE, across, round_axis
+from lagrangian.look.space_supports import curved_arrow
 from lagrangian.look.space_turns import axis_now
 from lagrangian.look.tie_glyphs import TieArtist, symbol_names
 from lagrangian.look.ties import Resolver, Tie

@@ -258,6 +258,12 @@ def cross(a: Array, b: Array) -> Array:
     return np.array([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx])
 
 
+def round_axis(n: Array, start: float, end: float) -> list[Array]:
+    """Unit vectors around an axis, by angles from the first of the vectors across it."""
+    u, v = across(n)
+    return [np.cos(a) * u + np.sin(a) * v for a in np.linspace(start, end, 31)]
+
+
 def swapped(place: Placement) -> Placement:
     """The other side of a plane."""
     return Placement(place.at, place.across, place.scaling, place.shift, place.shift, place.towards)

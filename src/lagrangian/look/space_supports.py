@@ -18,7 +18,7 @@ from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import INK, head, line, lines
 from lagrangian.look.space_bodies import SpaceBodies
 from lagrangian.look.space_cast import SpacePlayer
-from lagrangian.look.space_solids import CIRCLE, across
+from lagrangian.look.space_solids import CIRCLE, across, round_axis
 from lagrangian.look.space_turns import Spin, axis_now
 from lagrangian.model import Ball, Rolling, time
 from lagrangian.page.scene import Disc, Placement
@@ -193,6 +193,9 @@ class SpaceSupports:
         for element in board.stage.model.constraints:
             if isinstance(element, Ball):
                 self._ball(board.stage.index(element.between[0]), element.name)
+        for frame in board.stage.model.floating:
+            if frame.floating is not None and frame.floating.held:
+                self._ball(board.stage.index(frame.origin), radius=7.5)
 
     def _tip(self, k: int) -> bool:
         """Whether a top stands on a point."""
@@ -219,11 +222,11 @@ class SpaceSupports:
         with solids.item(k, radius=radius, lift=7.0):
             solids.cylinder(a, b, spin.base, spin.axis, radius, kind="hinge")
 
-    def _ball(self, k: int, name: str = "") -> None:
+    def _ball(self, k: int, name: str = "", radius: float = 5.2) -> None:
         board = self.board
         with self.solids.item(k, radius=6.0, lift=7.0):
             board.put(
-                Disc((0.0, 0.0), 5.2), "body", board.placed(k), of=(name,) if name else (), kind="ball joint",
+                Disc((0.0, 0.0), radius), "body", board.placed(k), of=(name,) if name else (), kind="ball joint",
                 filled=True, layer=BODY,
             )  # fmt: skip
         board.block(board.at(k), 12, 12)
@@ -345,12 +348,6 @@ def hooped(board: Board, k: int) -> int | None:
         return None
     frame = board.stage.frames.index(point.frame)
     return frame if not board.motions.turns(frame) and time in point.frame.angle.free_symbols else None
-
-
-def round_axis(n: Array, start: float, end: float) -> list[Array]:
-    """Unit vectors around an axis, by angles from the first of the vectors across it."""
-    u, v = across(n)
-    return [np.cos(a) * u + np.sin(a) * v for a in np.linspace(start, end, 31)]
 
 
 def curved_arrow(
