@@ -65,3 +65,28 @@ def test_a_matrix_may_have_the_letter_of_a_mass_in_it() -> None:
 def test_words_and_values_around_the_pendulum(written: str) -> None:
     verdict = derivation("pendulum").check(written)
     assert verdict.right, verdict.to_text()
+
+
+ENTRIES = "M11 = M + m\nM12 = M21 = m l cos(theta)\nM22 = J + m l^2\n"
+MATRIX = "M = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\n"
+FORCES = "f = [F - b*x' + m*l*theta'^2*sin(theta); m*g*l*sin(theta)]\n"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        f"{ENTRIES}C_1 = b x' - m l theta'^2 sin(theta)\nG_2 = -m g l sin(theta)\n"
+        "M*[x''; theta''] + [C_1; G_2] = [F; 0]",
+        f"{ENTRIES}h1 = b x' - m l theta'^2 sin(theta) - F\nh2 = -m g l sin(theta)\nM q'' + h = 0",
+        f"{MATRIX}{FORCES}qdd = M\\f",
+        f"{MATRIX}{FORCES}[x''; theta''] = inv(M)*f",
+        f"{MATRIX}{FORCES}q'' = M^-1 f",
+        MATRIX.replace("M =", "M(q) =")
+        + "C(q,qdot) = [b, -m*l*sin(theta)*thetadot; 0, 0]\nG(q) = [0; -m*g*l*sin(theta)]\n"
+        + "M(q) qddot + C(q,qdot) qdot + G(q) = [F; 0]",
+    ],
+)
+def test_matrices_entry_by_entry_inverted_and_with_what_they_depend_on(written: str) -> None:
+    assert derivation("cart-pole").check(written).right
+    for old, new in (("l*cos(theta)", "l*sin(theta)"), ("l cos(theta)", "l sin(theta)"), ("J +", "J -")):
+        assert old not in written or not derivation("cart-pole").check(written.replace(old, new)).right

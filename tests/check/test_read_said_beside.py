@@ -133,6 +133,56 @@ def test_single_positions_and_small_motions_beside_the_equations_are_not_judged(
     assert not right(f"{CART}\n{POLE.replace('- m g', '+ m g')}\n{beside}")
 
 
+@pytest.mark.parametrize("untrue", ["cos theta = 7", "sin theta = theta/2"])
+def test_a_line_that_no_position_makes_true_is_untrue(untrue: str) -> None:
+    verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{untrue}")
+    assert not verdict.right and any("is not true" in str(note) for note in verdict.notes)
+    assert right(f"{CART}\n{POLE}\nsin theta = theta, cos theta = 1 - theta^2/2")
+
+
+def test_a_position_at_rest_must_be_one() -> None:
+    row = "m R^2 theta'' - m R^2 Omega^2 sin theta cos theta + m g R sin theta = 0"
+    assert right(f"{row}\ntheta = 0 or cos theta = g/(R Omega^2)", "bead-on-hoop")
+    assert not right(f"{row}\ncos theta = g/(R Omega)", "bead-on-hoop")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "theta'' = (m g l sin(theta) - ...)/(J + m l^2), in full:",
+        "used sin(2 theta) = 2 sin cos",
+        "(d = d/dt, dd = second derivative)",
+        "(J about the centre of mass, so J + m l^2 about the pivot)",
+        "Momentum p_x = dL/dx' = ...",
+        "Half length h = L_p/2, H = M + m. I moved x to the left:",
+        "(I wrote theta for the angle of the sheet)",
+        "× 2, h := l because I had this letter in my sketch",
+        "virtual work: delta W = F delta x - b x' delta x",
+    ],
+)
+def test_a_line_of_words_is_not_needed_beside_complete_equations(line: str) -> None:
+    assert right(f"{line}\n{CART}\n{POLE}")
+    assert not right(f"{line}\n{CART}\n{POLE.replace('- m g', '+ m g')}")
+
+
+def test_a_name_that_only_words_explain_is_unknown() -> None:
+    with pytest.raises(ParseError):  # what may say what m is must be read
+        right(f"m = pole ((half\n{CART}\n{POLE}")
+    verdict = derivation("cart-pole").check(f"S x'' + {CART.split(' + ', 2)[2]}\n{POLE}\nS = the ((sum of masses")
+    assert not verdict.right and any("'S'" in str(note) for note in verdict.notes)
+
+
+def test_letters_of_energies_and_rates_of_columns_are_the_answers_own() -> None:
+    cart = "q1'' = (F - b q1' - m l D q2'' + m l sin(q2) q2'^2)/(M + m)"
+    assert right(f"D = cos(q2)\n{cart}\nq2'' = m l (g sin(q2) - D q1'')/(J + m l^2)")
+    assert not right(f"D = sin(q2)\n{cart}\nq2'' = m l (g sin(q2) - D q1'')/(J + m l^2)")
+    matrices = "A = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\nB = [b, -m*l*sin(theta)*theta'; 0, 0]\n"
+    matrices += "f = [F; m*g*l*sin(theta)]\n"
+    assert right(f"{matrices}A*qdd + B*qd = f")
+    assert not right(f"{matrices}A*qdd + B*q = f")
+    assert right("(ad = d alpha/dt, add = d²alpha/dt²)\nm L^2 add + b ad + m g L sin alpha = 0", "pendulum")
+
+
 def test_small_motions_are_wrong_alone_and_where_they_do_not_follow() -> None:
     assert not right(SMALL)
     assert not right(f"{CART}\n{POLE}\n{SMALL.replace('- m g', '+ m g')}")

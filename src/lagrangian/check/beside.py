@@ -11,6 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.misconceptions.small_angle import first_order, small
+from lagrangian.check.places import only_places, place_or_approximation
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
 from lagrangian.check.verdict import AnsweredLine
@@ -30,23 +31,15 @@ def beside(
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
     if not wrong or comparison.rank < truth.n:
         return lines, ()
-    aside = {id(line): "it is about one position" for line in wrong if _is_place(truth, line)}
+    aside = {id(line): why for line in wrong if (why := place_or_approximation(truth, line.expr, line.text))}
     others = [line for line in wrong if id(line) not in aside]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
     kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
-    told = dict.fromkeys(f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside)
-    return kept, tuple(text(note) for note in told)
-
-
-def _is_place(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a line only says where a coordinate is: θ = 0, cos θ = g/(R Ω²), and not k x = 0."""
-    changing = {x for x in line.expr.atoms(AppliedUndef) if x.args}
-    places = {c.symbol for c in truth.model.coordinates}
-    if "=" not in line.text or len(changing) != 1 or not changing <= places or line.expr.has(sp.Derivative):
-        return False
-    (place,) = changing
-    return line.expr.diff(place).free_symbols <= place.free_symbols
+    told = [f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside]
+    untrue = [line for line in wrong if id(line) not in aside and only_places(truth, line.expr)]
+    told += [f"'{line.text}' is not true: neither of every motion nor of a position at rest." for line in untrue]
+    return kept, tuple(text(note) for note in dict.fromkeys(told))
 
 
 def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:

@@ -24,13 +24,14 @@ from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
-from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
+from lagrangian.check.row_words import findings_of, name_of
+from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.model import is_hard
-from lagrangian.page.formula import Terms, Text, text
+from lagrangian.page.formula import Text, text
 
 _log = logging.getLogger(__name__)
 
@@ -134,7 +135,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     """The verdict on an answer whose names are known; with ``explain``, also the mistakes that explain it."""
     lines, told = unrounded(truth, spelling.lines)
     spelling = replace(spelling, lines=lines, notes=(*spelling.notes, *told))
-    judged = _judged(truth, spelling.lines)
+    judged = _judged(truth, spelling.lines, compared=explain)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:
         return replace(verdict, combination=judged.combination)
@@ -161,9 +162,11 @@ class Judged:
         return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
 
 
-def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedChange | None = None) -> Judged:
+def _judged(
+    truth: Reference, lines: Sequence[AnsweredLine], change: ProposedChange | None = None, *, compared: bool = True
+) -> Judged:
     """Judge every line, and the equations together; with a change, everything is converted to the system's
-    coordinates."""
+    coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     turn = change.turn(truth) if change is not None else None
     truth = truth.within(change.region(truth)) if change is not None else truth
@@ -174,7 +177,8 @@ def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedCha
         equations = [line for line in moved if line.kind == "equation"]
         comparison = compare(truth, [line.expr for line in equations])
     above = given(truth, moved)
-    found = dict(zip(map(id, equations), _equations(truth, equations, comparison, above), strict=True))
+    told = _equations(truth, equations, comparison, above) if compared else findings_of(truth, equations, comparison)
+    found = dict(zip(map(id, equations), told, strict=True))
     findings: list[Finding] = []
     for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
         if line.kind in ("definition", "statement"):
@@ -245,11 +249,9 @@ def _equations(
     forms = {j: truth.form(lines[j].expr) for j in wrong}
     pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
     follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
-    found: list[Finding] = []
-    for j, (line, row) in enumerate(zip(lines, comparison.rows, strict=True)):
-        if row.kind is not Kind.WRONG:
-            found.append(Finding(line, _status(row), _note(truth, row), _name(truth, row.index)))
-            continue
+    found = findings_of(truth, lines, comparison)
+    for j in wrong:
+        line = lines[j]
         like, form = pairs[j], forms[j]
         right = truth.forms[like.index] if like is not None else None
         if j in solved and like is not None:
@@ -257,53 +259,17 @@ def _equations(
             like = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
             form, right = (truth.form(x) for x in solved[j])
         if like is None or form is None or right is None:
-            found.append(Finding(line, Status.WRONG, follows=follow[j]))
+            found[j] = Finding(line, Status.WRONG, follows=follow[j])
             continue
         differing = differences(truth, form, right, like.factor, like.index)
-        name = _name(truth, like.index)
-        found.append(Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, like.index)))
+        name = name_of(truth, like.index)
+        found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, like.index))
     return found
 
 
 def _elements(truth: Reference, index: int) -> tuple[str, ...]:
     """The elements that add to a right equation."""
     return tuple(dict.fromkeys(e for term in truth.derivation.terms[index] for e in term.elements))
-
-
-def _name(truth: Reference, index: int | None) -> str | None:
-    return truth.model.coordinates[index].name if index is not None else None
-
-
-def _status(row: ReferenceRow) -> Status:
-    if row.kind is Kind.SAME:
-        return Status.RIGHT
-    if row.kind in (Kind.SCALED, Kind.COMBINED):
-        return Status.EQUIVALENT
-    return Status.INCOMPLETE if row.kind is Kind.NOTHING else Status.SAME_MOTION
-
-
-def _note(truth: Reference, row: ReferenceRow) -> Text | None:
-    """Which right equations a true row consists of, in words."""
-    if row.kind is Kind.NOTHING:
-        return text("says 0 = 0")
-    if row.kind is Kind.SCALED and row.index is not None:
-        times = row.factors[row.index] if row.factors is not None else "a factor"
-        return text("the equation of ", truth.derivation.coordinates[row.index], ", times ", times)
-    if row.factors is not None and row.kind in (Kind.COMBINED, Kind.TURNED):
-        parts: list[sp.Expr | str | Terms] = []
-        for factor, q in zip(row.factors, truth.derivation.coordinates, strict=True):
-            if factor != 0:
-                parts += [
-                    " and " if parts else "",
-                    *(("" if factor == 1 else factor), " times " if factor != 1 else ""),
-                ]
-                parts += ["the equation of ", q]
-        return text("the sum of ", *parts)
-    if row.kind is Kind.TURNED:
-        return text("the equations added with factors that depend on where the system is")
-    if row.kind is Kind.CONSEQUENCE:
-        return text("true whenever the right equations hold")
-    return None
 
 
 # -- other coordinates, and what went wrong ---------------------------------------------------------------------------
@@ -316,13 +282,14 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
     for change in candidates(truth, spelling.lines):
         if not glance.may_be(change):
             continue
-        judged = _judged(truth, spelling.lines, change)
+        judged = _judged(truth, spelling.lines, change, compared=False)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
             continue
         if not change.plain and not explain:
             continue
         if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
-            named = mistakes(truth, spelling.lines, verdict.findings)
+            findings = verdict.findings if explain else _judged(truth, spelling.lines).findings
+            named = mistakes(truth, spelling.lines, findings)
             if named.certain or too_long(truth):
                 note = text("It would be right with ", *change.words.parts, ".")
                 return replace(verdict, mistakes=named.told, alternatives=named.others, notes=(*verdict.notes, note))

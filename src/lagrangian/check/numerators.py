@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
@@ -109,11 +110,17 @@ def multiplied(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, sp.Expr] | Non
 
 def _determinant(truth: Reference, row: SolvedRow) -> tuple[sp.Matrix, sp.Expr, Array]:
     """M, det M, and the denominator of a row divided by it at every state."""
-    M = sp.Matrix(truth.n, truth.n, lambda a, b: truth.rows[a].diff(truth.model.coordinates[b].acceleration))
-    det = bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))
+    M, det = _mass_matrix(truth)
     values = CompiledExpressions([row.below, det]).at(truth.states)
     with np.errstate(all="ignore"):
         return M, det, values[0] / values[1]
+
+
+@lru_cache(maxsize=16)
+def _mass_matrix(truth: Reference) -> tuple[sp.Matrix, sp.Expr]:
+    """M and det M."""
+    M = sp.Matrix(truth.n, truth.n, lambda a, b: truth.rows[a].diff(truth.model.coordinates[b].acceleration))
+    return M, bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))
 
 
 def said_of(truth: Reference, mistake: Mistake, expr: sp.Expr) -> Mistake:

@@ -38,4 +38,4 @@ def with_own_forces(
         return tuple(replace(x, kind="definition") if x.kind == "Xi" and str(x.name) in names else x for x in given)
 
     table = [x for line in wrong for x in (f"'{line.text}'", ", ")][:-1]
-    return OwnForces(own(lines), own(written), text(*table, " was read as a name of your own, not as Ξ."))
+    return OwnForces(own(lines), own(written), text(*table, " was read as a name of your own; as Ξ it would be wrong."))

@@ -156,7 +156,11 @@ KINDS: Mapping[str, KindWords] = {
     "velocity_part_sign": KindWords(
         "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", VELOCITY
     ),
-    "rate_sign": KindWords("In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", VELOCITY),
+    "rate_sign": KindWords(
+        "In {site}, the sign of {right} against the other rates is wrong.",
+        "There is a wrong sign in {brief}.",
+        VELOCITY,
+    ),
     "speeds_as_numbers": KindWords(
         "The speeds in {site} were added as numbers, {written}; they are vectors in different directions.",
         "The parts of {brief} were not added as vectors.",

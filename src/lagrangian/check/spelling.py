@@ -42,7 +42,7 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
     """
     lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
     known = {p.symbol for p in truth.model.parameters} | {time}
-    used = {s for line in lines for s in line.expr.free_symbols}
+    used = _constants(lines)
     unknown = sorted(used - known, key=str)
     if not unknown:
         return Spelling(lines, notes)
@@ -151,12 +151,16 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
 
 def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
     """The values of the parameters that an answer does not name."""
-    used = {x for line in lines for x in line.expr.free_symbols}
+    used = _constants(lines)
     put = truth.values.keys()
     return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used and p not in put}
 
 
 def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer names a parameter that has a value: one whose value is 1 may then just have been forgotten."""
-    used = {x for line in lines for x in line.expr.free_symbols}
-    return any(p in used for p in truth.model.values)
+    return not _constants(lines).isdisjoint(truth.model.values)
+
+
+def _constants(lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
+    """The constants, and the time, that an answer names."""
+    return {x for line in lines for x in line.expr.free_symbols}

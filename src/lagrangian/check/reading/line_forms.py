@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import sympy as sp
 from lark import Tree
@@ -14,6 +15,16 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Value
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError
+from lagrangian.quantities.source import Source
+
+
+@dataclass(frozen=True)
+class Statement:
+    """The syntax trees between the equals signs of a statement, its text, and whether that is a line of words."""
+
+    sides: tuple[Tree, ...]
+    source: Source
+    remark: Callable[[], bool] = bool
 
 
 def together(errors: Sequence[ParseError]) -> ParseError:

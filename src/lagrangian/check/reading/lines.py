@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 from lark import Token, Tree
@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import AnswerLine, Kind
-from lagrangian.check.reading.line_forms import accelerates, is_general, matrix_rows, solves, together
+from lagrangian.check.reading.line_forms import Statement, accelerates, is_general, matrix_rows, solves, together
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
 from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
@@ -30,7 +30,6 @@ from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equ
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.model.names import time
-from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
@@ -49,14 +48,6 @@ MAX_ERRORS = 5
 """The largest number of errors that are reported at once."""
 
 
-@dataclass(frozen=True)
-class Statement:
-    """The syntax trees between the equals signs of a statement, and its text."""
-
-    sides: tuple[Tree, ...]
-    source: Source
-
-
 class Lines:
     """Reads the statements of one answer."""
 
@@ -71,6 +62,9 @@ class Lines:
         self._made: dict[int, list[AnswerLine]] = {}
         self._chain = 0
         self._matrices: set[str] = set()
+        self._solved: set[int] = set()
+        self.remarks: list[ParseError] = []
+        """The errors of lines of words, which matter only if the equations beside them are not complete."""
 
     def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
         """Return the lines of the statements, in their order.
@@ -80,12 +74,16 @@ class Lines:
         self._statements = statements
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
-        found = list(errors)
+        complete = self._complete()
+        found = [*errors, *([] if complete else self.remarks)]
         aside: list[ParseError] = []
         for i in range(len(statements)):
             try:
                 self._line(i)
             except ParseError as error:
+                if complete and error.code != "E703" and statements[i].remark():
+                    self.remarks.append(error)
+                    continue
                 (aside if self._is_general(i, error) else found).append(error)
             if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
                 break
@@ -95,7 +93,15 @@ class Lines:
         if found or (aside and not lines):
             raise together(found or aside)
         self._forget(lines)
+        for error in self.remarks[:MAX_ERRORS]:
+            at = error.place.line if error.place is not None and error.place.line else 1
+            self.names.notes.setdefault(f"Line {at} was not read: its words are not needed beside the equations.")
         return lines
+
+    def _complete(self) -> bool:
+        """Whether there is an equation with accelerations for every coordinate, perhaps in one of matrices."""
+        moving = [s for s in self._statements if any(map(self.subjects.accelerates, s.sides))]
+        return len(moving) >= len(self.model.coordinates) or any(self._has_matrices(s.sides) for s in moving)
 
     def _is_general(self, i: int, error: ParseError) -> bool:
         """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""
@@ -127,6 +133,7 @@ class Lines:
         first = [self.subjects.turned(list(s.sides))[0] for s in self._statements]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
+        self._solved = {i for i, subject in defining if subject.order > 1}
         for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0])):
             _, same = self.subjects.sharing(subject, self.subjects.turned(list(self._statements[i].sides))[1])
             for token in (subject.token, *same):
@@ -148,7 +155,9 @@ class Lines:
         return len(names) > 1 or (bool(self._matrices) and any(written))
 
     def _look_ahead(self, base: str) -> None:
-        """Read the definition of a name that comes later in the answer."""
+        """Read the definition of a name that comes later in the answer; that of an acceleration only for another."""
+        if self._waiting.get(base) in self._solved and not self.names.moving:
+            return  # D = cos q2, and q2'' = …/D further down
         at = self._waiting.pop(base, None)
         if at is None or at in self._made or self._chain >= MAX_CHAIN:
             return

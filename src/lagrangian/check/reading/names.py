@@ -208,6 +208,8 @@ class Names:
         names, _ = self.scope.meanings(stem)
         if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
             return names[0], self.scope[names[0]]
+        if self.matrices and (column := self._matrix(stem)) is not None and column.has(AppliedUndef):
+            return stem, column  # qdd = [y''; phi''], qd
         if key(stem) not in self.own and key(stem) in self._moving:
             self.later(key(stem))  # bdd = beta'', bd = beta'
         if (mine := self.mine(key(stem))) is not None:

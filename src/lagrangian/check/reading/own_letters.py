@@ -32,6 +32,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             continue
         others = [s for s, moved in zip(statements, moving, strict=True) if moved and s is not sides]
         used = (str(x) for s in others for side in s for x, changing in names_in(side) if not changing)
-        if str(named[0]) in used and all(names.scope.meanings(x)[0] or key(x) in given for x in listed):
+        if str(named[0]) in used and all(
+            names.scope.meanings(x)[0] or key(x) in given or names.changes(x) for x in listed
+        ):
             found.add(key(str(named[0])))
     return frozenset(found)

@@ -15,7 +15,10 @@ _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
 _WORD = re.compile(rf"{_LETTER}+(?:['’-]{_LETTER}+)*")
 _TWO = re.compile(r"(?<!\w)([^\W\d_]{2,})(?=[ \t]([^\W\d_]{2,})(?![\w'’′(\[]))")
 _BRACKETS = re.compile(r"[()\n]")
-_SENTENCE = re.compile(rf"\s*(?P<first>{_LETTER}{{3,}})(?:[ \t]*[,:;]|[ \t]+(?P<second>{_LETTER}{{2,}})(?![\w(\[]))")
+_SENTENCE = re.compile(
+    rf"\s*(?P<who>(?:I|[Ww]e|[Ii]ch|[Ww]ir)[ \t]+)?(?P<first>{_LETTER}{{3,}})"
+    rf"(?:[ \t]*[,:;]|[ \t]+(?P<second>{_LETTER}{{2,}})(?![\w(\[]))"
+)
 _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
@@ -51,6 +54,8 @@ _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
 _TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
+_DONE_TO_ALL = re.compile(r"\s*+[×·*:/÷|]\s*+[^\W_]\w{0,11}\s*+\Z")
+"""What was done to the equations: × 6, : m."""
 _SIGNS = re.compile(r"[-=+*/^()\[\]{}'’′″²³·×−\u0307\u0308\u20db]")
 _LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
 _PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
@@ -64,13 +69,17 @@ _LISTED = (
     "in at on to reads be holds respectively "
     "die der das ist sind lautet lauten gilt folgt ergibt sich also daraus damit somit mit wobei und für "
     "wird dann nun aus dem den des eine einer bzw sowie nach erhält gleichung bewegungsgleichung "
-    "est sont avec donc alors où obtient équation"
+    "est sont avec donc alors où obtient équation "
+    "my our it if as an or by your its"
 )
 LINKING = frozenset(_LISTED.split())
 """Words of English, German and French that are seldom names."""
 
 _MOST = 40
 """The largest number of words behind a statement."""
+
+MOST_NAMES = 2
+"""More words than this in a bracket without an equals sign make it a remark."""
 
 _SHORTEST = 3
 """The fewest letters of a word that cannot be a name."""
@@ -127,7 +136,8 @@ def _without_comments(text: str, words: Words) -> str:
     J_b = … (bar about the pivot, the same as m L²/3)."""
     for start, end in _apart(text):
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
-        if (behind and _says(text[start + 1 : end], words)) or _REASON.match(text, start) is not None:
+        inside = text[start + 1 : end]
+        if (behind and (_says(inside, words) or _speaks(inside, words))) or _REASON.match(text, start) is not None:
             told = " ".join(text[start : end + 1].split())
             words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)
@@ -139,7 +149,16 @@ def _says(inside: str, words: Words) -> bool:
     match = _SENTENCE.match(inside)
     if match is None or match["first"].lower() in CHANGING or not _is_word(match["first"], words):
         return False
-    return match["second"] is None or _links(match["second"], words) or _is_word(match["second"], words)
+    if match["who"] or match["second"] is None:
+        return True
+    return _links(match["second"], words) or _is_word(match["second"], words)
+
+
+def _speaks(inside: str, words: Words) -> bool:
+    """Whether what stands in brackets is mostly words: (J about the centre of mass, so J + m l^2 about the pivot)."""
+    listed = _WORD.findall(inside)
+    said = sum(_links(x, words) or _is_word(x, words) for x in listed)
+    return said > MOST_NAMES and not moves(inside) and not any(x.lower() in CHANGING for x in listed)
 
 
 def without_lead(text: str, words: Words) -> str:
@@ -173,11 +192,16 @@ def _introduces(said: re.Match[str], words: Words) -> bool:
     if _is_word(name, words) and words.count(name) == 1:
         return False  # one side consists of words
     listed = [x.strip(".,") for x in said["words"].split()]
-    if any(x.lower() in CHANGING for x in listed):
+    if any(x.lower() in CHANGING and not _describes(listed[k + 1 :], words) for k, x in enumerate(listed)):
         return False
-    plain = [x.isdigit() or _links(x, words) or _is_word(x, words) for x in listed]
+    plain = [x.isdigit() or _links(x, words) or _is_word(x, words) or x.lower() in CHANGING for x in listed]
     between = [x in _ARTICLES and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(listed)]
     return any(_is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
+
+
+def _describes(after: Sequence[str], words: Words) -> bool:
+    """Whether a changing word belongs to a noun, half length a = L/2, and not to a value, half the length a."""
+    return bool(after) and not _links(after[0], words) and _is_word(after[0], words)
 
 
 def without_tail(text: str, words: Words, *, led: bool = False) -> str:
@@ -222,7 +246,7 @@ def _explains(said: str, words: Words) -> bool:
 
 def _links(written: str, words: Words) -> bool:
     """Whether this is a common word of English, German or French, and no name of the system or of the answer."""
-    return written.lower() in LINKING and not words.is_name(written)
+    return written.lower() in LINKING and not words.is_name(written) and not words.is_product(written)
 
 
 def is_prose(text: str, words: Words) -> bool:
@@ -262,6 +286,8 @@ def is_statement(text: str, words: Words) -> bool:
 
 def says_nothing(text: str, words: Words) -> bool:
     """Whether a part of a line consists of words; a note tells one with names or numbers: multiplier lambda."""
+    if _DONE_TO_ALL.match(text):
+        return True
     listed = _WORD.findall(text)
     if _SIGNS.search(text) or not any(_is_word(x, words) for x in listed):
         return False

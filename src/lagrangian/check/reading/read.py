@@ -10,12 +10,14 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
+from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
-from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
+from lagrangian.check.reading.lines import MAX_ERRORS, Lines
 from lagrangian.check.reading.listed_values import without_values
 from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
 from lagrangian.check.reading.parser import Parser
@@ -24,8 +26,9 @@ from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
+from lagrangian.check.reading.remarks import is_remark
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
-from lagrangian.check.reading.stands_for import with_stated_letters
+from lagrangian.check.reading.stands_for import with_stated_letters, with_variations
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
@@ -46,7 +49,7 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|[,;:$]|\bwhere|\bwith|\band"
+_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+\(|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
@@ -156,8 +159,12 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     def taken(name: str) -> bool:
         return bool(names.scope.meanings(name)[0])
 
-    tagless = without_tags(TracedText(text))
-    said = with_stated_letters(tagless, names.changes, taken, latex=bool(_LATEX.search(tagless.text)))
+    tagless = solved_matrices(without_tags(TracedText(text)))
+    if not _LATEX.search(tagless.text):
+        tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
+    said = with_stated_letters(
+        with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
+    )
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
     return on_one_line(plain)
@@ -218,17 +225,28 @@ def _parsed(
         start = row.start + len(row.text) - len(row.text.lstrip())
         written = row.text.strip() if latex is not None else with_points(row.text.strip())
         own = Source(written, source.what, source.place, partial(_place, source, latex, start))
+        whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
+        line = _line_at(source.text if latex is None else latex.text, row.start)
+        remark = partial(is_remark, whole, line, words_of)
         try:
-            found.append(_statement(own, parser, lines))
+            found.append(replace(_statement(own, parser, lines), remark=remark))
         except ParseError as error:
-            whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
             stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
+            if stated and error.code != "E703" and remark():
+                lines.remarks.append(error)
+                continue
             (errors if stated or error.code == "E703" else words).append(error)
             if len(errors) >= MAX_ERRORS or error.code == "E703":
                 break
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MAX_ERRORS]]
-    return found, errors if found or errors else words[:1], notes
+    return found, errors if found or errors or lines.remarks else words[:1], notes
+
+
+def _line_at(text: str, at: int) -> str:
+    """The line of a text in which a place is."""
+    end = text.find("\n", at + len(text[at:]) - len(text[at:].lstrip()))
+    return text[text.rfind("\n", 0, at + 1) + 1 : end if end >= 0 else len(text)]
 
 
 def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:

@@ -53,6 +53,8 @@ _LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–]")
 _STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
 _DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
+_LEFT_OUT = re.compile(r"=\s*(?:\.\.\.|…)\s*\Z")
+"""A side that is left out: p = ∂L/∂x' = …"""
 _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
@@ -218,7 +220,7 @@ def _remark(part: str) -> bool:
 
 
 def _continues(above: str, line: str) -> bool:
-    if _ends_open(above, line):
+    if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
     if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
         return True

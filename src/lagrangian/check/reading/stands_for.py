@@ -64,6 +64,17 @@ def with_stated_letters(
     return written.edited(sorted(edits))
 
 
+_VARIATION = re.compile(r"(?<![\w\\])delta[ \t_]?+(?=[^\W\d])")
+_VIRTUAL_WORK = re.compile(r"(?<![\w\\])delta[ \t_]?W(?!\w)")
+
+
+def with_variations(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x."""
+    if taken("delta") or _VIRTUAL_WORK.search(written.text) is None:
+        return written
+    return written.edited([(*match.span(), "δ") for match in _VARIATION.finditer(written.text)])
+
+
 def _statement(match: re.Match[str], *, latex: bool) -> str:
     """The statement that a sentence makes."""
     new, own = match["new"], match["own"]

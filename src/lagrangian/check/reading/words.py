@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from unicodedata import normalize
 
-from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.check.reading.names import COLUMNS, Names, spelled_rates
 from lagrangian.check.reading.splits import LONGEST, splits
 from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
@@ -115,6 +115,7 @@ class Words:
         if word in ("dot", "ddot", "diff", "Derivative") or _INDEXED.fullmatch(word):
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
+        named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
         return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
 
     def alone(self, word: str) -> bool:

@@ -1,0 +1,163 @@
+"""Lines about positions alone: θ = 0, a position at rest such as cos θ = g/(R Ω²), and approximations, sin θ = θ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+
+HIGHEST = 4
+"""The highest degree of an approximation: cos θ = 1 − θ²/2 + θ⁴/24."""
+
+DIGITS = 30
+STEPS = 40
+"""The most steps of Newton's method to a position."""
+
+FARTHEST = 50
+"""Beyond this value no position is sought."""
+
+STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) + sp.I / 5)
+
+
+def only_places(truth: Reference, expr: sp.Expr) -> set[AppliedUndef]:
+    """The coordinates of an expression that holds no rate and no other name that moves; nothing otherwise."""
+    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
+    places = {c.symbol for c in truth.model.coordinates}
+    return changing if changing <= places and not expr.has(sp.Derivative) else set()
+
+
+def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str | None:
+    """Why a line, as it is ``written``, with its difference ``expr``, is not about every motion; None if it is.
+
+    A position may be any, θ = 0, if a real one exists (not cos θ = 7), or one at rest: then a row at rest vanishes
+    where the line holds. An approximation holds to a higher order than its degree.
+    """
+    changing = only_places(truth, expr)
+    if "=" not in written or not changing or bounded.hard([expr], LONG):
+        return None
+    if _approximates(expr, changing):
+        return "it is about small motions"
+    if len(changing) > 1:
+        return None
+    (place,) = changing
+    return "it is about one position" if _is_chosen(expr, place) or _is_at_rest(truth, expr, place) else None
+
+
+LONG = 300
+"""The size of a line above which it is no position."""
+
+
+def _is_chosen(expr: sp.Expr, place: AppliedUndef) -> bool:
+    """Whether a coordinate has a value, or its sine or cosine one that exists; no letter multiplies it: not k x = 0."""
+    slope = expr.diff(place)
+    if not slope.free_symbols <= place.free_symbols:
+        return False
+    if not slope.has(place):
+        return slope != 0
+    functions = [f for f in _functions(expr, [place]) if isinstance(f, (sp.sin, sp.cos))]
+    if len(functions) != 1:
+        return False
+    (f,) = functions
+    size = cast("sp.Expr", sp.cancel(slope / f.diff(place)))
+    rest = bounded.expand(expr - size * f)
+    return bool(size.is_number and size != 0 and rest.is_number and abs(sp.N(rest / size)) <= 1)
+
+
+def _approximates(expr: sp.Expr, changing: Iterable[AppliedUndef]) -> bool:
+    """Whether a line with functions holds for small values to a higher order than the degree of its powers."""
+    symbols = list(changing)
+    terms = [cast("sp.Expr", x) for x in sp.Add.make_args(bounded.expand(expr))]
+    powers = [x for x in terms if not _functions(x, symbols)]
+    if not _functions(expr, symbols):
+        return len(powers) == 1 and powers[0].is_number is False and _degree(powers, symbols) > 1  # θ² = 0
+    degree = max(1, _degree(powers, symbols))
+    if degree > HIGHEST:
+        return False
+    size = sp.Dummy()
+    about = _middle(expr, symbols)
+    changed = cast("sp.Expr", expr.xreplace({q: about.get(q, sp.S.Zero) + size * q for q in symbols}))
+    for _ in range(degree + 1):
+        if bounded.expand(cast("sp.Expr", changed.xreplace({size: sp.S.Zero}))) != 0:
+            return False
+        changed = changed.diff(size)
+    return True
+
+
+def _functions(expr: sp.Expr, symbols: Iterable[AppliedUndef]) -> list[Any]:
+    """The sines, cosines and other functions of coordinates in an expression."""
+    return [f for f in expr.atoms(sp.Function) if not isinstance(f, AppliedUndef) and f.has(*symbols)]
+
+
+def _degree(terms: Iterable[sp.Expr], symbols: list[AppliedUndef]) -> int:
+    """The highest degree of the terms in the coordinates; beyond all approximations for what is no polynomial."""
+    try:
+        return max((sp.Poly(x, *symbols).total_degree() for x in terms), default=0)
+    except sp.PolynomialError:
+        return HIGHEST + 1
+
+
+def _middle(expr: sp.Expr, symbols: list[AppliedUndef]) -> dict[sp.Basic, sp.Expr]:
+    """About which value a single coordinate is small: sin(θ − β) = θ − β."""
+    if len(symbols) != 1:
+        return {}
+    (q,) = symbols
+    inside = cast("sp.Expr", _functions(expr, symbols)[0].args[0])
+    slope = inside.diff(q)
+    if slope.has(q) or slope == 0:
+        return {}
+    rest = cast("sp.Expr", inside.xreplace({q: sp.S.Zero}))
+    return {q: cast("sp.Expr", sp.cancel(-rest / slope))}
+
+
+def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
+    """Whether a row of the system at rest, with constant inputs, vanishes wherever the line holds."""
+    if not expr.diff(place).has(place):
+        return False  # k x = 0 may be meant as an equation of motion
+    if not all(isinstance(f, (sp.sin, sp.cos, sp.tan)) for f in _functions(expr, [place])):
+        return False
+    still: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
+    still |= {u.symbol: sp.Symbol(u.name) for u in truth.model.inputs}
+    rows = [cast("sp.Expr", row.xreplace(still)) for row in truth.rows]
+    rows = [row for row in rows if row.atoms(AppliedUndef) == {place}]
+    own = cast("sp.Expr", expr.xreplace(still))
+    names = sorted(own.free_symbols.union(*(row.free_symbols for row in rows)) - place.free_symbols, key=str)
+    table = {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
+    f, *balance = (cast("sp.Expr", x.xreplace(table)) for x in (own, *rows))
+    if any(_proportional(f, row, place) for row in balance):
+        return True
+    found = [root for start in STARTS if (root := _root(f, place, start)) is not None]
+    elsewhere = any(abs(root) > sp.Float(10) ** (10 - DIGITS) for root in found)
+    return elsewhere and any(all(_vanishes(row, place, root) for root in found) for row in balance)
+
+
+def _proportional(f: sp.Expr, row: sp.Expr, place: AppliedUndef) -> bool:
+    """Whether two expressions of numbers have the same ratio at several places."""
+    (a, b), *others = [[sp.N(x.xreplace({place: at}), DIGITS) for x in (f, row)] for at in STARTS]
+    return all(abs(a * d - b * c) <= sp.Float(10) ** (10 - DIGITS) * (abs(a * d) + abs(b * c)) for c, d in others)
+
+
+def _root(f: sp.Expr, place: AppliedUndef, start: sp.Expr) -> sp.Expr | None:
+    """A place where an expression of numbers is 0, perhaps a complex one, by Newton's method; None if none is found."""
+    slope, at = f.diff(place), sp.N(start, DIGITS)
+    for _ in range(STEPS):
+        values = [sp.N(x.xreplace({place: at}), DIGITS) for x in (f, slope)]
+        if not all(x.is_number and x.is_finite for x in values) or values[1] == 0:
+            return None
+        step = sp.N(values[0] / values[1], DIGITS)
+        at = sp.N(at - step, DIGITS)
+        if abs(at) > FARTHEST:
+            return None
+        if abs(step) < sp.Float(10) ** (5 - DIGITS):
+            return at
+    return None
+
+
+def _vanishes(row: sp.Expr, place: AppliedUndef, root: sp.Expr) -> bool:
+    """Whether a row is 0 at a place, compared with the largest of its terms."""
+    terms = [sp.N(x.xreplace({place: root}), DIGITS) for x in sp.Add.make_args(row)]
+    return bool(abs(sum(terms)) <= sp.Float(10) ** (10 - DIGITS) * max(abs(x) for x in terms))

@@ -1,0 +1,65 @@
+"""Matrices that an answer gives entry by entry, or moves to the other side: what programs and robotics write.
+
+M11 = a, M12 = M21 = b, M22 = c, and M*q'' + h = f          M = [M11, M12; M21, M22] is added
+q'' = M \\ f,  q'' = inv(M)*f,  q'' = M^-1 f                 M*(q'') = f
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from lagrangian.check.reading.traced_text import Edit, TracedText
+
+_ENTRY = re.compile(r"(?<![\w\\.])(?P<name>[A-Za-z])_?\{?(?P<place>[1-6]{1,2})\}?(?=\s*=(?!=))")
+_MATRIX = re.compile(r"(?<![\w\\.])([A-Za-z]\w{0,9})\s*=\s*\[")
+_SOLVED = re.compile(
+    r"^(?P<left>[^=\n]{1,200})=[ \t]*(?:inv\([ \t]*(?P<inv>[A-Za-z]\w{0,9})[ \t]*\)[ \t]*[*·]?"
+    r"|(?P<raised>[A-Za-z]\w{0,9})[ \t]*\^[ \t]*[({]?-1[)}]?[ \t]*[*·]?|(?P<under>[A-Za-z]\w{0,9})[ \t]*\\)"
+    r"[ \t]*(?P<right>[^=\n;]{1,400}?)[ \t]*;?[ \t]*$",
+    re.MULTILINE,
+)
+_ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
+
+MOST = 6
+"""The most rows of a matrix that is given entry by entry."""
+
+
+def solved_matrices(written: TracedText) -> TracedText:
+    """Return an answer in which the matrix stands on the left that was inverted on the right.
+
+    Only a single factor may be behind an inverse with a sign of multiplication; all that is behind ``\\`` is divided.
+    """
+    given = set(_MATRIX.findall(written.text))
+    edits: list[Edit] = []
+    for match in _SOLVED.finditer(written.text):
+        name = match["inv"] or match["raised"] or match["under"]
+        if name in given and _ONE_FACTOR.fullmatch(match["right"]) is not None:
+            edits.append((*match.span(), f"{name}*({match['left'].strip()}) = {match['right']}"))
+    return written.edited(edits)
+
+
+def entered_matrices(written: TracedText, count: int, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer with a statement in front for each matrix, or column, that is given entry by entry and used.
+
+    ``count`` is the number of coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is
+    added, which is used in front of a column, M*q'' or M*[x''; y''].
+    """
+    if not 2 <= count <= MOST:
+        return written
+    found: dict[str, dict[str, str]] = {}
+    for match in _ENTRY.finditer(written.text):
+        found.setdefault(match["name"], {}).setdefault(match["place"], match.group().strip())
+    given = set(_MATRIX.findall(written.text))
+    numbers = [str(k + 1) for k in range(count)]
+    added: list[str] = []
+    for name, entries in found.items():
+        if name in given:
+            continue
+        rows = [[entries.get(i + j) for j in numbers] for i in numbers]
+        column = [entries.get(i) for i in numbers]
+        if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}[ \t]*[*·]?[ \t]*(?:\[|q|\\)", written.text):
+            added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
+        elif all(column) and not taken(name) and re.search(rf"(?<![\w\\]){name}(?![\w(])[ \t]*(?:=|$)", written.text):
+            added.append(f"{name} = [" + "; ".join(map(str, column)) + "]\n")
+    return written.edited([(0, 0, "".join(added))] if added else [])
