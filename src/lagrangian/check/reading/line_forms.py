@@ -11,8 +11,10 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Value
+from lagrangian.check.reading.nodes import start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
@@ -69,3 +71,12 @@ def matrix_rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[
         a, b = (f"{s[0]} × {s[1]}" for s in (both[0].shape, both[1].shape))
         reader.fail(f"the left side is {a}, the right side {b}", node, fix="give both sides the same number of rows")
     return list(zip(both[0], both[1], strict=True))
+
+
+def made_line(
+    kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
+) -> AnswerLine:
+    """Make the line; its place is that of its first side."""
+    source = reader.source
+    start = min(start_of(a), start_of(b))
+    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))

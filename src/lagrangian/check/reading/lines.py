@@ -12,7 +12,15 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import AnswerLine, Kind
-from lagrangian.check.reading.line_forms import Statement, accelerates, is_general, matrix_rows, solves, together
+from lagrangian.check.reading.line_forms import (
+    Statement,
+    accelerates,
+    is_general,
+    made_line,
+    matrix_rows,
+    solves,
+    together,
+)
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
 from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
@@ -62,7 +70,6 @@ class Lines:
         self._made: dict[int, list[AnswerLine]] = {}
         self._chain = 0
         self._matrices: set[str] = set()
-        self._solved: set[int] = set()
         self.remarks: list[ParseError] = []
         """The errors of lines of words, which matter only if the equations beside them are not complete."""
 
@@ -187,8 +194,6 @@ class Lines:
         self._made[i] = lines
         self.names.moving, self.names.matrices, self.names.statement = above
 
-    # -- lines ---------------------------------------------------------------------------------------------------------
-
     def _about(self, subject: Subject, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         lines: list[AnswerLine] = []
         above: Value = None
@@ -207,7 +212,7 @@ class Lines:
             elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
                 lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0
             elif above is not None and subject.kind == "p-rate" and accelerates(above) and not accelerates(value):
-                lines.append(self._make("equation", above, value, None, side, side, reader))  # d/dt ∂L/∂x' = m x'' = F
+                lines.append(made_line("equation", above, value, None, side, side, reader))  # d/dt ∂L/∂x' = m x'' = F
             else:
                 lines.append(self._stated(subject, value, sides, side, reader))
             above = value
@@ -251,9 +256,9 @@ class Lines:
         if is_general(value):
             if any(not is_placeholder(x) for x in value.atoms(AppliedUndef)):
                 self._not_judged(reader, "an energy in it has no value")  # L = T - V + λ (x² + y² - l²)
-            return self._make("statement", None, value, None, sides[0], side, reader)
+            return made_line("statement", None, value, None, sides[0], side, reader)
         if kind in ENERGIES and (given := self._parameter(sides[0], value)) is not None:
-            return self._make("given", None, value, given, sides[0], side, reader)
+            return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
             self.names.stated[kind] = value
             if subject.token is not None and energy_of(subject.token, self.model) is None:
@@ -263,7 +268,7 @@ class Lines:
             if self.subjects.equates(subject, value, self._equal):
                 left = reader.value(sides[0])
                 left = sp.S.Zero if is_label_of_equation(subject) else left
-                return self._make("equation", left, value, None, sides[0], side, reader)
+                return made_line("equation", left, value, None, sides[0], side, reader)
             self._define(subject, value)
             self._used_nowhere(subject, reader)
         elif kind == "identity":
@@ -272,8 +277,8 @@ class Lines:
                 kind = "equation"
         elif kind == "Xi" and accelerates(value):
             assert name is not None
-            return self._make("equation", value, generalized_force(name), None, sides[0], side, reader)
-        return self._make(kind, lhs, value, name, sides[0], side, reader)
+            return made_line("equation", value, generalized_force(name), None, sides[0], side, reader)
+        return made_line(kind, lhs, value, name, sides[0], side, reader)
 
     def _define(self, subject: Subject, value: sp.Expr) -> None:
         assert subject.token is not None
@@ -321,7 +326,7 @@ class Lines:
         if not isinstance(above, MatrixBase) or above.shape != value.shape:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         return [
-            self._make("identity", a, b, None, side, side, reader)
+            made_line("identity", a, b, None, side, side, reader)
             for a, b in zip(above.flat(), value.flat(), strict=True)
         ]
 
@@ -358,16 +363,16 @@ class Lines:
         kind: Kind = "equation"
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
-                return self._make("left", None, value, subject.name, a, b, reader)
+                return made_line("left", None, value, subject.name, a, b, reader)
         if is_general(left) or is_general(right):
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
                 self._unjudged(left, right, reader)
         elif (found := only_name(a)) is not None and not found[1] and self._change(found[0], right):
-            return self._make("definition", None, right, str(found[0]), a, b, reader)
+            return made_line("definition", None, right, str(found[0]), a, b, reader)
         elif (given := self._parameter(a, right) or self._parameter(b, left)) is not None:
-            return self._make("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
-        return self._make(kind, left, right, None, a, b, reader)
+            return made_line("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
+        return made_line(kind, left, right, None, a, b, reader)
 
     def _not_judged(self, reader: Meaning, why: str) -> None:
         """Tell that a statement is not judged."""
@@ -393,12 +398,3 @@ class Lines:
             return False
         new = {u.symbol for u in self.names.unknown.values() if isinstance(u.symbol, AppliedUndef)}
         return bool(value.atoms(AppliedUndef) & new) and not value.has(sp.Derivative)
-
-    @staticmethod
-    def _make(
-        kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
-    ) -> AnswerLine:
-        """Make the line; its place is that of its first side."""
-        source = reader.source
-        start = min(start_of(a), start_of(b))
-        return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
