@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from lagrangian.quantities.source import shown
 from lagrangian.read.robots.markup import Tag
+from lagrangian.read.robots.mjcf_sites import site_named
 from lagrangian.read.robots.mjcf_tags import Orientations
 from lagrangian.read.robots.robot import RobotActuator, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, Vector
@@ -167,7 +168,7 @@ class Actuators:
         target: str | RobotSite | RobotTendon
         name, gear = tag.get(key) or "", law.gear
         if key == "site":
-            target = self._site(tag, name)
+            target = site_named(tag, key, self.sites, self.orientations)
             if tag.get("refsite") is not None or by_length or by_rate:
                 return "its effort depends on how its site moves"
             if not self._moves(target.link):
@@ -189,16 +190,6 @@ class Actuators:
         words = ", ".join(text for _, text in law.ranges)
         in_parent = key == "jointinparent"
         return RobotActuator(tag.get("name") or "", target, tag.place, gear, gain, bias, in_parent, words)
-
-    def _site(self, tag: Tag, name: str) -> RobotSite:
-        """The site with a name."""
-        if name not in self.sites:
-            tag.unknown("site", name, self.sites, "site")
-        found, link = self.sites[name]
-        found.read = True
-        if found.get("fromto") is not None:
-            raise found.error("'fromto' of a site is not supported", "write pos and quat", "E405", "fromto")
-        return RobotSite(link, self.orientations.pose(found))
 
     def _moves(self, link: str) -> bool:
         """Whether any joint moves a link."""

@@ -13,6 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from lagrangian.read.robots.markup import Tag
+from lagrangian.read.robots.mjcf_sites import site_named
 from lagrangian.read.robots.mjcf_tags import Orientations
 from lagrangian.read.robots.robot import RobotEquality, RobotJoint, RobotSite
 from lagrangian.read.robots.rotations import ZERO, FixedPose
@@ -54,7 +55,7 @@ class Equalities:
             fix = "connect, weld and joint are read; describe others with system.constraint after loading"
             raise tag.error(f"<{tag.name}> among the equalities is not supported", fix, "E405")
         if tag.get("site1") is not None or tag.get("site2") is not None:
-            first, second = self._site(tag, "site1"), self._site(tag, "site2")
+            first, second = (site_named(tag, key, self.sites, self.orientations) for key in ("site1", "site2"))
         else:
             first, second = self._bodies(tag)
         kind = "weld" if tag.name == "weld" else "connect"
@@ -92,16 +93,6 @@ class Equalities:
         if name != self.world and name not in self.carrying:
             tag.unknown("body", name, [self.world, *self.carrying], key)
         return name
-
-    def _site(self, tag: Tag, key: str) -> RobotSite:
-        name = tag.word(key, "tip")
-        if name not in self.sites:
-            tag.unknown("site", name, self.sites, key)
-        found, link = self.sites[name]
-        found.read = True
-        if found.get("fromto") is not None:
-            raise found.error("'fromto' of a site is not supported", "write pos and quat", "E405", "fromto")
-        return RobotSite(link, self.orientations.pose(found))
 
     def _at_start(self, link: str) -> FixedPose:
         """Where a link is at the pose that the file describes: no joint has moved."""
