@@ -68,9 +68,15 @@ class Derivation(Guided, derive.Derived):
         `lagrangian.Compiled` with its formulas and with those equations; the exported Python and C by running them; the
         linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
         checked on this machine, such as C without a compiler. ``exports``: the exports to other programs are run in
-        them as well, where they are installed. Raises `ModelError` if ``states`` is not a valid number.
+        them as well, where they are installed, and the checklist as text, Markdown and LaTeX is read back. Raises
+        `ModelError` if ``states`` is not a valid number.
         """
         found = verify_lines(self, states=states, seed=seed)
+        if exports and self.form == "expanded":
+            from lagrangian.check.printed import printed_checks
+
+            formats = {"text": self.to_text, "Markdown": self.to_markdown, "LaTeX": self.to_latex}
+            found += printed_checks(self, {name: write(brief=True) for name, write in formats.items()})
         return (*found, *verify_compiled(self.model, states=states, seed=seed, exports=exports))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:

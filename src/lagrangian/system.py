@@ -112,7 +112,8 @@ class System(Designed):
         This covers the derived equations, the compiled functions, the exported source and the linearization: see
         `Derivation.verify`. Of a floating system without derived equations (all of its energies are given
         directly) everything else is checked.
-        ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed.
+        ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed, and
+        the printed checklist is read back.
         """
         from lagrangian.values.values import check_sampling
 

@@ -12,6 +12,7 @@ import sympy as sp
 
 from built_in import LARGE, derivation
 from lagrangian import Derivation, check, examples
+from lagrangian.check.printed import printed_checks
 from lagrangian.check.reading import parse_answer
 from size import rest_slow
 
@@ -81,6 +82,18 @@ def test_what_is_printed_of_all_examples_is_right(turn: int, name: str) -> None:
     own = derivation(name)
     for what, text in (*pages(own, turn), *printed(own)):
         assert is_right(judged(own, text)), (what, text)
+
+
+def test_verification_reads_the_pages_back_and_notices_a_fraction_turned_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = derivation("duffing")
+    pages = {"text": own.to_text(brief=True), "LaTeX": own.to_latex(brief=True)}
+    assert [c.holds for c in printed_checks(own, pages)] == [True, True]
+    wrong = {"text": pages["text"].replace("/4", "/3").replace("¼", "⅓"), "LaTeX": pages["LaTeX"].replace("{4}", "{3}")}
+    assert wrong["text"] != pages["text"] and wrong["LaTeX"] != pages["LaTeX"]
+    checks = printed_checks(own, wrong)
+    assert [c.holds for c in checks] == [False, False] and "lines differ" in checks[0].figure
+    (unread,) = printed_checks(own, {"text": "x = ) ("})
+    assert unread.holds is None and "not read back" in unread.figure
 
 
 def test_matrices_that_are_drawn_are_read() -> None:

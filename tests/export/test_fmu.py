@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import xml.etree.ElementTree as ET
 import zipfile
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
 
@@ -15,10 +16,12 @@ from foreign import holds
 
 import built_in
 import lagrangian as lg
-from lagrangian import examples
+from lagrangian import dynamics, examples
 from lagrangian.export import exported_files
-from lagrangian.export.fmu import archive
+from lagrangian.export.fmu import archive, description
 from lagrangian.export.start import start_of
+from lagrangian.verify.foreign.checks import foreign_checks
+from lagrangian.verify.states import random_states
 
 needs_fmpy = pytest.mark.skipif(
     find_spec("fmpy") is None or shutil.which("cc") is None, reason="FMPy or a C compiler is not installed"
@@ -125,6 +128,15 @@ def test_starts_parameters_and_inputs_can_be_set(tmp_path: pathlib.Path) -> None
         for kind in ("CoSimulation", "ModelExchange"):
             found = run(path, kind, 0.5, names, start_values={"theta": 0.3, "m": 0.4}, input=signal)
             np.testing.assert_allclose(found, ours.y[:, -1], rtol=0, atol=1e-9 * np.abs(ours.y).max(), err_msg=kind)
+
+
+@pytest.mark.slow
+@needs_fmpy
+def test_an_fmu_that_says_other_values_of_parameters_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    model, plain = built_in.system("pendulum").model, description._attributes2
+    monkeypatch.setattr(description, "_attributes2", lambda v: plain(replace(v, start=v.start and 1.5 * v.start)))
+    (check,) = foreign_checks(model, list(random_states(model, dynamics.forward(model), 1, 1)), ["fmu2"])
+    assert check.holds is False and "parameters start at other values" in check.figure
 
 
 @needs_fmpy

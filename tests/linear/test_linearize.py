@@ -1,6 +1,7 @@
 """A, B, C, D against difference quotients of 50 digits, python-control and published figures."""
 
 import json
+import re
 from typing import Any
 
 import mpmath
@@ -15,7 +16,7 @@ from lagrangian import dynamics
 from lagrangian.cli import main
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
-from lagrangian.page.figures import figure
+from lagrangian.page.figures import complex_figure, figure
 
 DIGITS = 50
 STEP = mpmath.mpf(10) ** -15
@@ -356,3 +357,22 @@ def test_a_regulator_writes_itself() -> None:
 def test_a_pole_in_a_sentence_has_the_minus_sign_of_the_tables() -> None:
     told = built_in("pendulum").linearize(params={"b": 0.1}).stability
     assert told.reason == "all poles have negative real parts, the slowest is −0.2 ± 4.42493i"
+
+
+def test_what_is_written_of_a_linearization_is_what_was_computed() -> None:
+    """Data, the matrices of the page and the table of poles, read back: no entry transposed, no sign lost."""
+    found = built_in("cart-pole").linearize({"theta": 0})
+    data = found.to_dict()
+    for name, key in (("A", "A"), ("B", "B"), ("C", "C"), ("D", "D"), ("mass", "mass"), ("stiffness", "stiffness")):
+        assert data[key] == getattr(found, name).tolist(), key
+    assert [complex(z["re"], z["im"]) for z in data["poles"]] == found.poles.tolist()
+    modes = [(m["frequency"], complex(m["pole"]["re"], m["pole"]["im"])) for m in data["modes"]]
+    assert modes == [(m.frequency, m.pole) for m in found.modes]
+    page = found.to_latex()
+    for name in ("A", "B", "C"):
+        (rows,) = re.findall(rf"mathbf{{{name}}} = \\begin{{bmatrix}} (.*?) \\end{{bmatrix}}", page, flags=re.S)
+        read = [[float(x) for x in row.split("&")] for row in rows.split(r"\\")]
+        assert np.allclose(read, getattr(found, name), rtol=1e-5, atol=1e-12), name
+    for z in (-3.5 + 0j, 2j, -1.25 - 0.5j, 0.125 + 8j, 0j):
+        shown = complex_figure(z).replace("−", "-").replace(" ", "").replace("i", "j")
+        assert complex(shown) == z

@@ -30,7 +30,7 @@ FORWARD = "the compiled accelerations solve Lagrange's equations"
 HESSIAN = "the compiled M is the Hessian of T* in the rates"
 PYTHON, C = "the exported Python gives the same numbers", "the exported C gives the same numbers"
 JAVASCRIPT = "the exported JavaScript gives the same numbers"
-SLOPES = "the linearization's A and B equal difference quotients of these rates"
+SLOPES = "the linearization's A and B, along a run, too, equal difference quotients of these rates"
 DERIVED_FORWARD = "the compiled accelerations solve the equations"
 DERIVED_MASS = "the compiled M is the one above, and the Hessian of T* in the rates"
 DERIVED_ENERGIES = "the compiled energies are T* and V"
@@ -390,6 +390,19 @@ def test_a_wrong_linearization_is_noticed(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(jacobians, "jacobian", wrong)
     assert failing(crane().verify(states=2)) == {SLOPES}
+
+
+def test_a_wrong_linearization_along_a_run_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = slopes.linearize_along
+    monkeypatch.setattr(slopes, "linearize_along", lambda *given, **named: off(plain(*given, **named)))
+
+    def off(found: Any) -> Any:
+        return replace(found, A=found.A * 1.001)
+
+    model = crane().model
+    functions = Compiled(model)
+    states = list(random_states(model, functions.program("forward"), 1, 1))
+    assert slopes.slopes(model, functions.rhs, states).holds is False
 
 
 def test_slopes_at_kinks_are_passed_over_and_said_where_none_is_left() -> None:

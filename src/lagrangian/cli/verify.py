@@ -18,7 +18,11 @@ def verify(
     ] = 100,
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the random states.")] = 1,
     exports: Annotated[
-        bool, typer.Option("--exports", help="Also run exports in Octave and other programs that are installed.")
+        bool,
+        typer.Option(
+            "--exports",
+            help="Also run exports in Octave and other programs that are installed, and read the printed page back.",
+        ),
     ] = False,
     format: FormatOption = None,
     json: Json = False,

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import Error, RunError
+from lagrangian.linear.along import MotionLinearization, linearize_along
 from lagrangian.linear.linearize import linearize
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
-from lagrangian.verify.states import State
+from lagrangian.verify.states import State, relative
 
 Array: TypeAlias = NDArray[np.float64]
 Moved: TypeAlias = Callable[[dict[str, list[float]]], dict[str, list[float]] | None]
@@ -38,7 +39,8 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
     leaves O(h⁶). A state where two extrapolations differ by more than `SETTLED`, as across a kink, is skipped. With
     ``onto``, which moves a state onto the rows of constraints, x is varied along the constraints alone.
     """
-    what = text("the linearization's ", Name("A"), " and ", Name("B"), " equal difference quotients of these rates")
+    A, B = Name("A"), Name("B")
+    what = text("the linearization's ", A, " and ", B, ", along a run, too, equal difference quotients of these rates")
     worst, points, refused = 0.0, 0, ""
     for state in states:
         if points == POINTS:
@@ -51,9 +53,11 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
         basis = None if onto is None else found.basis
         try:
             quotients, doubt = _quotients(rhs, state, basis, onto)
+            along = _along(model, state)
         except Error as error:
             refused = refused or error.what
             continue
+        whole = quotients
         if basis is not None:
             quotients = quotients[[list(found.at).index(name) for name in found.states]]
         elif found.back is not None:  # of the minimal states of floating frames
@@ -64,6 +68,10 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
             kept, m = [list(found.at).index(name) for name in found.states], len(found.at)
             quotients = np.hstack([quotients[kept, :m] @ found.basis, quotients[kept, m:]])
         exact = np.hstack([found.A, found.B])
+        if along.basis is None:  # the states of a run are all coordinates and rates
+            worst = float(np.maximum(worst, relative(np.hstack([along.A[0], along.B[0]]) - whole, whole)))
+        elif along.states == found.states:
+            worst = float(np.maximum(worst, relative(np.hstack([along.A[0], along.B[0]]) - quotients, quotients)))
         size = float(np.max(np.abs(quotients), initial=0.0)) or 1.0
         if not doubt < SETTLED * size:
             refused = refused or "the difference quotients do not settle"
@@ -86,6 +94,16 @@ def linearized(model: Model, state: State) -> Any:
         params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
         time=state["t"][0],
         operating_point=True,
+    )
+
+
+def _along(model: Model, state: State) -> MotionLinearization:
+    """The linearization along a run of one sample, at a state."""
+    return linearize_along(
+        model,
+        (state["t"], [[*state["q"], *state["v"]]]),
+        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
+        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
     )
 
 

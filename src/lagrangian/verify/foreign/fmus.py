@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from lagrangian.graph import Program
-from lagrangian.verify.foreign.runs import Answers, MissingError, parted, run, stacked, written
+from lagrangian.verify.foreign.runs import Answers, MissingError, declared, parted, run, stacked, written
 from lagrangian.verify.states import State
 
 ASKED = ("rhs", "energy", "multipliers")
@@ -24,6 +24,7 @@ import numpy as np
 from fmpy.validation import validate_fmu
 
 groups = {name: np.array(values, float) for name, values in json.load(sys.stdin).items()}
+declared = groups.pop("declared").tolist()
 problems = validate_fmu("STEM.fmu")
 if problems:
     sys.exit("error: " + problems[0])
@@ -42,6 +43,10 @@ fmu.enterContinuousTimeMode()
 
 def references(*causalities):
     return [v.valueReference for v in description.modelVariables if v.causality in causalities]
+
+said = [float(v.start) for v in description.modelVariables if v.causality == "parameter"]
+if said != declared or list(get(references("parameter"))) != declared:
+    sys.exit("error: parameters start at other values than those of the model")
 
 size = groups["x"].shape[1]
 sizes = {"rhs": range(size + 1, 2 * size + 1)}
@@ -75,7 +80,8 @@ def fmu_answers(
     if b"binaries/" not in (folder / f"{stem}.fmu").read_bytes():
         raise MissingError("no C compiler was found, so the FMU has no binary")
     (folder / "call_all.py").write_text(_CODE.replace("STEM", stem), encoding="utf-8")
-    given = json.dumps({name: values.tolist() for name, values in stacked(states).items()})
-    run([sys.executable, "-W", "ignore", "call_all.py"], folder, given)
+    given = {name: values.tolist() for name, values in stacked(states).items()}
+    given["declared"] = declared(programs["rhs"])
+    run([sys.executable, "-W", "ignore", "call_all.py"], folder, json.dumps(given))
     asked = {name: programs[name] for name in ASKED if name in programs}
     return parted(np.fromfile(folder / "answers.bin"), asked, len(states))

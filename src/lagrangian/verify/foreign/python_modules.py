@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from lagrangian.graph import Program
-from lagrangian.verify.foreign.runs import Answers, MissingError, parted, run, stacked, written
+from lagrangian.verify.foreign.runs import Answers, MissingError, declared, parted, run, stacked, written
 from lagrangian.verify.states import State
 
 _HEAD = """\
@@ -22,8 +22,10 @@ import numpy as np
 found = []
 """
 _JOBS = """\
-for stem, wanted, given in json.load(sys.stdin):
+for stem, wanted, given, declared in json.load(sys.stdin):
     made = importlib.import_module(stem)
+    if list(getattr(made, "PARAMETERS", ())) != declared:
+        sys.exit("error: PARAMETERS has other values than the parameters of the model")
     groups = {name: np.array(values, float) for name, values in given.items()}
     for name, arguments in wanted:
         found += called(getattr(made, name), [groups[x] for x in arguments], arguments)
@@ -91,6 +93,7 @@ def _called(needed: str, code: str, jobs: Sequence[Job], folder: Path) -> list[A
         written(files, folder)
         wanted = [[f"{stem}_{name}", list(program.inputs)] for name, program in programs.items()]
         given.append([stem, wanted, {name: values.tolist() for name, values in stacked(states).items()}])
+        given[-1].append(declared(next(iter(programs.values()))))
     (folder / "call_all.py").write_text(code, encoding="utf-8")
     run([sys.executable, "-W", "ignore", "call_all.py"], folder, json.dumps(given))
     numbers, found = np.fromfile(folder / "answers.bin"), list[Answers]()

@@ -36,6 +36,12 @@ def stacked(states: Sequence[State]) -> dict[str, Array]:
     return {**found, "x": np.concatenate([found["q"], found["v"]], axis=1)}
 
 
+def declared(program: Program) -> list[float]:
+    """The values of the parameters that a file declares; none if one of them has no value."""
+    values = [program.defaults.get(name) for name in program.inputs["p"]]
+    return [] if None in values else [float(x) for x in values if x is not None]
+
+
 def written(files: Mapping[str, str | bytes], folder: Path) -> None:
     """Write exported files into a folder."""
     for name, content in files.items():
