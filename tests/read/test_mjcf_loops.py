@@ -119,6 +119,23 @@ def test_equalities_are_constraints_with_the_accelerations_that_hold_mujocos_row
     assert max(np.abs(np.array(x)).max() for x in held.values()) < 1e-12
 
 
+@pytest.mark.parametrize(
+    "held",
+    ['<weld body1="a"/>', '<weld body1="world" body2="a"/>', '<weld site1="s" site2="t"/>'],
+)
+def test_what_is_welded_to_the_world_stays(held):
+    text = """<mujoco><worldbody><site name="t" pos="1 0 1.2" euler="0 0 90"/>
+    <body name="a" pos="1 0 1" euler="0 0 30"><freejoint/><geom type="box" size=".1 .2 .3"/>
+    <site name="s" pos="0 0 .2" euler="0 0 60"/></body></worldbody><equality>HELD</equality></mujoco>"""
+    model = lg.loads(text.replace("HELD", held)).model
+    p, program = [x.value for x in model.parameters], dynamics.forward(model)
+    q = [1, 0, 1, 0, 0, np.sin(np.pi / 12), np.cos(np.pi / 12)]
+    given = {"q": q, "v": np.zeros(6), "u": [], "p": p, "t": [0.0]}
+    assert np.abs(evaluate(program, given)["a"]).max() < 1e-12
+    residual = dynamics.residual(model)
+    assert np.abs(evaluate(residual, {key: given[key] for key in residual.inputs})["f"]).max() < 1e-12
+
+
 def test_what_holds_and_what_does_not_is_told():
     said = " ".join(notice.text for notice in lg.loads(LOOPS).notices)
     for part in (

@@ -37,7 +37,8 @@ class Loops:
         if given.kind == "connect":
             self.builder.add(Ball(between=between, name=name, place=place))
         else:
-            bodies = tuple(self._axes(x, at, key, place) for x, (at, key) in zip((first, second), ends, strict=True))
+            axes = [self._axes(x, at, key, place) for x, (at, key) in zip((first, second), ends, strict=True)]
+            bodies = tuple(frame for frame in axes if frame is not None)  # the ground needs no name
             self.builder.add(Weld(between=between, bodies=bodies, name=name, place=place))
         return f"{name} ({given.kind} {first.link} to {second.link})"
 

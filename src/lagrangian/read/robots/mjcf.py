@@ -133,13 +133,13 @@ class Reader:
         return cls(defaults, orientations, gravity, masses, total)
 
     def below(self, tag: Tag, parent: str, inherited: str) -> None:
-        """Read the bodies within a tag, whose class of defaults they inherit."""
+        """Read the sites of a link and the bodies within its tag, whose class of defaults they inherit."""
+        for site in (x for x in tag.children if x.name == "site" and x.attributes.get("name")):
+            self.sites[self._new(site, site.attributes["name"], self.sites, "site")] = site, parent
         for body in tag.all("body"):
             _check_supported(body)
             own = body.get("childclass") or inherited
             name = self._new(body, body.get("name") or f"body{len(self.links)}", self.links, "body")
-            for site in (x for x in body.children if x.name == "site" and x.attributes.get("name")):
-                self.sites[self._new(site, site.attributes["name"], self.sites, "site")] = site, name
             self._chain(body, name, parent, own)
             self.below(body, name, own)
 
