@@ -21,6 +21,9 @@ _SOLVED = re.compile(
 )
 _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
 
+_COLUMN = r"[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
+"""What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
+
 MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 
@@ -58,7 +61,7 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
             continue
         rows = [[entries.get(i + j) for j in numbers] for i in numbers]
         column = [entries.get(i) for i in numbers]
-        if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}[ \t]*[*·]?[ \t]*(?:\[|q|\\)", written.text):
+        if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}{_COLUMN}", written.text):
             added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
         elif all(column) and not taken(name) and re.search(rf"(?<![\w\\]){name}(?![\w(])[ \t]*(?:=|$)", written.text):
             added.append(f"{name} = [" + "; ".join(map(str, column)) + "]\n")
