@@ -29,7 +29,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.neighbours import BESIDE, Changing, Function, Neighbourhood, quotient, resolved
 from lagrangian.verify.on_rows import OnRows
-from lagrangian.verify.slopes import POINTS, TOLERANCE
+from lagrangian.verify.slopes import MOST_NODES, POINTS, TOLERANCE
 from lagrangian.verify.states import State, evaluated, relative
 
 Array: TypeAlias = NDArray[np.float64]
@@ -38,10 +38,6 @@ Rates: TypeAlias = Callable[[Array, float], Array]
 
 ROUNDING = 1e-9
 """Two numbers are equal if their difference, relative to the largest term, is at most this."""
-
-MOST_NODES = 4000
-"""The largest right-hand side, in nodes of its graph, whose derivatives are compiled here: they have several times as
-many, and compiling them would take most of the time of a verification."""
 
 STEP = 1e-2
 """The length of a step [s] where nothing changes faster than by 1 a second; shorter elsewhere."""
@@ -75,7 +71,7 @@ def changes(functions: Changing, model: Model, states: Sequence[State]) -> Itera
     rhs = dynamics.rhs(model)
     nodes = len(reached(rhs.graph, rhs.ids))
     places = [Neighbourhood(model, state, k) for k, state in enumerate(states)]
-    if model.constraints:
+    if model.constraints and nodes <= MOST_NODES:
         onto = OnRows(model)
         for place in places:
             place.kept_on_rows(functions, onto)
