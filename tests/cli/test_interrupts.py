@@ -92,6 +92,18 @@ cli.run()
 """
 
 
+def test_an_interrupt_before_the_watching_thread_runs_is_one_line() -> None:
+    code = """
+import signal, threading
+signal.signal(signal.SIGINT, signal.default_int_handler)
+threading.Thread.start = lambda thread: signal.raise_signal(signal.SIGINT)
+from lagrangian import cli
+cli.run()
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+
+
 @pytest.mark.parametrize(
     "work",
     [

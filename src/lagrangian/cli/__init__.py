@@ -17,8 +17,8 @@ SIGPIPE."""
 
 def run() -> NoReturn:
     """Run the command and exit with its exit code: the entry point of the installed command."""
-    interrupts.listen()
     try:
+        interrupts.listen()
         code = main()
     except BaseException:
         if not interrupts.came:
