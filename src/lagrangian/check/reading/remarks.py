@@ -17,10 +17,12 @@ _WORD = re.compile(r"[^\W\d_]+")
 _DOTS = re.compile(r"\.\.\.|…|⋯|\\[lc]?dots")
 _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|\\ddot|ddot|(?<=\w)dd\b|\bD\(\s*\w+\s*,\s*\w+\s*,\s*\w|[∂d]\s?(?:\^\{?2|²|2)|"
-    r"\b[Dd]iff\w*\([^\n]*2|\bDerivative\b"
+    r"\b[Dd]iff\w{0,9}\([^\n]{0,60}2|\bDerivative\b"
 )
+_TWICE = r"(?:\^?2|²)?"
 _OPERATOR = re.compile(
-    r"[\s(]*+(?:dd?ot|d{1,2}|['’′]{1,2}|[\"″˙¨])\s*(?::\s?=|=)\s*(?:\(?\s*)?d\s?(?:\^?2|²)?\s?/\s?\(?dt\s?(?:\^?2|²)?[\s).;,]*"
+    r"[\s(]*+(?:dd?ot|d{1,2}|['’′]{1,2}|[\"″˙¨])\s*+:?\s?=\s*+\(?\s?"
+    rf"d\s?{_TWICE}\s?/\s?\(?dt\s?{_TWICE}[\s).;,]*+"
 )
 """How derivatives are spelled: dot = d/dt, '' = d²/dt²."""
 _NAMED = re.compile(r"(?<![\w/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?![=>])")
