@@ -49,7 +49,7 @@ LONGEST_NAME = 3
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+\(|[,;:$]|\bwhere|\bwith|\band"
+_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")

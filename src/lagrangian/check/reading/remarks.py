@@ -25,7 +25,7 @@ _OPERATOR = re.compile(
     rf"d\s?{_TWICE}\s?/\s?\(?dt\s?{_TWICE}[\s).;,]*+"
 )
 """How derivatives are spelled: dot = d/dt, '' = d²/dt²."""
-_NAMED = re.compile(r"(?<![\w/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?![=>])")
+_NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?![=>])")
 """A name alone in front of an equals sign."""
 
 LEAST = 2
