@@ -42,6 +42,19 @@ def tension(run: lg.Trajectory) -> np.ndarray:
     return MASS * GRAVITY * cosine + MASS * speed**2 / LENGTH
 
 
+def test_an_event_named_like_a_row_is_where_its_force_vanishes() -> None:
+    """Thrown up at v₀, the bob is free where v²/l = g sin of its height: v₀² − 2 g (y − y₀) = g y, for l as a rope."""
+    speed = 7.0
+    given = {**start(), "x'": speed * np.cos(START), "y'": speed * np.sin(START)}
+    slack = lg.event("rod", direction=1, terminal=True, name="slack")
+    up = pendulum().simulate(2.0, initial=given, events=slack, samples=5)
+    height = (speed**2 + 2 * GRAVITY * start()["y"]) / (3 * GRAVITY)
+    assert up.events["slack"].y[1] == pytest.approx([height], abs=1e-9)
+    assert "event 'slack' ended the run" in up.message and abs(up["rod"][-1]) < 1e-9
+    with pytest.raises(lg.ModelError, match="no quantity and no constraint row 'rodd'"):
+        pendulum().simulate(1.0, initial=given, events=lg.event("rodd"))
+
+
 def test_a_row_by_name_is_its_multiplier_and_the_tension_its_negative(run: lg.Trajectory) -> None:
     assert -run["rod"] == pytest.approx(tension(run), abs=1e-11)
     assert np.array_equal(run.multipliers["rod"], run["rod"])

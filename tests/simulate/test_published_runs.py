@@ -160,6 +160,13 @@ def test_a_four_bar_stays_closed_for_ten_seconds_by_implicit_methods(method: str
     assert run.success and max(np.abs(x).max() for rows in left.values() for x in rows.values()) < 1e-12
 
 
+@pytest.mark.slow
+def test_lsoda_keeps_its_order_where_components_pass_zero_or_stay_there() -> None:
+    """ψ stays at zero to rounding. With errors relative to |x_i| alone: 1245 steps, and 3.8e-9 of the energy."""
+    run = built_in.system("double-parallelogram").simulate(5.0, method="LSODA", samples=11)
+    assert run.success and run.steps < 700 and float(run.audit) < 5e-10
+
+
 @pytest.mark.parametrize(("method", "order"), [("rk4", 4)])
 def test_projection_keeps_the_order_of_a_method(method: str, order: int) -> None:
     s = built_in.system("four-bar")

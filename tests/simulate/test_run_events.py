@@ -105,7 +105,9 @@ def test_events_that_make_no_sense_are_refused() -> None:
     for make, words in (
         (lambda: lg.event(y, direction=2), "direction of an event is"),
         (lambda: lg.event(3), "never changes"),
-        (lambda: lg.event("y"), "SymPy expression"),
+        (lambda: lg.event(" "), "text of an event is empty"),
+        (lambda: s.simulate(1, y=1, events=lg.event("y.x")), "attribute access"),
+        (lambda: s.simulate(1, y=1, events=lg.event("2*3")), "never changes"),
         (lambda: lg.event(y, reset=[1]), "reset must be a mapping"),
         (lambda: s.simulate(1, y=1, events=[y]), "made with lagrangian.event"),
         (lambda: s.simulate(1, y=1, events=[lg.event(y), lg.event(y)]), "two events are called 'y'"),

@@ -38,14 +38,25 @@ def test_many_runs_take_the_settings_with_their_defaults(verb: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("method", "share"),
-    [(None, 1e-3), ("dop853", 1e-3), ("RK45", 1e-3), ("DOP853", 1e-3), ("BDF", 1e-2), ("LSODA", 1e-2), ("Radau", 1.0)],
+    ("method", "shares"),
+    [
+        (None, (1e-3, 1e-3)),
+        ("dop853", (1e-3, 1e-3)),
+        ("RK45", (1e-3, 1e-3)),
+        ("BDF", (1e-2, 1e-2)),
+        ("LSODA", (1e-3, 0.1)),
+        ("Radau", (1.0, 1.0)),
+    ],
 )
-def test_default_tolerances_are_those_of_a_run_and_given_ones_are_passed_on(method: str | None, share: float) -> None:
+def test_default_tolerances_are_those_of_a_run_and_given_ones_are_passed_on(
+    method: str | None, shares: tuple[float, float]
+) -> None:
     """A step may reach only a share of a run's tolerances; those given to SciPy's methods are of a step."""
-    assert lg.RunSettings(method=method).of_a_step() == pytest.approx((1e-9 * share, 1e-12 * share))
+    assert lg.RunSettings(method=method).of_a_step() == pytest.approx((1e-9 * shares[0], 1e-12 * shares[1]))
     given = lg.RunSettings(method=method, rtol=1e-6, atol=1e-7).of_a_step()
     assert given == pytest.approx((1e-9, 1e-10) if method in (None, "dop853") else (1e-6, 1e-7))
+    assert lg.RunSettings(method=method).over_run == (method == "LSODA")
+    assert not lg.RunSettings(method=method, rtol=1e-6).over_run
 
 
 def test_one_run_takes_the_settings_with_their_defaults() -> None:

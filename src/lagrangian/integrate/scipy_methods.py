@@ -23,6 +23,7 @@ from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.methods.memory_layout import MARGIN
 from lagrangian.integrate.projection import Drift, Projection
 from lagrangian.integrate.scipy_projection import Projected
+from lagrangian.integrate.scipy_weights import Weights
 from lagrangian.integrate.status import RunStatus
 
 Array = NDArray[np.float64]
@@ -134,18 +135,20 @@ def integrate_scipy(
     crossings: Crossings | None = None,
     rtol: float = 1e-9,
     atol: float | Array = 1e-12,
+    over_run: bool = False,
     bounds: Bounds | None = None,
     projection: Projection | None = None,
 ) -> Outcome:
     """Run ẋ = rhs(x, u, p, t) from ``times[0]`` and return the states at ``times``.
 
     ``rhs`` and ``jacobian`` are kernels (`lagrangian.codegen`) of the groups x, u, p, t; ``legs`` cover the time from
-    ``times[0]`` to ``times[-1]``. ``projection``: as for `Solver`. Nothing is raised for a run that fails on its way:
-    its outcome says so.
+    ``times[0]`` to ``times[-1]``. ``over_run``: see `Weights`. ``projection``: as for `Solver`. Nothing is raised for a
+    run that fails on its way: its outcome says so.
     """
-    ground = None if projection is None else Projected(projection, rhs.program, p, rtol, atol)
+    weights = Weights(rtol, atol, x0, over_run=over_run)
+    ground = None if projection is None else Projected(projection, rhs.program, p, weights)
     field = _Field(rhs, jacobian, p, len(x0))
-    march = _March(method, field, x0, times, crossings, rtol, atol, bounds or Bounds(), ground)
+    march = _March(method, field, x0, times, crossings, weights, bounds or Bounds(), ground)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # LSODA warns about what its return code also says
         try:
@@ -171,8 +174,7 @@ class _March:
         x0: Array,
         times: Array,
         crossings: Crossings | None,
-        rtol: float,
-        atol: float | Array,
+        weights: Weights,
         bounds: Bounds,
         ground: Projected | None = None,
     ) -> None:
@@ -180,7 +182,8 @@ class _March:
 
         self.make: Callable[..., Any] = getattr(integrate, method)
         self.f, self.crossings, self.bounds, self.ground = f, crossings, bounds, ground
-        self.options: dict[str, Any] = {"rtol": rtol, "atol": atol, "max_step": bounds.max_step}
+        self.weights = weights
+        self.options: dict[str, Any] = {"rtol": weights.rtol, "atol": weights.atol, "max_step": bounds.max_step}
         if method in IMPLICIT and f.jacobian is not None:
             self.options["jac"] = f.slope
         self.t, self.x = float(times[0]), np.array(x0, float)
@@ -231,6 +234,7 @@ class _March:
                             return False
                         break
                     jumped = anew
+                self.weights.note(solver.y)
                 jumped = self._advance(solver, dense, leg) or jumped
                 if self.status != RunStatus.REACHED:
                     return False

@@ -37,6 +37,7 @@ from lagrangian.integrate.projection import (
     Drift,
     Projection,
 )
+from lagrangian.integrate.scipy_weights import Weights
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -53,9 +54,9 @@ NORDSIECK = 20
 class Projected:
     """The projected states of one run, and the record of their drift."""
 
-    def __init__(self, projection: Projection, rates: Program, p: Array, rtol: float, atol: float | Array) -> None:
+    def __init__(self, projection: Projection, rates: Program, p: Array, weights: Weights) -> None:
         projection = projection.checked(rates)
-        self.corrects, self.p, self.rtol, self.atol = projection.corrects, p, rtol, atol
+        self.corrects, self.p, self.weights = projection.corrects, p, weights
         approach, landing = projection.approach, projection.landing(rates)
         self._approach: Kernel | None = None if approach is None else compile(approach, threads=1)
         self._landing: Kernel = compile(landing, threads=1)
@@ -122,8 +123,7 @@ class Projected:
         """
         moved, seen = self.state(solver.t, solver.y, u)
         change = moved - solver.y
-        scale = self.atol + self.rtol * np.maximum(np.abs(before), np.abs(moved))
-        size = float(np.sqrt(np.mean((change / scale) ** 2)))
+        size = float(np.sqrt(np.mean((change / self.weights.between(before, moved)) ** 2)))
         rounding = ROUNDING * max(1.0, float(np.abs(moved).max()))
         worst, margin = max(seen["before"], seen["gap"]), min(seen["margin"], 1.0)
         if np.isfinite(size) and (margin < NEARLY_DEPENDENT or worst * math.sqrt(margin) <= rounding):

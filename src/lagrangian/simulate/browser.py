@@ -27,7 +27,7 @@ from lagrangian.model import Model
 from lagrangian.simulate import drift, spared
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.browser_parts import BrowserParts, Quantities
-from lagrangian.simulate.events import Event, listed_events
+from lagrangian.simulate.events import Event, events_of
 from lagrangian.simulate.inputs import InputSignals, SampledInput, driving
 from lagrangian.simulate.integrating import right_hand_side
 from lagrangian.simulate.plot import Units
@@ -177,7 +177,7 @@ def browser_module(
     guess = initial_state(given, model, program, model.settings.get("initial", {}), initial, {})
     x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None))
     knowing, _ = spared.of_run(model, x0, p, float(settings.start))
-    parts = BrowserParts.of(knowing, drive, method, listed_events(settings.events))
+    parts = BrowserParts.of(knowing, drive, method, events_of(model, settings.events))
     made = parts.compiled(method, lanes, settings.of_a_step()[0])
     layout = {
         "version": VERSION,

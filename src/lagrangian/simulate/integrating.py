@@ -38,7 +38,10 @@ REMEMBERED = 32
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Everything that a run needs, after all checks; ``rtol`` and ``atol`` are those of one step."""
+    """Everything that a run needs, after all checks; ``rtol`` and ``atol`` are those of one step.
+
+    ``over_run``: rtol is relative to the largest values of the run so far (`lagrangian.integrate.scipy_weights`).
+    """
 
     model: Model
     drive: InputSignals
@@ -52,6 +55,7 @@ class Task:
     events: tuple[Event, ...]
     bounds: Bounds
     project: bool = True
+    over_run: bool = False
 
     @property
     def size(self) -> int:
@@ -281,6 +285,7 @@ def _by_scipy(task: Task) -> Outcome:
         crossings=crossings,
         rtol=task.rtol,
         atol=task.atol,
+        over_run=task.over_run,
         bounds=task.bounds,
         projection=projection(model, program, project=task.project),
     )

@@ -19,7 +19,7 @@ from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate import slipping
 from lagrangian.simulate.drift import check_method
-from lagrangian.simulate.events import listed_events
+from lagrangian.simulate.events import events_of
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, projection, remembered
 from lagrangian.simulate.joint_forces import JointForce, joint_force, observed_joints
@@ -198,7 +198,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, Obse
 def _events(
     model: Model, settings: RunSettings, recording: Recording, drive: InputSignals
 ) -> tuple[Events | None, tuple[EventsKept, ...]]:
-    listed = listed_events(settings.events)
+    listed = events_of(model, settings.events)
     if not listed:
         return None, ()
     titles = [e.title for e in listed]

@@ -46,9 +46,10 @@ STEP_SHARE = 1e-3
 """The fraction of a run's tolerances for one step, because errors add up. Values given to SciPy's methods are used as
 they are."""
 
-SHARES = {"Radau": 1.0, "RK23": 1e-2, "BDF": 1e-2, "LSODA": 1e-2}
-"""Other fractions: Radau's steps are more accurate than its estimate, which is of lower order; RK23 would take too many
-steps; and the corrector of BDF and LSODA does not get below rounding.
+SHARES = {"Radau": (1.0, 1.0), "RK23": (1e-2, 1e-2), "BDF": (1e-2, 1e-2), "LSODA": (1e-3, 0.1)}
+"""Other fractions, of ``rtol`` and of ``atol``: Radau's steps are more accurate than its estimate, which is of lower
+order; RK23 would take too many steps; the corrector of BDF does not get below rounding; and LSODA lowers its order
+where rounding in a component that stays near zero is more than ``atol``.
 """
 
 FINEST_RTOL = 100 * float(np.finfo(float).eps)
@@ -133,12 +134,17 @@ class RunSettings:
         """The relative and the absolute tolerance, `RTOL` and `ATOL` if they are not given."""
         return RTOL if self.rtol is None else self.rtol, ATOL if self.atol is None else self.atol
 
+    @property
+    def over_run(self) -> bool:
+        """Whether errors are measured by the largest values of the run so far: by LSODA without a given ``rtol``."""
+        return self.method == "LSODA" and self.rtol is None
+
     def of_a_step(self) -> tuple[float, float]:
         """Return the relative and the absolute tolerance of one step; values given to SciPy's methods are these."""
         relative, absolute = self.tolerances
-        known, share = self.method in SCIPY, SHARES.get(self.method or "", STEP_SHARE)
-        relative *= 1.0 if known and self.rtol is not None else share
-        absolute *= 1.0 if known and self.atol is not None else share
+        known, shares = self.method in SCIPY, SHARES.get(self.method or "", (STEP_SHARE, STEP_SHARE))
+        relative *= 1.0 if known and self.rtol is not None else shares[0]
+        absolute *= 1.0 if known and self.atol is not None else shares[1]
         return max(relative, FINEST_RTOL), absolute
 
 

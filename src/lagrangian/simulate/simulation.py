@@ -25,7 +25,7 @@ from lagrangian.simulate import drift, slipping, spared
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.diagnosis import message
 from lagrangian.simulate.disagreement import disagreement
-from lagrangian.simulate.events import listed_events
+from lagrangian.simulate.events import events_of
 from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import Task, remembered, right_hand_side, run
 from lagrangian.simulate.recorded import Occurrences
@@ -90,9 +90,10 @@ def simulate(
         rtol,
         atol,
         None if settings.step is None else float(settings.step),
-        listed_events(settings.events),
+        events_of(model, settings.events),
         Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
         settings.project,
+        settings.over_run,
     )
     slips = slipping.run(task) if model.frictions else None
     outcome = drift.ended(run(task) if slips is None else slips.outcome, task)

@@ -12,7 +12,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
-from lagrangian.simulate.events import listed_events
+from lagrangian.simulate.events import events_of
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side, solver_options
 from lagrangian.simulate.recorded import Occurrences
@@ -40,7 +40,7 @@ def check_method(model: Model, method: str) -> None:
 
 def solver_of_runs(model: Model, settings: RunSettings, method: str, drive: InputSignals) -> StickSlip:
     """What integrates the runs of an ensemble."""
-    events = listed_events(settings.events)
+    events = events_of(model, settings.events)
     return StickSlip(model, method, drive.feedback, events, project=settings.project, supply=False)
 
 

@@ -322,6 +322,7 @@ def _by_scipy(task: Task, programs: dynamics.VariedPrograms, atol: Array) -> Out
         crossings=crossings,
         rtol=task.rtol,
         atol=atol,
+        over_run=task.over_run,
         bounds=task.bounds,
     )
 
