@@ -50,6 +50,7 @@ BAD = {
     "call": ('[[constraint]]\nexpression="__import__(1)"\n', "E402", "__import__"),
     "unknown": ('[[constraint]]\nexpression="z"\n', "E402", "unknown symbol 'z'"),
     "unknown body": ('[[rolling]]\nbody="wheel"\nat="P"\nalong=[1,0]\n', "E402", "known: disc"),
+    "frame for body": ('[[rolling]]\nbody="b"\nat="P"\nalong=[1,0]\n', "E402", "the body that turns with it is 'disc'"),
     "directions of two kinds": (
         '[[rolling]]\nbody="disc"\nat="P"\nalong=[1,[0,1]]\n',
         "E406",

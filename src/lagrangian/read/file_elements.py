@@ -107,11 +107,13 @@ class _Reader:
         """Read the name of a rigid body; bodies are read before the constraints on them."""
         bodies = {e.name: e for e in self.loader.builder.elements if isinstance(e, RigidBody)}
         if value not in bodies:
+            turning = [shown(name) for name, body in bodies.items() if body.frame.name == value]
+            meant = f"{shown(value)} is a frame; the body that turns with it is {', '.join(turning)}" if turning else ""
             raise ParseError(
                 f"there is no rigid body {shown(value)}",
                 element=self.title,
                 place=self.loader.index.of_value(self.where(key)),
-                fix=did_you_mean(value[:64], bodies) or "known: " + (", ".join(bodies) or "none"),
+                fix=meant or did_you_mean(value[:64], bodies) or "known: " + (", ".join(bodies) or "none"),
                 code="E402",
             )
         return bodies[value]
