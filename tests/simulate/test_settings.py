@@ -44,7 +44,7 @@ def test_many_runs_take_the_settings_with_their_defaults(verb: Any) -> None:
         ("dop853", (1e-3, 1e-3)),
         ("RK45", (1e-3, 1e-3)),
         ("BDF", (1e-2, 1e-2)),
-        ("LSODA", (1e-3, 0.1)),
+        ("LSODA", (1e-2, 1e-2)),
         ("Radau", (1.0, 1.0)),
     ],
 )

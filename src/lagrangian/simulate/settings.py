@@ -46,11 +46,14 @@ STEP_SHARE = 1e-3
 """The fraction of a run's tolerances for one step, because errors add up. Values given to SciPy's methods are used as
 they are."""
 
-SHARES = {"Radau": (1.0, 1.0), "RK23": (1e-2, 1e-2), "BDF": (1e-2, 1e-2), "LSODA": (1e-3, 0.1)}
+SHARES = {"Radau": (1.0, 1.0), "RK23": (1e-2, 1e-2), "BDF": (1e-2, 1e-2), "LSODA": (1e-2, 1e-2)}
 """Other fractions, of ``rtol`` and of ``atol``: Radau's steps are more accurate than its estimate, which is of lower
-order; RK23 would take too many steps; the corrector of BDF does not get below rounding; and LSODA lowers its order
-where rounding in a component that stays near zero is more than ``atol``.
+order; RK23 would take too many steps; and the corrector of BDF and LSODA does not get below rounding.
 """
+
+SMOOTH = (0.1, 10.0)
+"""Factors of these for LSODA where ẋ does not jump (`RunSettings.over_run`): it keeps its order with smaller errors,
+and lowers it where rounding in a component that stays near zero is more than ``atol``."""
 
 FINEST_RTOL = 100 * float(np.finfo(float).eps)
 """The smallest relative tolerance of a step that is possible with doubles."""

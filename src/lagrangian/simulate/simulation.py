@@ -17,6 +17,7 @@ from lagrangian.codes import Code
 from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Graph, Program
 from lagrangian.integrate import METHODS
+from lagrangian.integrate.chattering import Sticking
 from lagrangian.integrate.crossings import Hit
 from lagrangian.integrate.method_names import SCIPY
 from lagrangian.integrate.scipy_methods import Bounds, Outcome
@@ -29,7 +30,7 @@ from lagrangian.simulate.events import events_of
 from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import Task, remembered, right_hand_side, run
 from lagrangian.simulate.recorded import Occurrences
-from lagrangian.simulate.settings import DEFAULT, RunSettings, check_names, names_of
+from lagrangian.simulate.settings import DEFAULT, SMOOTH, RunSettings, check_names, names_of
 from lagrangian.simulate.starts import held, onto_constraints
 from lagrangian.simulate.switching import with_stops
 from lagrangian.simulate.trajectory import Trajectory
@@ -73,6 +74,9 @@ def simulate(
     drift.check_method(model, name)
     slipping.check_method(model, name)
     rtol, atol = settings.of_a_step()
+    smooth = settings.over_run and not Sticking(program)
+    if smooth:
+        rtol, atol = rtol * SMOOTH[0], atol * (SMOOTH[1] if settings.atol is None else 1.0)
     longest = float(settings.max_step)
     p = given.parameter_values(params)
     notices = check_masses(model, p)
@@ -93,7 +97,7 @@ def simulate(
         events_of(model, settings.events),
         Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
         settings.project,
-        settings.over_run,
+        smooth,
     )
     slips = slipping.run(task) if model.frictions else None
     outcome = drift.ended(run(task) if slips is None else slips.outcome, task)
