@@ -73,10 +73,7 @@ def simulate(
     name = _method(settings.method, drive)
     drift.check_method(model, name)
     slipping.check_method(model, name)
-    rtol, atol = settings.of_a_step()
-    smooth = settings.over_run and not Sticking(program)
-    if smooth:
-        rtol, atol = rtol * SMOOTH[0], atol * (SMOOTH[1] if settings.atol is None else 1.0)
+    rtol, atol, smooth = _tolerances(settings, program)
     longest = float(settings.max_step)
     p = given.parameter_values(params)
     notices = check_masses(model, p)
@@ -261,3 +258,11 @@ def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int, *, after_last: boo
     if after_last:
         total[-1] = np.sum(h1 - h0)
     return total
+
+
+def _tolerances(settings: RunSettings, program: Program) -> tuple[float, float, bool]:
+    """The tolerances of a step, and whether they are relative to the largest values of the run so far."""
+    rtol, atol = settings.of_a_step()
+    if not settings.over_run or Sticking(program):
+        return rtol, atol, False
+    return rtol * SMOOTH[0], atol * (SMOOTH[1] if settings.atol is None else 1.0), True
