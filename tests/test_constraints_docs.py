@@ -43,8 +43,9 @@ def test_the_reactions_of_the_guide_balance(names: dict[str, object]) -> None:
 
 def test_the_guides_file_is_read() -> None:
     (text,) = blocks("docs/constraints.md", "toml")
-    coordinates = '[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1\nm = 1\n[points]\nP = ["x", "y"]\n'
-    body = '[[frame]]\nname = "sled"\nangle = "theta"\n[[rigid_body]]\nmass = "m"\ninertia = "m"\nat = "P"\n'
-    head = f'name = "sled"\n{coordinates}{body}frame = "sled"\n'
+    coordinates = '[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1\nm = 1\n'
+    points = '[points]\nP = ["x", "y"]\ncontact = ["x", "y - l"]\n[[frame]]\nname = "sled"\nangle = "theta"\n'
+    body = '[[rigid_body]]\nname = "disc"\nmass = "m"\ninertia = "m"\nat = "P"\n'
+    head = f'name = "sled"\n{coordinates}{points}{body}frame = "sled"\n'
     model = lg.loads(head + text).model
-    assert [e.name for e in model.constraints] == ["rod", "blade"]
+    assert [e.name for e in model.constraints] == ["rod", "blade", "no slip"]

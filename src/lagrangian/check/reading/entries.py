@@ -45,8 +45,9 @@ def solved_matrices(written: TracedText) -> TracedText:
 def entered_matrices(written: TracedText, count: int, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer with a statement in front for each matrix, or column, that is given entry by entry and used.
 
-    ``count`` is the number of coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is
-    added, which is used in front of a column, M*q'' or M*[x''; y''].
+    A column is a side of an equation, or is added there: T = T_1 + T_2 is none. ``count`` is the number of
+    coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is added, which is used in
+    front of a column, M*q'' or M*[x''; y''].
     """
     if not 2 <= count <= MOST:
         return written
@@ -63,6 +64,6 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
         column = [entries.get(i) for i in numbers]
         if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}{_COLUMN}", written.text):
             added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
-        elif all(column) and not taken(name) and re.search(rf"(?<![\w\\]){name}(?![\w(])[ \t]*(?:=|$)", written.text):
+        elif all(column) and not taken(name) and re.search(rf"[=+-][ \t]*{name}(?![\w(])[ \t]*(?:=|$)", written.text):
             added.append(f"{name} = [" + "; ".join(map(str, column)) + "]\n")
     return written.edited([(0, 0, "".join(added))] if added else [])
