@@ -46,8 +46,7 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
     ``onto``, which moves a state onto the rows of constraints, x is varied along the constraints alone.
     """
     A, B = Name("A"), Name("B")
-    what = text("the linearization's ", A, " and ", B, ", along a run, too, equal difference quotients of these rates")
-    worst, points, refused = 0.0, 0, ""
+    worst, points, refused, runs = 0.0, 0, "", 0
     for state in states:
         if points == POINTS:
             break
@@ -68,8 +67,8 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
             quotients = quotients[[list(found.at).index(name) for name in found.states]]
         elif found.back is not None:  # of the minimal states of floating frames
             m = len(found.at)
-            along = found.back @ quotients[:, :m] @ found.basis - found.transport
-            quotients = np.hstack([along, found.back @ quotients[:, m:]])
+            minimal = found.back @ quotients[:, :m] @ found.basis - found.transport
+            quotients = np.hstack([minimal, found.back @ quotients[:, m:]])
         elif found.basis is not None:  # of what constraints leave independent
             kept, m = [list(found.at).index(name) for name in found.states], len(found.at)
             quotients = np.hstack([quotients[kept, :m] @ found.basis, quotients[kept, m:]])
@@ -81,9 +80,13 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
         points += 1
         worst = float(np.maximum(worst, np.max(np.abs(exact - quotients), initial=0.0) / size))
         if along is not None and along.basis is None:  # the states of a run are all coordinates and rates
+            runs += 1
             worst = float(np.maximum(worst, relative(np.hstack([along.A[0], along.B[0]]) - whole, whole)))
         elif along is not None and along.states == found.states:
+            runs += 1
             worst = float(np.maximum(worst, relative(np.hstack([along.A[0], along.B[0]]) - quotients, quotients)))
+    too = ", along a run, too," if runs else ""
+    what = text("the linearization's ", A, " and ", B, f"{too} equal difference quotients of these rates")
     if not points:
         return Check(what, None, f"not checked at any of {len(states)} random states: {refused}")
     at = f"{points} random state{'s' if points != 1 else ''}"
@@ -104,15 +107,21 @@ def linearized(model: Model, state: State) -> Any:
 
 
 def _along(model: Model, state: State) -> MotionLinearization | None:
-    """The linearization along a run of one sample, at a state; None for long systems, which take long to compile."""
+    """The linearization along a run of one sample, at a state.
+
+    None for long systems, which take long to compile, and for those that have none along a run: they stick or slip.
+    """
     if len(reached(dynamics.rhs(model).graph, dynamics.rhs(model).ids)) > MOST_NODES:
         return None
-    return linearize_along(
-        model,
-        (state["t"], [[*state["q"], *state["v"]]]),
-        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
-        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
-    )
+    try:
+        return linearize_along(
+            model,
+            (state["t"], [[*state["q"], *state["v"]]]),
+            inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
+            params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
+        )
+    except Error:
+        return None
 
 
 def _quotients(
