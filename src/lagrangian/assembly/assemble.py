@@ -44,8 +44,7 @@ class Assembler:
     def _positions(self) -> Closing:
         """The programs that move positions."""
         position = dynamics.correction(self.model, self.fixed, position=True)
-        rows = self.model.remembered("residual", lambda: dynamics.residual(self.model))
-        return Closing(position, None, rows, self.matrix)
+        return Closing(position, None, dynamics.residual(self.model), self.matrix)
 
     @cached_property
     def search(self) -> LoopSearch | None:
@@ -55,7 +54,7 @@ class Assembler:
     @property
     def matrix(self) -> Program:
         """The program of A, a₀ and γ, which is the same whatever is fixed."""
-        return self.model.remembered("constraint matrix", lambda: dynamics.constraint_matrix(self.model))
+        return dynamics.constraint_matrix(self.model)
 
     @cached_property
     def closing(self) -> Closing:

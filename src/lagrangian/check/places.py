@@ -14,6 +14,9 @@ from lagrangian.check.reference import Reference
 HIGHEST = 4
 """The highest degree of an approximation: cos θ = 1 − θ²/2 + θ⁴/24."""
 
+LONG = 300
+"""The size of a line above which it is no position."""
+
 DIGITS = 30
 STEPS = 40
 """The most steps of Newton's method to a position."""
@@ -46,10 +49,6 @@ def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str
         return None
     (place,) = changing
     return "it is about one position" if _is_chosen(expr, place) or _is_at_rest(truth, expr, place) else None
-
-
-LONG = 300
-"""The size of a line above which it is no position."""
 
 
 def _is_chosen(expr: sp.Expr, place: AppliedUndef) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from lagrangian.errors import Error
 
@@ -22,6 +23,18 @@ def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
             raise Error(f"'{name[:64]}' is given twice with {option}", fix="give only one of the two", code="E404")
         found[name] = value
     return found
+
+
+def point(
+    at: Sequence[str] | None, values: Sequence[str] | None, inputs: Sequence[str] | None, fixed: Sequence[str] | None
+) -> dict[str, Any]:
+    """Return the arguments of `System.linearize` that say where: ``--at``, ``--set``, ``--input`` and ``--fixed``."""
+    return {
+        "at": assignments(at, "--at"),
+        "params": assignments(values, "--set"),
+        "inputs": assignments(inputs, "--input"),
+        "fixed": names(fixed) if fixed else None,
+    }
 
 
 def names(given: Sequence[str] | None) -> list[str]:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagrangian.cli.assignments import assignments, names
+from lagrangian.cli.assignments import point
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import (
     AtPoint,
@@ -58,12 +58,7 @@ def linearize(
     """
     wanted = chosen(format, json, output, force)
     found = open_system(file, example).linearize(
-        assignments(at, "--at"),
-        params=assignments(values, "--set"),
-        inputs=assignments(inputs, "--input"),
-        outputs=_outputs(outputs),
-        operating_point=operating_point,
-        fixed=names(fixed) if fixed else None,
+        **point(at, values, inputs, fixed), outputs=_outputs(outputs), operating_point=operating_point
     )
     put_report(found.report(symbols=symbols), wanted, width, output)
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from lagrangian.advice import Advice, Argument, Verb
-from lagrangian.cli.assignments import assignments, names
+from lagrangian.cli.assignments import assignments, point
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import (
     AtPoint,
@@ -72,23 +72,16 @@ def regulate(
       lagrangian regulate cart.toml -Q 1 -R 0.1 --json
     """
     wanted = chosen(format, json, output, force)
-    linear = _linearized(open_system(file, example), at, values, inputs, fixed)
+    linear = _linearized(open_system(file, example), point(at, values, inputs, fixed))
     found = linear.lqr(_weights(state_weights, "-Q", "theta"), _weights(input_weights, "-R", "F"))
     put_report(found.report(), wanted, width, output)
     if any(check.holds is False for check in found.verified):
         raise typer.Exit(1)
 
 
-def _linearized(
-    system: System, at: list[str] | None, values: list[str] | None, inputs: list[str] | None, fixed: list[str] | None
-) -> Linearization:
+def _linearized(system: System, where: dict[str, Any]) -> Linearization:
     try:
-        return system.linearize(
-            assignments(at, "--at"),
-            params=assignments(values, "--set"),
-            inputs=assignments(inputs, "--input"),
-            fixed=names(fixed) if fixed else None,
-        )
+        return system.linearize(**where)
     except RunError as error:
         if error.code != "E521":
             raise

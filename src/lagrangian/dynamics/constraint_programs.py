@@ -27,7 +27,7 @@ from lagrangian.dynamics.constrained import (
     velocity_correction,
 )
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.programs import _matrix, _program, _start, _vector
+from lagrangian.dynamics.programs import _matrix, _once, _program, _start, _vector
 from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
@@ -125,6 +125,7 @@ def closing_terms(model: Model, fixed: Collection[str] = ()) -> Program:
     return _program(model, "closing_terms", graph, outputs)
 
 
+@_once
 def residual(model: Model) -> Program:
     """q, v, u, p, t → ``f`` of the rows on positions, in their order, and ``Av`` = A v + a₀ of all rows."""
     graph, _, m = _start(model)
@@ -146,6 +147,7 @@ def changes(model: Model) -> Program:
     return _program(model, "changes", graph, {"rows": Output(ids, (len(kept), len(directions)))})
 
 
+@_once
 def constraint_matrix(model: Model) -> Program:
     """q, v, u, p, t → ``A`` (m, n), ``a0`` (m,) and ``gamma`` (m,):  A v + a₀ = 0  and  A v̇ + γ = 0."""
     graph, _, m = _start(model)

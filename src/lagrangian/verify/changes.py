@@ -24,12 +24,12 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.errors import Error, RunError
-from lagrangian.graph import Program, reached
+from lagrangian.graph import Program
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.neighbours import BESIDE, Changing, Function, Neighbourhood, quotient, resolved
 from lagrangian.verify.on_rows import OnRows
-from lagrangian.verify.slopes import MOST_NODES, POINTS, TOLERANCE
+from lagrangian.verify.slopes import POINTS, TOLERANCE, too_long
 from lagrangian.verify.states import State, evaluated, relative
 
 Array: TypeAlias = NDArray[np.float64]
@@ -69,9 +69,9 @@ Comparison: TypeAlias = Callable[[Changing, Neighbourhood], float | None]
 def changes(functions: Changing, model: Model, states: Sequence[State]) -> Iterator[Check]:
     """Yield the checks, each at the first few states where it can be made: quotients do not settle across a kink."""
     rhs = dynamics.rhs(model)
-    nodes = len(reached(rhs.graph, rhs.ids))
+    long = too_long(model)
     places = [Neighbourhood(model, state, k) for k, state in enumerate(states)]
-    if model.constraints and nodes <= MOST_NODES:
+    if model.constraints and not long:
         onto = OnRows(model)
         for place in places:
             place.kept_on_rows(functions, onto)
@@ -92,8 +92,7 @@ def changes(functions: Changing, model: Model, states: Sequence[State]) -> Itera
     ]
     for what, tolerance, compare in comparisons:
         found = _Found()
-        if nodes > MOST_NODES and not isinstance(compare, partial):  # all but steps
-            long = f"the accelerations have {nodes} nodes, and derivatives of more than {MOST_NODES} take long"
+        if long and not isinstance(compare, partial):  # all but steps
             yield Check(what, None, f"not checked: {long}")
             continue
         for place in places:
