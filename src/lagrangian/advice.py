@@ -6,7 +6,8 @@ Advice is text in the form for Python; the arguments in it are stored as data, s
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from lagrangian.errors import Error
 from lagrangian.model import Model
 from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Check, text
+from lagrangian.records import dataclass
 from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, takes_long
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify

@@ -12,11 +12,11 @@ A message says what is wrong, where, and how to fix it. A `Notice` is not an err
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 from lagrangian.codes import Code, CodeText
+from lagrangian.records import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

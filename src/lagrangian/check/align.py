@@ -8,7 +8,7 @@ every place.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import permutations
 
@@ -19,6 +19,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
+from lagrangian.records import dataclass
 
 CONSTANT = 1e-7
 """The relative spread of a quotient at one place that counts as none."""

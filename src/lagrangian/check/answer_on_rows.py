@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -18,6 +17,7 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive import Derived
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Program
+from lagrangian.records import dataclass
 from lagrangian.verify.on_rows import Groups, OnRows, State
 from lagrangian.verify.states import evaluated, state_groups
 

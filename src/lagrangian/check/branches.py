@@ -7,7 +7,6 @@ singular at p = 0, as in polar coordinates, and if p has the same sign at all or
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import Any, cast
 
@@ -17,6 +16,7 @@ from sympy.polys.polyerrors import PolynomialError
 
 from lagrangian import bounded
 from lagrangian.derive.sampling import Array, CompiledExpressions, States
+from lagrangian.records import dataclass
 
 LONGEST = 80
 """The largest number of operations of an expression whose factors are examined."""

@@ -6,7 +6,6 @@ All variants are computed at once, on one graph: ΔW_i = d/dt ∂ΔT/∂ξ̇_i �
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from types import ModuleType
 
@@ -22,6 +21,7 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass
 
 LONGEST_SYSTEM = 2_000
 """If T*, V and Ξ have more operations, times the number of coordinates, mistakes are reported only by their terms."""

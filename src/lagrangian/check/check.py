@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 
@@ -32,6 +32,7 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.model import is_hard
 from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
 
 _log = logging.getLogger(__name__)
 

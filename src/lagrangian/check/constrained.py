@@ -9,7 +9,7 @@ Both are decided by numbers, at random states.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from typing import Any, Protocol, TypeAlias, cast
@@ -31,6 +31,7 @@ from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
 
 Array: TypeAlias = NDArray[np.float64]
 

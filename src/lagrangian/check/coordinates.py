@@ -7,7 +7,6 @@ and η̈ in every line; a line that is then right was right in the other coordin
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from itertools import islice, product
 from typing import Any, cast
@@ -27,6 +26,7 @@ from lagrangian.errors import ModelError
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 MAX_CHANGES = 200

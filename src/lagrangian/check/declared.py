@@ -7,7 +7,7 @@ parameter of the system is taken to be: the answer is then judged under that ass
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import permutations
 from typing import Any, cast
 
@@ -22,6 +22,7 @@ from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 MAX_LINES = 12
 """The largest number of implicit definitions in one answer."""

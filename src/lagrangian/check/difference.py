@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 import sympy as sp
@@ -15,6 +14,7 @@ from lagrangian.check.verdict import TermDifference, TermOrigin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
 from lagrangian.model import time
+from lagrangian.records import dataclass
 
 MAX_DIFFERENCES = 12
 """The largest number of differences that are reported; an answer with more of them is a different answer."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -12,6 +11,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.changes.pool import Pool
 from lagrangian.model import Damper, Element
+from lagrangian.records import dataclass
 
 SHORT = 10
 """The largest number of operations of a rate that a sentence holds."""

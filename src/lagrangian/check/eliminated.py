@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import cast
 
 import sympy as sp
@@ -15,6 +15,7 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 MAX_FORCES = 12
 """The largest number of forces that are eliminated."""

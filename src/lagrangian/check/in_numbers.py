@@ -12,7 +12,6 @@ system. What is wrong is found so; which mistake explains it is not sought.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, cast
 
@@ -30,6 +29,7 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, from_sympy, gradient, vjp
 from lagrangian.model import Model, time
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass, field
 from lagrangian.verify.on_rows import Groups, OnRows
 from lagrangian.verify.states import evaluated
 

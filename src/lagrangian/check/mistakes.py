@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import sympy as sp
@@ -30,6 +30,7 @@ from lagrangian.check.undivided import undivided
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass
 
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""

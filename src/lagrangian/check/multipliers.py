@@ -7,7 +7,7 @@ multiplier is s = c λ, and c may depend on the position: λ x/√(x² + y²) is
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice, permutations, product
 from typing import Any, cast
 
@@ -22,6 +22,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 MOST = 3
 """The largest number of multipliers for which all orders and scales are tried."""

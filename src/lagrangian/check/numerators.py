@@ -7,7 +7,7 @@ A term of h stands in the numerator times (adj M)_ik, if the denominator is det 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, cast
 
@@ -24,6 +24,7 @@ from lagrangian.check.search import EXOTIC, SMALL, Explanation, simple_number, s
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass
 
 MOST_COORDINATES = 3
 """The adjugate of a larger mass matrix has more terms than anybody writes."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import cast
 
 import sympy as sp
@@ -17,6 +17,7 @@ from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
 from lagrangian.model.rows import pressing_rows, rows_of
+from lagrangian.records import dataclass
 
 _IMPLIED = "what multipliers in L say"
 """The name of the equations that an answer does not write, but that L with multipliers says."""

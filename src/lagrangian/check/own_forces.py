@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lagrangian.check.reading import generalized_force
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from typing import Any, cast
@@ -24,6 +23,7 @@ from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Element, time
 from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
 
 MOST_OWN_TERMS = 250
 """The largest number of terms of an expanded line that are examined."""

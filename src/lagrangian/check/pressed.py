@@ -12,7 +12,7 @@ these signs. |X| is the same with one row, whose N is ±λ on the side that is k
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice, permutations, product
 from typing import TypeAlias, cast
 
@@ -23,6 +23,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import Friction, Model
 from lagrangian.model.rows import rows_of
+from lagrangian.records import dataclass
 
 Group: TypeAlias = tuple[str, ...]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
@@ -15,6 +14,7 @@ from lagrangian.check.changes.ring import Sum
 from lagrangian.check.changes.sites import MOST_TERMS
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Element
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

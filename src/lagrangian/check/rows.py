@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from typing import Any
@@ -21,6 +20,7 @@ from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, CompiledExpressions, States
+from lagrangian.records import dataclass
 
 DOUBLE_TOLERANCE = 1e-8
 """The relative size below which a double may be zero; a decision based on it is confirmed exactly."""

@@ -6,7 +6,7 @@ One entry a kind. A sentence never speaks of a line that the answer may not have
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, cast
 
@@ -17,6 +17,7 @@ from lagrangian.check.changes.change import LocalChange, Site, Words
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model
 from lagrangian.page.formula import Left, Text, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

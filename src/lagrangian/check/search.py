@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from lagrangian.check.align import Alignment
 from lagrangian.check.changes.pool import Pool, Possible
 from lagrangian.derive.sampling import Array
+from lagrangian.records import dataclass
 
 SMALL = 1e-7
 """The relative size below which a rest counts as explained."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice, permutations
 from typing import Any, cast
 
@@ -20,6 +20,7 @@ from lagrangian.errors import did_you_mean
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 MAX_READINGS = 120
 """The largest number of interpretations of unknown names that are tried."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import sympy as sp
@@ -17,6 +17,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import product
 from typing import cast
 
@@ -19,6 +18,7 @@ from lagrangian.check.search import SMALL
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass
 
 WHY = text("An equation stays true only if every term on both sides is divided or multiplied by the same.")
 MOST_DIVISORS = 40

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import text
 from lagrangian.page.report import Report
 from lagrangian.read import MAX_BYTES
+from lagrangian.records import dataclass
 from lagrangian.structured.predict import is_long
 from lagrangian.viewed import cut
 from lagrangian.write.written import Written

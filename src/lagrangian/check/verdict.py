@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
@@ -11,6 +10,7 @@ import sympy as sp
 
 from lagrangian.page.formula import Text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from enum import StrEnum
 from pathlib import Path
 
 from lagrangian.errors import Error
+from lagrangian.records import dataclass
 
 
 class Allowed(StrEnum):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from lagrangian.cli.wording import in_options
+from lagrangian.records import dataclass
 from lagrangian.simulate.ensemble import Ensemble
 from lagrangian.write import Title
 

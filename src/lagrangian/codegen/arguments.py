@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.quantities.largest import SMALLER, too_large
+from lagrangian.records import dataclass
 
 FLOAT = np.dtype(np.float64)
 NOUNS = {"q": "coordinate", "v": "velocity", "a": "acceleration", "x": "state", "p": "parameter"}

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.quantities.largest import LARGEST
+from lagrangian.records import dataclass, field
 
 from . import workers
 from .arguments import FLOAT, InputGroup, rows, unfit_input, where

@@ -11,7 +11,8 @@ function.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+
+from lagrangian.records import dataclass, field
 
 from .elementary import function as elementary_function
 from .elementary import sincos

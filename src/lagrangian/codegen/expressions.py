@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lagrangian.graph import operands, reached
+from lagrangian.records import dataclass
 
 from .labels import comment, identifier, unit
 from .tape import Op

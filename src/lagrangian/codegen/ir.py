@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from itertools import count
+
+from lagrangian.records import dataclass, field
 
 BIND = "bind_libm"  # every module has this function, which receives the table of C functions once, after loading
 LIBM_TABLE = f"""@libm = internal global ptr null

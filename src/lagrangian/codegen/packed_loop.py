@@ -7,8 +7,9 @@ consecutive numbers: they are loaded as whole vectors and rearranged by shuffles
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from lagrangian.records import dataclass
 
 from .emit import emit_inline
 from .ir import Function, Value, shuffle_mask

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from lagrangian.records import dataclass
 
 Array = tuple[str, str, str]
 """Operands of an array: address, stride from state to state, stride from entry to entry."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+
+from lagrangian.records import dataclass
 
 from .emit import Chunk, Plan
 from .tape import FLAGS, LEAVES, Op, Tape, operands

@@ -14,11 +14,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from lagrangian.graph import operands as sources
 from lagrangian.graph import reached
+from lagrangian.records import dataclass, field
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program

@@ -11,7 +11,8 @@ Format: WebAssembly Core Specification 2.0, section 5.5, and "WebAssembly Object
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+from lagrangian.records import dataclass
 
 MAGIC = b"\0asm\1\0\0\0"
 CUSTOM, IMPORT, EXPORT, DATA = 0, 2, 7, 11

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
@@ -20,6 +20,7 @@ from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Check, Formula, Heading, Item, Left, Matrix, Name, Table, Text, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass
 from lagrangian.viewed import cut
 from lagrangian.write.written import Written
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import islice, pairwise
 from typing import Any, cast
 
@@ -21,6 +20,7 @@ from lagrangian import bounded
 from lagrangian.coordinates import Change
 from lagrangian.derive.sample import Sampler
 from lagrangian.model import Frame, Model, Point, time
+from lagrangian.records import dataclass
 
 MAX_OPERATIONS = 200
 """The largest number of operations in a component of a position that is used."""

@@ -12,7 +12,7 @@ for them. Systems whose equations are too long to be compared row by row are com
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.model import Model
 from lagrangian.model.without_friction import check_no_friction
 from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 State = tuple[Array, Array, Array, float]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import sympy as sp
 
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Check, Text
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 

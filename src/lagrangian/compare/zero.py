@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import mpmath
 import sympy as sp
@@ -13,6 +12,7 @@ from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 from lagrangian.errors import ModelError
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 ENOUGH = 5
 """The number of states at which 50 digits are compared."""

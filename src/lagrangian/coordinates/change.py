@@ -9,7 +9,6 @@ replaces: ``theta2 = theta1 + theta2`` means that the old θ2 is the sum, and th
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, islice
 from typing import Any, cast
@@ -27,6 +26,7 @@ from lagrangian.model.names import RESERVED, check_name, moving_symbol
 from lagrangian.model.rows import rows_of
 from lagrangian.page.plain import plain
 from lagrangian.read import Scope, parse_expression
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 MOST_SETS = 500

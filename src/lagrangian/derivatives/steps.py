@@ -10,7 +10,6 @@ A floating frame is varied along its velocities, δq = N(q) ξ; after the step �
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.integrate.methods.explicit import Tableau
 from lagrangian.integrate.methods.rk4 import RK4
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy as sp
@@ -15,6 +14,7 @@ from lagrangian.derive.algebra import Algebra, Form, Term
 from lagrangian.derive.wiggle import Wiggle
 from lagrangian.model import Model
 from lagrangian.page.formula import Elided, Left, Name, Terms
+from lagrangian.records import dataclass, field
 
 READABLE = 400
 """Operations above which a formula is summarised; the full text is one option away."""

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 import sympy as sp
@@ -18,6 +17,7 @@ from lagrangian.derive.derived import Step
 from lagrangian.derive.wiggle import depends
 from lagrangian.model import Coordinate, Element, Frame, Model, Point
 from lagrangian.page.formula import Check, Formula, Item, Left, Table, Text, formula, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

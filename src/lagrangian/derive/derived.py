@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, cast
 
 import sympy as sp
@@ -18,6 +17,7 @@ from lagrangian.errors import ModelError, Notice, did_you_mean
 from lagrangian.model import as_expr
 from lagrangian.page.formula import Check, EquationTerm, Formula, Item, Text
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief, cut
 
 if TYPE_CHECKING:

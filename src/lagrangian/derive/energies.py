@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 
@@ -41,6 +41,7 @@ from lagrangian.page.formula import (
     formula,
     text,
 )
+from lagrangian.records import dataclass
 
 AXES = ("x", "y", "z")
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -36,6 +35,7 @@ from lagrangian.page.formula import (
     formula,
     text,
 )
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import sympy as sp
@@ -19,6 +18,7 @@ from lagrangian.derive.derived import Step
 from lagrangian.derive.energies import Share
 from lagrangian.model import Coordinate, time
 from lagrangian.page.formula import Heading, Item, Left, Minus, Name, Partial, Terms, Text, Total, formula, text
+from lagrangian.records import dataclass
 
 Detail: TypeAlias = Literal["usual", "full"]
 """How much of step 5 is written: "full" shows d/dt of every term."""

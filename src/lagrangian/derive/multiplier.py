@@ -6,13 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import cast
 
 import sympy as sp
 
 from lagrangian.model import Element
 from lagrangian.page.formula import EquationTerm, Text
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 

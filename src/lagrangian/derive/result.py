@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import cast
 
 import sympy as sp
@@ -35,6 +34,7 @@ from lagrangian.page.formula import (
     formula,
     text,
 )
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 

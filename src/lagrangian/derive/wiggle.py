@@ -10,7 +10,7 @@ whether the coordinates are independent; if a column is not zero, the body is in
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -24,6 +24,7 @@ from lagrangian.graph import Graph, NotAlgebraic, PrimePoint, from_sympy, gradie
 from lagrangian.model import Element, Frame, Model
 from lagrangian.model.elements import MovingMass
 from lagrangian.model.rows import rows_of
+from lagrangian.records import dataclass
 
 SMALL = 1e-9
 """A singular value or a column below this relative size counts as zero."""

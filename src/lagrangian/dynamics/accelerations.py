@@ -12,12 +12,12 @@ of joints.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.dynamics.tape import EliminationTape, Form
 from lagrangian.dynamics.vectors import dot, rotated
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, jvp, vjp
+from lagrangian.records import dataclass, field
 
 
 class Quadratic:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from lagrangian.dynamics.vectors import Matrix, Vector
+from lagrangian.records import dataclass, field
 
 
 @dataclass(eq=False)

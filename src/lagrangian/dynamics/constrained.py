@@ -11,7 +11,6 @@ constraints would do, so it never adds energy where the rows do not depend on ti
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.guard import LEAST_MARGIN
 from lagrangian.dynamics.mechanics import Mechanics
@@ -20,6 +19,7 @@ from lagrangian.dynamics.row_problem import Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Matrix, Vector, dot, times, zeros
 from lagrangian.graph import Graph, jvp, replaced, vjp
+from lagrangian.records import dataclass
 
 
 def position_rows(m: Mechanics) -> list[ConstraintRow]:

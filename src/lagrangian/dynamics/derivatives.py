@@ -19,7 +19,6 @@ seven coordinates.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.constrained_derivatives import constrained_slopes
 from lagrangian.dynamics.floating import bracket
@@ -31,6 +30,7 @@ from lagrangian.dynamics.vectors import Matrix, Vector, dot, plus, product, scal
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, Tangents, count_operations, jvp, replaced, vjp
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 VARIED = ("q", "v", "u")
 """The groups with respect to which derivatives are taken unless others are named."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from lagrangian.dynamics.axes import Axes, PlaceMotion
@@ -11,6 +10,7 @@ from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Vector
 from lagrangian.graph import Graph, from_sympy
 from lagrangian.model import Frame, Model, Point
+from lagrangian.records import dataclass, field
 
 
 @dataclass

@@ -20,7 +20,6 @@ groups that couple strongly, a contraction is more than is needed: a run may end
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 
@@ -29,6 +28,7 @@ from lagrangian.dynamics.vectors import Matrix, Vector, bare, dot
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 from lagrangian.model.without_friction import advice_for
+from lagrangian.records import dataclass
 
 MOST_PRESSING = 6
 """The largest number of normal forces of friction that slips at the same time."""

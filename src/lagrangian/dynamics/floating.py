@@ -21,12 +21,12 @@ m × ω.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times, zeros
 from lagrangian.graph import Graph
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

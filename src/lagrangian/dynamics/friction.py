@@ -11,7 +11,7 @@ functions; a verdict on a state tells which regime follows.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 from lagrangian.dynamics.constrained import velocity_correction
@@ -25,6 +25,7 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program
 from lagrangian.model import Friction, Model
 from lagrangian.model.rows import pressed_rows, pressing_rows
+from lagrangian.records import dataclass
 
 DEPENDENT = 1e-9
 """A row whose margin is below this follows from others."""

@@ -15,9 +15,9 @@ of three parallel cranks, each row can be spared only while its own share of the
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.graph import Graph
+from lagrangian.records import dataclass, field
 
 LEAST_MARGIN = 1e-11
 """Part of its closure's size below which the pivot of a row is nothing but rounding."""

@@ -11,12 +11,12 @@ In the plane it is (m, h, J) with h turned into the fixed axes:  f = m a + α ×
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, Vector, cross, plus, product, scaled, times, transposed, zeros
 from lagrangian.graph import Graph
+from lagrangian.records import dataclass
 
 Pairs = list[tuple[int, int]]
 Triples = list[tuple[int, int, int]]

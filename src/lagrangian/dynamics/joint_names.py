@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 from lagrangian.dynamics.parts import Parts, RigidPart
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Element, Frame, Point
 from lagrangian.model.elements.conditions import NoSlip, Separation
+from lagrangian.records import dataclass
 
 GROUND = ("ground", "the ground")
 MOST_LISTED = 12

@@ -10,7 +10,6 @@ which takes one reverse pass over the velocities, with the forces as cotangents.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 
 from lagrangian.dynamics.accelerations import Quadratic, by_columns, condensed, solve
@@ -29,6 +28,7 @@ from lagrangian.dynamics.turned_rates import in_speeds_of_rows
 from lagrangian.dynamics.vectors import bare, dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, vjp
 from lagrangian.model.spare import SpareRows
+from lagrangian.records import dataclass, field
 
 Pairs = list[tuple[int, int]]
 

@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.dynamics.accelerations import Elimination, no_inertia
 from lagrangian.dynamics.drags import Pressing
@@ -27,6 +26,7 @@ from lagrangian.dynamics.guard import Guard, Spared
 from lagrangian.dynamics.massless import combine, eliminate_pair
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.tape import Form
+from lagrangian.records import dataclass, field
 
 ROUNDING = 1e-12
 """A number below this is what is left of 0, such as cos of a rounded π/2: nothing is divided by it."""

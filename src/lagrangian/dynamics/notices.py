@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -25,6 +25,7 @@ from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
 from lagrangian.model import Body, Gravity, Model, Parameter, VelocityConstraint
 from lagrangian.model.body_checks import ConstantValues, Doubt, doubt
+from lagrangian.records import dataclass
 
 STATES = 20
 """The number of random states at which M is examined, for each random choice of the parameters."""

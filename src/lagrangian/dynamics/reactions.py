@@ -12,7 +12,6 @@ that the joint can have while all other joints rest, which belong to what acts o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -36,6 +35,7 @@ from lagrangian.model import Frame, Model
 from lagrangian.model.elements.conditions import NoSlip, Stated
 from lagrangian.model.elements.friction import Stuck
 from lagrangian.model.rows import named_conditions, rows_of
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

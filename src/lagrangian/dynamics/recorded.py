@@ -9,13 +9,13 @@ e_i = Σ δc_ij x_j.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Protocol
 
 from lagrangian.dynamics.accelerations import Elimination
 from lagrangian.dynamics.row_problem import Problem
 from lagrangian.dynamics.tape import Form
 from lagrangian.graph import Graph
+from lagrangian.records import dataclass, field
 
 
 class Loads:

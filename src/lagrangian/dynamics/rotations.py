@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.vectors import Matrix
 from lagrangian.graph import Graph
+from lagrangian.records import dataclass
 
 
 def along_axis(g: Graph, n: Sequence[int], angle: int) -> Matrix:

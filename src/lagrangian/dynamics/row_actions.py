@@ -6,7 +6,6 @@ Every row c = A v + a₀ has the power λ c: what multiplies a velocity in it, t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
@@ -25,6 +24,7 @@ from lagrangian.model.elements.conditions import (
     Stated,
     Unmoved,
 )
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

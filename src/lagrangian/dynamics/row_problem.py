@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 from lagrangian.dynamics.accelerations import Quadratic
 from lagrangian.dynamics.drags import AttachedDrag, Pressing
@@ -14,6 +13,7 @@ from lagrangian.dynamics.vectors import bare
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 from lagrangian.model.spare import SpareRows
+from lagrangian.records import dataclass
 
 
 class DependentRow(ModelError):

@@ -9,10 +9,10 @@ gives c = ḟ and keeps f. Its multiplier acts so as to increase f, or c:
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.model import Friction
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -9,11 +9,11 @@ a rotation of another pair.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, operands
 from lagrangian.graph.graph import Node
+from lagrangian.records import dataclass, field
 
 Form = dict[int, int]
 """A linear form: node → coefficient node."""

@@ -15,7 +15,6 @@ inwards. It is divided by masses and lengths, which are constant, and by those p
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.dynamics.accelerations import Elimination, Quadratic
 from lagrangian.dynamics.axes import Axes, PlaceMotion
@@ -23,6 +22,7 @@ from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.tape import EliminationTape, Form, make_tape
 from lagrangian.dynamics.vectors import Vector, bare, dot, minus, plus, scaled, times, zeros
 from lagrangian.graph import Graph, count_operations
+from lagrangian.records import dataclass, field
 
 MEETING = 8
 """Up to this number of rods may meet at a mass: every two of them are coupled."""

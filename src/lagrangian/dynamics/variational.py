@@ -15,7 +15,7 @@ where dg/dt is taken along the motion before the event, and f⁺ belongs to x⁺
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import sympy as sp
@@ -25,6 +25,7 @@ from lagrangian.dynamics.impacts import Impact, impact_outputs
 from lagrangian.dynamics.observe import Observed, observed
 from lagrangian.graph import Graph, Output, Program, Tangents, replaced
 from lagrangian.model import Model, Point
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

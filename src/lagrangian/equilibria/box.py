@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from lagrangian.equilibria.orientations import SIDE as ORIENTED
 from lagrangian.errors import RunError
 from lagrangian.model.elements import answers
+from lagrangian.records import dataclass
 from lagrangian.values.dimensions import LENGTH, NONE, Dim
 from lagrangian.values.values import Given, Group, number
 

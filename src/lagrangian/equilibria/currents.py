@@ -11,7 +11,6 @@ together.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
@@ -22,6 +21,7 @@ from lagrangian.linear.linearization import Linearization
 from lagrangian.linear.linearize import Linearizer
 from lagrangian.linear.stability import Stability, shown
 from lagrangian.model import Capacitor, Model, Parameter, time
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

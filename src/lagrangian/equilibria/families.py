@@ -7,12 +7,13 @@ belongs to a family; if it returns, the root is isolated but degenerate.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.equilibria.roots import EXACT, Search
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

@@ -8,13 +8,12 @@ e and −e are the same orientation; of the two that one is shown whose last ent
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

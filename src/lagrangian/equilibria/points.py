@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, overload
 
 import numpy as np
@@ -16,6 +15,7 @@ from lagrangian.model import Model
 from lagrangian.page.figures import figure, scientific
 from lagrangian.page.formula import Item, Table, text
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.written import Written
 

@@ -8,10 +8,11 @@ dimensions).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 Forces = Callable[[Array], tuple[Array, Array]]

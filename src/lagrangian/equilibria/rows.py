@@ -11,7 +11,7 @@ vanishes). Rows on velocities have multipliers and no f.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from lagrangian.linear.linearize import Linearizer
 from lagrangian.linear.manifold import Manifold
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -34,6 +34,7 @@ from lagrangian.linear.stability import Stability
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
 from lagrangian.model.without_friction import check_no_friction
+from lagrangian.records import dataclass, field
 from lagrangian.values.values import Given, Named
 
 _log = logging.getLogger(__name__)

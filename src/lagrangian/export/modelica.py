@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from lagrangian.codegen.labels import WORD, comment
 from lagrangian.codegen.modelica import needed_functions, to_modelica
@@ -13,6 +12,7 @@ from lagrangian.export.names import WORDS_OF_MODELICA
 from lagrangian.export.programs import coordinates_listed, program_of, unit_table
 from lagrangian.export.start import Start, start_of
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 RESERVED = WORDS_OF_MODELICA | {
     *("inverse_sinh", "inverse_cosh", "inverse_tanh", "energy_kinetic", "energy_potential"),

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lagrangian.export.programs import program_of
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.settings import RunSettings
 from lagrangian.simulate.simulation import initial_state, named

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TypeAlias
 
 from lagrangian.errors import ModelError
 from lagrangian.export.names import HEADERS, LONGEST_STEM, MODULES, WORDS_OF_C, WORDS_OF_MODELICA, check_stem
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 _log = logging.getLogger(__name__)
 

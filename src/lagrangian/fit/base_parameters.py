@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -36,6 +35,7 @@ from lagrangian.model import Model
 from lagrangian.page.figures import figure
 from lagrangian.page.formula import Item, Left, Table, formula, text
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass, field
 from lagrangian.values.values import Given, Named
 from lagrangian.write.written import Written
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import RunError
 from lagrangian.model import Model, as_expr
+from lagrangian.records import dataclass
 from lagrangian.simulate.quantities import quantity
 from lagrangian.values.values import key_name
 

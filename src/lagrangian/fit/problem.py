@@ -8,7 +8,7 @@ y(z) are the quantities of runs with the unknowns z, and ∂y/∂z their sensiti
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from lagrangian.errors import Error, RunError
 from lagrangian.fit.measured import MeasuredColumn, MeasuredRun
 from lagrangian.model import Model
 from lagrangian.page.formula import Check
+from lagrangian.records import dataclass
 from lagrangian.simulate import quotients
 from lagrangian.simulate.admission import Admission, fitness
 from lagrangian.simulate.integrating import Task

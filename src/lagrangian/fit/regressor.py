@@ -16,7 +16,6 @@ Direct calculation of minimum set of inertial parameters of serial robots, IEEE 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import cast
 
 import sympy as sp
@@ -29,6 +28,7 @@ from lagrangian.dynamics.programs import forward
 from lagrangian.dynamics.vectors import Vector, cross, plus, times
 from lagrangian.graph import Graph
 from lagrangian.model import Body, Frame, Model, Point, time
+from lagrangian.records import dataclass, field
 
 SPATIAL = ("m", "mx", "my", "mz", "Jxx", "Jyy", "Jzz", "Jxy", "Jxz", "Jyz")
 PLANAR = ("m", "mx", "my", "J")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from lagrangian.page.figures import figure, or_none
 from lagrangian.page.formula import Check, Item, Table, Verbatim, text
 from lagrangian.page.report import Part, Report
 from lagrangian.quantities.quantity import unit_dimension
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.guesses import by_key, checks_data, lettered
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.values.dimensions import Dim

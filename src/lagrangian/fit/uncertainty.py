@@ -8,11 +8,11 @@ by singular values of J with columns of length 1, so that no unit matters.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from lagrangian.fit.result import Fit, residuals_of
 from lagrangian.fit.search import ENDED, OUT_OF_TIME, search, searched
 from lagrangian.fit.uncertainty import Uncertainty, uncertainty
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.allowance import Allowance
 from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.plot import Units

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from lagrangian.graph.graph import Graph
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

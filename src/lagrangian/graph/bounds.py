@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.graph.along import FUNCTIONS, Along, Slopes, above, greatest, smallest
 from lagrangian.graph.graph import CONDITIONS, Graph, Node, operands
 from lagrangian.graph.program import Output, Program, reached
+from lagrangian.records import dataclass
 
 ENDLESS = 1e200
 """A stand-in for an unbounded derivative: large enough to prove nothing, but finite, so that 0 times it is 0."""

@@ -21,7 +21,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
@@ -40,6 +39,7 @@ from lagrangian.graph.prime_field import (
 )
 from lagrangian.graph.program import reached
 from lagrangian.graph.to_sympy import number
+from lagrangian.records import dataclass
 
 MAX_DRAWS = 500
 """Draws after which a root is given up: nine independent square roots are squares together in one of 512."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Mapping
-from dataclasses import dataclass, field
 from math import prod
 from typing import Any, TypeVar, cast
 
 from lagrangian.graph.graph import LEAVES, Graph, operands
+from lagrangian.records import dataclass, field
 
 T = TypeVar("T")
 

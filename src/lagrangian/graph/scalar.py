@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 from lagrangian.graph.graph import Graph
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, slots=True, eq=False)

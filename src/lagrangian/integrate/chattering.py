@@ -12,7 +12,6 @@ Righthand Sides, 1988, section 4). A method jumps to and fro across it in steps 
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Output, Program, jacobian, jvp, operands, reached
 from lagrangian.integrate.guards import guards
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

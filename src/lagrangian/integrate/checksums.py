@@ -13,7 +13,6 @@ import hashlib
 import json
 import zlib
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,6 +22,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate.chunks import Portions
 from lagrangian.integrate.places import StorePlace, each, tail
+from lagrangian.records import dataclass
 
 FORMAT = 2
 KEY = "lagrangian"

@@ -7,9 +7,10 @@ the earlier axes. So it is both a range of runs and exactly one chunk of an arra
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
+
+from lagrangian.records import dataclass
 
 MEMORY = 256 * 2**20
 """The default limit on the bytes of trajectories in memory."""

@@ -8,7 +8,7 @@ The programs that compute the corrections, or M, A and N, are made elsewhere. A 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Program, evaluate
+from lagrangian.records import dataclass
 
 Array: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]

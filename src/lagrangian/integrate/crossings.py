@@ -6,7 +6,6 @@ A step is divided into pieces as in the machine code (``methods/pieces.py``), al
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian.codegen import compile
 from lagrangian.graph import Program, bounds, reached, states_read
+from lagrangian.records import dataclass
 
 from .methods.pieces import COARSE, MAX_FINE_PIECES, MIN_PIECE
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.quantities.largest import SMALLER, too_large
+from lagrangian.records import dataclass, field
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -15,6 +14,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate.design import Design, Rows
 from lagrangian.integrate.ensemble import solver_of
 from lagrangian.integrate.observe import Study
+from lagrangian.records import dataclass
 
 PLACES = 16
 """The number of places in the ensemble at which runs are measured."""

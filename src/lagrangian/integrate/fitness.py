@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen import Kernel, Look, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Output, Program, evaluate
+from lagrangian.records import dataclass
 
 Array: TypeAlias = NDArray[np.float64]
 

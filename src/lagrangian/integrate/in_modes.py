@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -12,6 +11,7 @@ from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
 from lagrangian.integrate.design import Rows
 from lagrangian.integrate.status import RunStatus
+from lagrangian.records import dataclass
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program

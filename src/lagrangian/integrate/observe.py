@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -24,6 +23,7 @@ from lagrangian.integrate.fitness import Fitness
 from lagrangian.integrate.in_modes import LEAST, NOT_FINITE, InModes, kernel_of, lost, signals_at
 from lagrangian.integrate.projection import BREAKS, Drift, Projection
 from lagrangian.integrate.status import RunStatus
+from lagrangian.records import dataclass, field
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program

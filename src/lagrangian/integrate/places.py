@@ -9,11 +9,11 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any, TypeAlias, TypeVar
 
 from lagrangian.errors import Error, MissingExtra
+from lagrangian.records import dataclass, field
 
 T = TypeVar("T")
 R = TypeVar("R")

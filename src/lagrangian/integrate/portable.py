@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from lagrangian.codegen import Options, wasm
 from lagrangian.codegen.build import fingerprint
 from lagrangian.codegen.ir import Module
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.records import dataclass
 
 from . import check
 from .machine import BLOCKS, identified

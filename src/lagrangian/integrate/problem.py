@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

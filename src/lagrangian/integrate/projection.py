@@ -7,13 +7,14 @@ which are made elsewhere, compute the corrections.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program, copied, replaced
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -11,7 +11,6 @@ import math
 import time as clock
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -25,6 +24,7 @@ from lagrangian.integrate.projection import Drift, Projection
 from lagrangian.integrate.scipy_projection import Projected
 from lagrangian.integrate.scipy_weights import Weights
 from lagrangian.integrate.status import RunStatus
+from lagrangian.records import dataclass, field
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]

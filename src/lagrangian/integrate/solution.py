@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.integrate.projection import Drift
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]

@@ -16,7 +16,6 @@ import shutil
 import tempfile
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +44,7 @@ from lagrangian.integrate.marks import alone, marks_file
 from lagrangian.integrate.observe import Values
 from lagrangian.integrate.places import ObjectPath, StorePlace, put, remove_tree
 from lagrangian.integrate.stored import explained, fill, library, lost_chunks, opened, whole
+from lagrangian.records import dataclass, field
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ import contextlib
 import errno
 import hashlib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from types import EllipsisType
 from typing import Any
 
@@ -21,6 +20,7 @@ from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate.checksums import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
 from lagrangian.integrate.places import ObjectPath, StorePlace, for_zarr
 from lagrangian.integrate.status import RunStatus
+from lagrangian.records import dataclass
 
 LISTED = 3
 """The number of damaged chunks that are listed."""

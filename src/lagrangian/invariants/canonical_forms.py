@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, cast
 
 import sympy as sp
@@ -13,6 +12,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, Elided, Formula, Item, Left, Matrix, Name, Partial, Terms, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass
 from lagrangian.write.written import Written
 
 

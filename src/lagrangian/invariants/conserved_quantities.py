@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -12,6 +11,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, Item, Name, Text, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 from lagrangian.write.written import Written
 

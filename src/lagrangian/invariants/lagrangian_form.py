@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
 
@@ -13,6 +12,7 @@ from lagrangian.derive.algebra import Algebra, Form
 from lagrangian.errors import ModelError
 from lagrangian.model import Input, Model, time
 from lagrangian.model.rows import rows_of
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

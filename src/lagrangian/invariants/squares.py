@@ -9,7 +9,6 @@ determinant.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, cast
 
@@ -20,6 +19,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.ratios import MAX_INVERSE_ROWS, TERMS, blocks, determinant
 from lagrangian.errors import RunError
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

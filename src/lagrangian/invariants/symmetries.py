@@ -12,7 +12,6 @@ row a state; what is 0 everywhere is the null space. Source: Noether, Göttinger
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, cast
@@ -28,6 +27,7 @@ from lagrangian.errors import ModelError
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.linear.echelon import null_space, reduced
 from lagrangian.model import time
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 TURNS = 12

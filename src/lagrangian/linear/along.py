@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from lagrangian.linear.manifold import Manifold, tangents
 from lagrangian.linear.outputs import measured
 from lagrangian.model import Model
 from lagrangian.model.without_friction import check_no_friction
+from lagrangian.records import dataclass
 from lagrangian.values.values import Given, Named, key_name, number
 from lagrangian.viewed import Brief, cut
 

@@ -11,13 +11,13 @@ Sources: Golub & Van Loan, Matrix Computations (4th ed.), §§ 7.1.6, 7.2.2; Kub
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.linear.echelon import reduced
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

@@ -13,13 +13,12 @@ where Ż, that of N(e), is 0 at rest. δp is in the fixed axes, and for an untur
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.linear.jacobians import Arrays
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +13,7 @@ from lagrangian.linear.modes import Mode, Spectrum, modes, spectrum
 from lagrangian.linear.reach import Reach, controllable, observable
 from lagrangian.linear.stability import Stability, judge
 from lagrangian.model import Model
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

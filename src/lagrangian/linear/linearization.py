@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -15,6 +14,7 @@ from lagrangian.linear.symbolic import SymbolicLinearization
 from lagrangian.linear.symbolic import symbolic as in_symbols
 from lagrangian.model import Model
 from lagrangian.page.report import Report
+from lagrangian.records import dataclass
 from lagrangian.viewed import Viewed
 from lagrangian.write.report import report_fragment
 from lagrangian.write.written import Written

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -30,6 +30,7 @@ from lagrangian.linear.rest import TIMES, OperatingPoint, rest
 from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
+from lagrangian.records import dataclass
 from lagrangian.values.values import Given, Named
 
 Array = NDArray[np.float64]

@@ -15,7 +15,6 @@ A row on velocities that is not a rate of an f restricts speeds and no coordinat
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import repeat
 
@@ -28,6 +27,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, reads, values, with_jacobians
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

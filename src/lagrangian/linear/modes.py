@@ -10,7 +10,6 @@ left and right eigenvectors: Golub & Van Loan, Matrix Computations (4th ed.), §
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, plain_basis
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

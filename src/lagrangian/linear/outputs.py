@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -15,6 +14,7 @@ from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.jacobians import with_jacobians
 from lagrangian.model import Model, as_expr
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,6 @@ wᵀA = λ wᵀ and wᵀB = 0: the left null space of A − λ within what is le
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.linear.eigenspaces import eigenspaces, plain_basis
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

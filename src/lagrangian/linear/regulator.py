@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +17,7 @@ from lagrangian.page.figures import complex_figure, figure, matrix, plain_number
 from lagrangian.page.formula import Check, Item, Name, Table, Text, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass, field
 from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]

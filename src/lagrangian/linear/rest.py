@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, reads, values
 from lagrangian.linear.manifold import Manifold, point_words
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.values.values import Given, Named
 
 Array = NDArray[np.float64]

@@ -10,7 +10,6 @@ stable. Sources: Hahn, Stability of Motion (1967), §§ 25, 28; Meirovitch, Meth
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays
 from lagrangian.linear.modes import SYMMETRIC, Spectrum
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]

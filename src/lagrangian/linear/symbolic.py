@@ -6,7 +6,6 @@ h = C q̇ + G − Ξ of the derivation is differentiated and evaluated at the eq
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, cast
 
@@ -20,6 +19,7 @@ from lagrangian.errors import RunError
 from lagrangian.linear.linear_model import LinearModel
 from lagrangian.model import Model, is_hard, time
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 MAX_SYMBOLIC_COORDINATES = 6

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 import sympy as sp
@@ -14,6 +13,7 @@ from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.look.shapes import INK, arc, arc_end, head, line
 from lagrangian.page.scene import FIXED, Disc, Flow, Pair, Path, Placement, Role, ScenePart, Trace
+from lagrangian.records import dataclass, field
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.model import Body, RigidBody, Rolling
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,6 @@ One more loop may lie below the row and have wires in common with all of it, as 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
@@ -28,6 +27,7 @@ from lagrangian.model import (
     VoltageSource,
 )
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
 
 LAWS = ("L", "C", "R", "M", "k", "value", "law", "coenergy", "energy")
 """The fields of which one says what a branch is."""

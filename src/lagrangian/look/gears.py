@@ -7,7 +7,6 @@ centres, the radii are d/(1 + n) and n d/(1 + n).
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -18,6 +17,7 @@ from lagrangian.look.board import BODY, Board
 from lagrangian.look.cast import BodyGlyph, Player
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.shapes import INK, arc
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

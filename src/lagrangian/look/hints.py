@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from math import pi
 from typing import Any
 
@@ -13,6 +12,7 @@ from lagrangian.look.kinematics import Kinematics
 from lagrangian.model import Frame, Model, Point, RigidBody
 from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
+from lagrangian.records import dataclass, field
 from lagrangian.values.values import Given, key_name
 
 MOST = 1000

@@ -6,7 +6,6 @@ wheel about its fixed centre and R is a parameter, while no other body moves wit
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -21,6 +20,7 @@ from lagrangian.look.strings import HUNG, PulleyString, down_of
 from lagrangian.look.tie_glyphs import ROLES, symbol_names
 from lagrangian.look.ties import Tie
 from lagrangian.page.scene import Placement
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

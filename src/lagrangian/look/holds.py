@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from lagrangian.look.kinematics import Kinematics
 from lagrangian.model import RigidBody
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -10,7 +10,6 @@ and does not depend on how an expression is written.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from lagrangian.dynamics.vectors import plus, times
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, Tangents, Valuation, jvp
 from lagrangian.model import Frame, Model, Point
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

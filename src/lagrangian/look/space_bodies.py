@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -23,6 +22,7 @@ from lagrangian.look.space_cast import SpacePlayer
 from lagrangian.look.space_solids import CIRCLE, Solids, across
 from lagrangian.look.space_turns import Spin, axis_now
 from lagrangian.page.scene import Disc, Placement, Trace
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

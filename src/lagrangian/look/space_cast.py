@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 import numpy as np
 import sympy as sp
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from lagrangian.look.cast import CHOICES, BodyGlyph, Player, carried_points, linked, rolling_radius
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.model import Body, Force, RigidBody
+from lagrangian.records import dataclass, field
 
 Array = NDArray[np.float64]
 

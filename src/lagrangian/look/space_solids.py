@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import hypot, pi
 
 import numpy as np
@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BODY, Board
 from lagrangian.look.shapes import INK, arc, line, lines
 from lagrangian.page.scene import Disc, Pair, Path, Placement, Role
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

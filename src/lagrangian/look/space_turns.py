@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.kinematics import Views
 from lagrangian.look.turning import Turn
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -6,8 +6,6 @@ Where a model leaves a constant out (as one may: −x on one side and x on the o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +17,7 @@ from lagrangian.look.kinematics import Views
 from lagrangian.look.pose import Pose
 from lagrangian.look.shapes import BLOCK
 from lagrangian.look.strings import PulleyString, StringEnd
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 import sympy as sp
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.model import Spring
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

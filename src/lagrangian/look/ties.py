@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +16,7 @@ from lagrangian.look.cast import Player
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.turning import Turn
 from lagrangian.model import Element
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 Way = Literal["points", "slides", "joint", "arm", "telescope", "stop", "unknown"]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.cast import BodyGlyph, Player
 from lagrangian.look.couplers import couplers
 from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

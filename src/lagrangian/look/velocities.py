@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.holds import Motions
+from lagrangian.records import dataclass, field
 
 Array = NDArray[np.float64]
 

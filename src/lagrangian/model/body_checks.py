@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
@@ -26,6 +25,7 @@ from lagrangian.errors import ModelError
 from lagrangian.model.elements.base import Body
 from lagrangian.model.model import written_out
 from lagrangian.model.names import time
+from lagrangian.records import dataclass
 
 if TYPE_CHECKING:
     from lagrangian.model.model import Model

@@ -14,7 +14,6 @@ own axes. Pinocchio's free-flyer and spherical joint use the same order and axes
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import cast
 
 import sympy as sp
@@ -22,6 +21,7 @@ import sympy as sp
 from lagrangian.errors import Place
 from lagrangian.model.names import moving_symbol
 from lagrangian.model.symbols import Coordinate, Velocity
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

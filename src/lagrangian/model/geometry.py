@@ -14,7 +14,6 @@ parent's axes and R is Rodrigues' rotation  R = 1 + sin φ [n]× + (1 − cos φ
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
 from math import isfinite
@@ -29,6 +28,7 @@ from lagrangian.errors import ModelError, Place
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 from lagrangian.quantities.largest import LARGEST, SMALLER, too_large
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 if TYPE_CHECKING:

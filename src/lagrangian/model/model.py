@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -20,6 +20,7 @@ from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.spare import SpareRows
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief, cut
 
 T = TypeVar("T")

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import cast
 
 import sympy as sp
@@ -18,6 +18,7 @@ from lagrangian.model.elements.answers import Unit
 from lagrangian.model.elements.base import Condition
 from lagrangian.model.elements.conditions import Stated
 from lagrangian.model.model import Model
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

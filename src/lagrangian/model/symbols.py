@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 
 import sympy as sp
@@ -13,6 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import Place
 from lagrangian.model.names import time
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 

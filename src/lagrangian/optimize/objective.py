@@ -6,7 +6,7 @@ Where a terminal event ends the run, its end moves: dφ = δφ + φ̇ δt, d∫c
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import sympy as sp
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate import RunStatus
 from lagrangian.page.formula import Check
+from lagrangian.records import dataclass
 from lagrangian.simulate import quotients
 from lagrangian.simulate.admission import Admission, fitness
 from lagrangian.simulate.allowance import Allowance

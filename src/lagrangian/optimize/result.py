@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from lagrangian.model import Model
 from lagrangian.page.figures import figure
 from lagrangian.page.formula import Check, Item, Table, Verbatim, text
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.guesses import checks_data, lettered
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.write.written import Written

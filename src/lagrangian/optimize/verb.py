@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model, as_expr
 from lagrangian.optimize.objective import FAR, Goal, Objective
 from lagrangian.optimize.result import Optimum
+from lagrangian.records import dataclass
 from lagrangian.simulate.allowance import Allowance, OutOfEvaluationsError, OutOfTimeError
 from lagrangian.simulate.guesses import Bounds, by_key, check_inside, guessed, limits, quantity_value
 from lagrangian.simulate.inputs import SampledInput

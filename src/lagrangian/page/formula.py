@@ -9,12 +9,12 @@ They are data without markup. `write` lays them out; ``str()`` returns plain tex
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import sympy as sp
 
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief, Worded, cut
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from lagrangian.page.ground import extended
 from lagrangian.page.placing import Drawn, placed, places
 from lagrangian.page.scene import Scene, ScenePart, Trace, drawing_order
+from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ They are the colours of the same kinds of terms in a derivation.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from lagrangian.page.scene import Role
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from lagrangian.page.formula import Check, Item, Text
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 M = TypeVar("M")

@@ -13,8 +13,9 @@ second, only has to place shapes; springs, wheels and carts need no code of thei
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
+
+from lagrangian.records import dataclass, field
 
 Pair: TypeAlias = "tuple[float, float]"
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import NoReturn
@@ -22,6 +21,7 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.quantities.source import Source, character, shown
 from lagrangian.quantities.unit_hints import refusal, similar
 from lagrangian.quantities.units import BEFORE_WORDS, ONE, Dimension, Unit, lookup
+from lagrangian.records import dataclass
 
 MAX_CHARACTERS = 200
 MAX_EXPONENT = 20

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from lagrangian.codes import CodeText
 from lagrangian.errors import ParseError, Place
+from lagrangian.records import dataclass
 
 
 def shown(text: str, limit: int = 40) -> str:

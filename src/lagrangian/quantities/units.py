@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+
+from lagrangian.records import dataclass
 
 BASE = ("kg", "m", "s", "A", "K", "mol", "cd")
 """The SI base units, in the order of the exponents of a dimension."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import NoReturn, TypeAlias
 
 from lagrangian.errors import Place, did_you_mean
 from lagrangian.quantities.quantity import Quantity, read_quantity
 from lagrangian.quantities.source import Source, printable, shown
+from lagrangian.records import dataclass
 
 MAX_CHARACTERS = 10_000
 MAX_COUNT = 10_000_000

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from lagrangian.errors import Place
 from lagrangian.quantities.source import Source, printable
+from lagrangian.records import dataclass
 
 Path: TypeAlias = tuple[str | int, ...]
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from lagrangian.calls import worded
 from lagrangian.errors import RunError
 from lagrangian.page.motion import SceneMotion
 from lagrangian.page.palette import DARK, LIGHT
+from lagrangian.records import dataclass, field
 from lagrangian.view.frames import FramePainter
 from lagrangian.view.movies import FASTEST, Progress, ffmpeg, write_gif, write_video
 from lagrangian.viewed import Brief, cut

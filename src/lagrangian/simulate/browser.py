@@ -12,7 +12,6 @@ import json
 import math
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.portable import driver
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate import drift, spared
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.browser_parts import BrowserParts, Quantities

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -20,6 +20,7 @@ from lagrangian.integrate.chattering import ASIDE, LEAST, NEAR, RESTS, Sticking
 from lagrangian.integrate.portable import PortableIntegrator, portable
 from lagrangian.integrate.projection import BREAKS
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.events import Event
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, event_program, projection, right_hand_side

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from lagrangian.integrate.projection import BREAKS
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
+from lagrangian.records import dataclass
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, remembered
 from lagrangian.simulate.resets import cut_at
 from lagrangian.viewed import Brief

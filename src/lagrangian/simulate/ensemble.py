@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -18,6 +17,7 @@ from lagrangian.integrate.observe import DRIFTED
 from lagrangian.integrate.places import place
 from lagrangian.integrate.status import RunStatus
 from lagrangian.integrate.stored import Stored, StoredResult
+from lagrangian.records import dataclass
 from lagrangian.simulate.plot import check_no_file
 from lagrangian.simulate.variation import SAMPLE, TIME
 from lagrangian.view.many import SweptAxis, SweptResult, draw_many

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import sympy as sp
@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian.errors import ModelError, RunError
 from lagrangian.model import Model, as_expr, check_name
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.quantities import quantity
 
 

@@ -10,7 +10,6 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,7 @@ from lagrangian.errors import ModelError, ParseError, RunError, did_you_mean
 from lagrangian.integrate.scipy_methods import Interval
 from lagrangian.model import Input, Model
 from lagrangian.quantities.largest import SMALLER, too_large
+from lagrangian.records import dataclass, field
 from lagrangian.values.dimensions import Dim
 from lagrangian.values.values import key_name, number
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.method_names import SCIPY
 from lagrangian.integrate.scipy_methods import IMPLICIT, Bounds, Outcome, integrate_scipy
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate import resets
 from lagrangian.simulate.events import Event
 from lagrangian.simulate.inputs import InputSignals

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from lagrangian import dynamics
 from lagrangian.errors import ModelError
 from lagrangian.graph import Program
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.reaction import force_and_torque
 
 Array = NDArray[np.float64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -17,6 +16,7 @@ from lagrangian.integrate import METHODS, Events, Signals
 from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 from lagrangian.simulate import slipping
 from lagrangian.simulate.drift import check_method
 from lagrangian.simulate.events import events_of

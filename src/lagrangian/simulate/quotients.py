@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from lagrangian import dynamics
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate import RunStatus
 from lagrangian.page.formula import Check, text
+from lagrangian.records import dataclass
 from lagrangian.simulate.integrating import Task, remembered, run
 
 Array = NDArray[np.float64]

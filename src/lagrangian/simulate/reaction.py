@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from lagrangian.dynamics import ReactionProgram
 from lagrangian.errors import Notice
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
+from lagrangian.records import dataclass
 from lagrangian.simulate.drift import DEPENDENT
 from lagrangian.viewed import Brief
 

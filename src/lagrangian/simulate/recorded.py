@@ -4,7 +4,6 @@ balance."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,7 @@ from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import drive_symbol, named_conditions
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import Task, remembered
 from lagrangian.simulate.joint_forces import joint_force, part_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -11,6 +10,7 @@ import sympy as sp
 from lagrangian import dynamics
 from lagrangian.graph import Program
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.joint_forces import JointForce, JointForces, observed_joints
 

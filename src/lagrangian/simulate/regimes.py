@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from lagrangian.graph import Program, evaluate
 from lagrangian.integrate import Events, Solver
 from lagrangian.model import Model
 from lagrangian.model.rows import pressed_rows
+from lagrangian.records import dataclass
 from lagrangian.simulate import resets
 from lagrangian.simulate.events import Event
 from lagrangian.simulate.integrating import projection, remembered

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from lagrangian import dynamics
 from lagrangian.calls import Guided
 from lagrangian.errors import ModelError, NoSuchEntry, RunError
 from lagrangian.model import Point, as_expr
+from lagrangian.records import dataclass, field
 from lagrangian.simulate import quotients
 from lagrangian.simulate.guesses import by_key
 from lagrangian.simulate.quantities import quantity

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
@@ -20,6 +20,7 @@ from lagrangian.integrate.ensemble import Progress
 from lagrangian.integrate.estimate import Confirm
 from lagrangian.integrate.method_names import SCIPY
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.events import Event, listed_events
 from lagrangian.values.dimensions import NONE, SECOND
 from lagrangian.values.values import number

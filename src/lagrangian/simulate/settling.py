@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.errors import RunError
+from lagrangian.records import dataclass
 from lagrangian.simulate.regimes import Modes, Regimes
 
 Array = NDArray[np.float64]

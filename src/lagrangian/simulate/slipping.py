@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +12,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
+from lagrangian.records import dataclass
 from lagrangian.simulate.events import events_of
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side, solver_options

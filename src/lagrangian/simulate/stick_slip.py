@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.integrate import Drift, RunStatus, Signals, Solution
 from lagrangian.integrate.in_modes import signals_at
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.regimes import Modes, Regimes
 from lagrangian.simulate.settling import Crossroads, Paradox
 

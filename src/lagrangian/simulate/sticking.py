@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.model import Model
 from lagrangian.model.names import time
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 if TYPE_CHECKING:
     from lagrangian.integrate.scipy_methods import Outcome

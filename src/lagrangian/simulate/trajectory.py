@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from lagrangian.errors import RunError
+from lagrangian.records import dataclass
 from lagrangian.simulate import plot
 from lagrangian.simulate.recorded import Recorded
 from lagrangian.viewed import cut

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -20,6 +19,7 @@ from lagrangian.integrate.store import Variable
 from lagrangian.model import Model
 from lagrangian.quantities.quantity import Quantity
 from lagrangian.read.sweep_values import Spread, parse_spread, parse_values
+from lagrangian.records import dataclass, field
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.plot import Units
 from lagrangian.values.dimensions import Dim

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from lagrangian.integrate.guards import guards
 from lagrangian.integrate.scipy_methods import IMPLICIT, Outcome, integrate_scipy
 from lagrangian.model import Model
 from lagrangian.model.without_friction import check_no_friction
+from lagrangian.records import dataclass
 from lagrangian.simulate import resets
 from lagrangian.simulate.inputs import SampledInput
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, remembered, solver_options

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import cast
 
 import sympy as sp
@@ -29,6 +28,7 @@ from lagrangian.derive.wiggle import study
 from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.model import Model
 from lagrangian.page.formula import Elided, EquationTerm, Heading, Item, Left, formula, text
+from lagrangian.records import dataclass, field
 from lagrangian.structured.constants import constants
 from lagrangian.structured.floating import by_power, check_speeds, free, held_floating, moved_by, speeds
 from lagrangian.structured.listing import Listing, listing

@@ -11,7 +11,6 @@ weight of its c, leaves at each velocity node the constraint forces on everythin
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -24,6 +23,7 @@ from lagrangian.dynamics.rows import Drag
 from lagrangian.model import Model
 from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

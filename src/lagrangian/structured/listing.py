@@ -9,7 +9,6 @@ left-hand sides. ∂v/∂ξ_i = d/dt ∂v/∂ξ̇_i, so of d/dt(m v·∂v/∂ξ�
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.derive import QuantityKind
 from lagrangian.dynamics.axes import Axes, PlaceMotion
@@ -20,6 +19,7 @@ from lagrangian.dynamics.rows import Drag
 from lagrangian.dynamics.vectors import Vector, bare, dot, plus, times, transposed
 from lagrangian.graph import Graph, backwards, gradient, reached
 from lagrangian.model import Gravity, Model
+from lagrangian.records import dataclass, field
 from lagrangian.structured.held_rows import ListedRow, pushes, slips, ties
 from lagrangian.structured.names import COMPONENTS, Indices
 from lagrangian.structured.quantities import BodyMotion, Candidate, body_motions

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lagrangian.derive import QuantityKind
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.vectors import Vector, cross, plus, scaled, times
 from lagrangian.model import Body
+from lagrangian.records import dataclass
 from lagrangian.structured.names import Indices
 
 

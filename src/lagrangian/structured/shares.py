@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import cast
 
 import sympy as sp
@@ -16,6 +15,7 @@ from lagrangian.derive.multipliers.step import AFTER
 from lagrangian.dynamics.describe import moved
 from lagrangian.dynamics.mechanics import Pairs
 from lagrangian.model import Element
+from lagrangian.records import dataclass
 from lagrangian.structured.held_rows import pushes
 from lagrangian.structured.listing import Listing
 from lagrangian.structured.writing import ListingWriter, equalities

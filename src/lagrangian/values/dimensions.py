@@ -11,7 +11,7 @@ difference, there is no error, and the terms of the equations are not compared.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, cast
 
@@ -27,6 +27,7 @@ from lagrangian.model.rows import NamedCondition, named_conditions
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
 from lagrangian.quantities.units import BASE
+from lagrangian.records import dataclass, field
 
 Power = int | Fraction
 """An exponent; whole ones are `int`, with which most dimensions are computed at once."""

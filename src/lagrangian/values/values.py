@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.quantities.largest import SMALLER, too_large
 from lagrangian.quantities.quantity import parse_quantity
+from lagrangian.records import dataclass
 from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, Mismatch, check_dimensions
 
 Named = Mapping[Any, Any]

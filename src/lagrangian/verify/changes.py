@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, Literal, TypeAlias
 
@@ -27,6 +26,7 @@ from lagrangian.errors import Error, RunError
 from lagrangian.graph import Program
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.records import dataclass
 from lagrangian.verify.neighbours import BESIDE, Changing, Function, Neighbourhood, quotient, resolved
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import POINTS, TOLERANCE, too_long

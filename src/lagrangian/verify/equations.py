@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias, cast
 
 import numpy as np
@@ -29,6 +28,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, hessian, jacobian, jvp, vjp
 from lagrangian.model import Model, is_hard, time
 from lagrangian.page.formula import Check, Name, text
+from lagrangian.records import dataclass
 from lagrangian.values.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.values.values import check_sampling
 from lagrangian.verify.in_regimes import InRegimes

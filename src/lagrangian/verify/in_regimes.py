@@ -7,7 +7,6 @@ is, only the equations tell: every combination is tried, and at most one agrees 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -16,6 +15,7 @@ from lagrangian.derive import Derived
 from lagrangian.graph import Program
 from lagrangian.model import Friction, Model
 from lagrangian.model.rows import pressed_rows, pressing_rows, rows_of
+from lagrangian.records import dataclass
 from lagrangian.verify.states import evaluated
 
 Groups = Mapping[str, list[float]]

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -28,6 +27,7 @@ from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, f
 from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.records import dataclass
 from lagrangian.verify.motion import verify_motion
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.states import State, evaluated, random_states, relative

@@ -8,7 +8,6 @@ solve them, and M, C and the energy must obey their laws.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -19,6 +18,7 @@ from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.graph import Graph, Output, Program, jvp, reached, replaced
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
+from lagrangian.records import dataclass
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.values.values import check_sampling
 from lagrangian.verify.on_rows import OnRows

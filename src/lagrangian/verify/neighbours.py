@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.errors import RunError
 from lagrangian.model import Model
+from lagrangian.records import dataclass, field
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import SETTLED, TOLERANCE, WIDTH, extrapolated
 from lagrangian.verify.states import State

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -29,6 +28,7 @@ from lagrangian.errors import Error
 from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.records import dataclass, field
 from lagrangian.verify.changes import changes
 from lagrangian.verify.exports import Sources, exported
 from lagrangian.verify.foreign.checks import foreign_checks, not_run

@@ -12,7 +12,6 @@ is solved as one dense system by NumPy, and held against what is compiled and ag
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, TypeAlias, cast
 
 import numpy as np
@@ -25,6 +24,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Check, Name, text
+from lagrangian.records import dataclass
 from lagrangian.verify.in_regimes import Routes
 from lagrangian.verify.on_rows import Groups, OnRows, State
 from lagrangian.verify.states import evaluated

@@ -7,12 +7,12 @@ two axes                 a map in colours; with samples, or further axes, of the
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.records import dataclass
 from lagrangian.view.plots import _raised, _safe, new_figure
 
 if TYPE_CHECKING:

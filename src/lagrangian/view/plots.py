@@ -13,13 +13,13 @@ import sys
 import textwrap
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import MissingExtra
+from lagrangian.records import dataclass, field
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

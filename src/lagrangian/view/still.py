@@ -6,7 +6,6 @@ import importlib
 import io
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from lagrangian.errors import MissingExtra
 from lagrangian.page.palette import LIGHT, Palette
 from lagrangian.page.placing import Drawn, placed, places
 from lagrangian.page.scene import Role, Scene, ScenePart, drawing_order
+from lagrangian.records import dataclass
 
 POINTS = 72.0
 """Points an inch: a pixel of the scene is drawn as a point."""

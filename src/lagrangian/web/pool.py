@@ -11,9 +11,9 @@ import contextlib
 import os
 import sys
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+from lagrangian.records import dataclass
 from lagrangian.web import worker as process_of
 from lagrangian.web.frames import HEAD, MAX_FRAME, packed, unpacked
 from lagrangian.web.limits import MEMORY, size_of

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -15,6 +14,7 @@ import sympy as sp
 from lagrangian.derive.coordinates import MeasuredFrom, measured
 from lagrangian.model import Coordinate, Model
 from lagrangian.model.names import moving_symbol
+from lagrangian.records import dataclass
 from lagrangian.worksheet.dice import Dice
 from lagrangian.worksheet.directions import positive_sense, turned_round
 

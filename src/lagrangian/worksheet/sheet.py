@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, get_args
@@ -15,6 +15,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import text
 from lagrangian.page.report import Part, Report
 from lagrangian.read import dumps
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import cut
 from lagrangian.worksheet.dice import checked_seed
 from lagrangian.worksheet.given import asked, given

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from copy import copy
-from dataclasses import dataclass, field
 from itertools import permutations
 from typing import Any
 
 import sympy as sp
 
 from lagrangian.model import Damper, Element, Force, Model, Spring, Torque
+from lagrangian.records import dataclass, field
 from lagrangian.worksheet.dice import Dice
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
@@ -18,6 +18,7 @@ from lagrangian.look.hints import hints_of
 from lagrangian.look.scenes import scene_of
 from lagrangian.model import Element, Model
 from lagrangian.model.names import moving_symbol
+from lagrangian.records import dataclass
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.viewed import Brief
 from lagrangian.worksheet.dice import Dice

@@ -9,9 +9,10 @@ short parenthesis, such as (x₁ − x₂), is broken last of all.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import pairwise
 
+from lagrangian.records import dataclass, field
 from lagrangian.write.expression_tree import (
     GLUED,
     LOOSE,

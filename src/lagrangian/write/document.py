@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.expression_tree import Math
 

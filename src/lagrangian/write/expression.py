@@ -4,7 +4,7 @@ fractions."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction
 from typing import Any
@@ -16,6 +16,7 @@ from sympy.logic.boolalg import BooleanFunction
 
 from lagrangian.model import Model, time
 from lagrangian.page.plain import as_cases
+from lagrangian.records import dataclass
 from lagrangian.write.expression_tree import (
     FUNCTIONS,
     Addition,

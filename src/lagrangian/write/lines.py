@@ -5,8 +5,7 @@ Widths are counted in columns of the Unicode text, which is also a good measure 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from lagrangian.records import dataclass
 from lagrangian.write.breaking import BrokenRow, break_lines
 from lagrangian.write.expression_tree import (
     Glyph,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lagrangian.page.scene import Label, Scene
+from lagrangian.records import dataclass
 from lagrangian.write.expression_tree import GREEK, Letter, numbered
 from lagrangian.write.names import letters
 from lagrangian.write.text import clean

@@ -7,7 +7,6 @@ import importlib
 import io
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import MissingExtra, ModelError, did_you_mean
+from lagrangian.records import dataclass
 from lagrangian.write.files import check_free, write_file, write_with
 
 if TYPE_CHECKING:

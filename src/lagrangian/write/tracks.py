@@ -7,11 +7,11 @@ enough to it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.records import dataclass
 from lagrangian.write.scene_svg import number
 
 Array = NDArray[np.float64]

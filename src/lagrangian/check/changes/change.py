@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian.check.changes.ring import Sum, minus
 from lagrangian.model import Element
 from lagrangian.page.formula import Left
+from lagrangian.records import dataclass, field
 
 Words: TypeAlias = "tuple[str | Left, ...]"
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import Any
@@ -24,6 +23,7 @@ from lagrangian.check.changes.sums import SumChanges
 from lagrangian.check.changes.work import WorkChanges
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array
+from lagrangian.records import dataclass
 
 MOST = 9_000
 """The largest number of changes that are tried, the likeliest first."""

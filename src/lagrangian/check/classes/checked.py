@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.classes.students import Roster, Student, unanswered
 from lagrangian.check.classes.tables import gradescope_csv, harmless, moodle_csv, to_csv
 from lagrangian.errors import Error, ModelError
+from lagrangian.records import dataclass
 from lagrangian.viewed import cut
 from lagrangian.write.files import check_free, write_file
 

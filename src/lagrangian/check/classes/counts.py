@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from lagrangian.check.classes.feedback import step_title
 from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.verdict import Status
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 STEP_OF = {"T": 2, "V": 3, "L": 4, "D": 6, "Xi": 6, "p": 5, "p-rate": 5, "slope": 5, "left": 5}

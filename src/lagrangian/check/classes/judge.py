@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
 
 from lagrangian.advice import Advice, Argument
@@ -17,6 +17,7 @@ from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
 from lagrangian.read import MAX_BYTES
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
 

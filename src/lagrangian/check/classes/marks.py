@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from lagrangian.check.classes.scheme import PARTS, PER_COORDINATE, MarkingScheme
 from lagrangian.check.verdict import Finding, Status, Verdict
 from lagrangian.derive import Derived
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 KINDS = {"equation": "equations", "p": "step5", "p-rate": "step5", "slope": "step5", "left": "step5"}

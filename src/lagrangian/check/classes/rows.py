@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from lagrangian.check.classes.judge import Record
 from lagrangian.check.classes.students import Student
 from lagrangian.check.verdict import Status
+from lagrangian.records import dataclass
 from lagrangian.viewed import cut
 
 

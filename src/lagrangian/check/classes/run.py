@@ -6,7 +6,6 @@ import contextlib
 import json
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from lagrangian.check.classes.checked import CheckedClass
@@ -20,6 +19,7 @@ from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
 from lagrangian.model import Model
 from lagrangian.read import MAX_BYTES, dumps
+from lagrangian.records import dataclass
 from lagrangian.structured.choose import derive_in_form
 
 _log = logging.getLogger(__name__)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeAlias, get_args
 
 from lagrangian.errors import Error, ModelError, did_you_mean
 from lagrangian.read import MAX_BYTES, decode
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 AllowedCoordinates: TypeAlias = Literal["any", "given"]

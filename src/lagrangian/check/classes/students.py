@@ -7,11 +7,11 @@ import io
 import re
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from lagrangian.errors import Error
 from lagrangian.read import MAX_BYTES, decode
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 MOODLE_FILE = re.compile(r"(?P<name>[^/]+)_(?P<number>\d+)_assignsubmission_[a-z]+(_.*|/.*)?", re.DOTALL)

@@ -8,7 +8,6 @@ one only by the contribution of the mistake: wrong row i = right row i + d/dt âˆ
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol, cast
 
@@ -19,6 +18,7 @@ from lagrangian import bounded
 from lagrangian.derive import Derived
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
+from lagrangian.records import dataclass, field
 
 ENERGIES = frozenset({"T", "V", "L", "Xi", "D"})
 NO_D = ENERGIES - {"D"}

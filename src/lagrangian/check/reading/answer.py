@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import sympy as sp
 
 from lagrangian.errors import Place
+from lagrangian.records import dataclass, field
 
 Kind: TypeAlias = Literal[
     "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "definition", "identity", "statement", "given"

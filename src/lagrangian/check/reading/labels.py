@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose import CHANGING, LINKING
 from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.units import lookup
+from lagrangian.records import dataclass
 
 _ARROW = re.compile(r"\s*(?:<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|➔|➜|➡|➤|↪|∴|[•◦▪●‣⁃✓✔]|>|[·o]\t)\s*")
 _BRACE = re.compile(r"\s*(?:[⎧⎨⎩⎪]|\{(?![^{}]*\}))\s*")

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass
 
 from lagrangian.check.reading.latex_layout import closing
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
+from lagrangian.records import dataclass
 
 MAX_MACROS = 100
 """The largest number of macros in an answer."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 from lark import Tree
@@ -18,6 +17,7 @@ from lagrangian.check.reading.nodes import start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from copy import deepcopy
-from dataclasses import dataclass
 
 from lark import Tree
 
 from lagrangian.check.reading.nodes import MAX_DEPTH, Node, leaf, node
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.records import dataclass, field
 
 _NAME = r"[^\W\d]\w*"
 _HEADER = re.compile(

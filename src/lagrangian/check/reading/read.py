@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer
@@ -36,6 +36,7 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
+from lagrangian.records import dataclass
 
 MAX_ANSWER = 60_000
 """The largest number of characters of an answer."""

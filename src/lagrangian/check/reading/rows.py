@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
@@ -24,6 +23,7 @@ from lagrangian.check.reading.prose import (
 )
 from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
+from lagrangian.records import dataclass
 
 MAX_STATEMENTS = 500
 """The largest number of statements in one answer."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import cast
 
 import sympy as sp
@@ -18,6 +18,7 @@ from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, s
 from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
 from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
+from lagrangian.records import dataclass
 
 _CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|eq?uation)_?\d*", re.IGNORECASE)
 """What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""

@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.check.reading.words import function_of
+from lagrangian.records import dataclass
 
 _TALL = re.compile("[⎡⎢⎣⎤⎥⎦]")
 _PLAIN = str.maketrans("⎡⎢⎣⎤⎥⎦", "[[[]]]")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from lagrangian.errors import Place
 from lagrangian.quantities.source import Source
+from lagrangian.records import dataclass
 
 Edit: TypeAlias = tuple[int, int, str]
 """The start and the end of a piece, and what takes its place."""

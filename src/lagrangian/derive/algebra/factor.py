@@ -11,7 +11,6 @@ contain it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd, lcm
@@ -20,6 +19,7 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian.derive.algebra.monomials import common_divisor, digits, packed
+from lagrangian.records import dataclass
 
 Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""

@@ -15,7 +15,6 @@ is a generator of its own with its derivative, see `generators`.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Protocol
 
@@ -33,6 +32,7 @@ from lagrangian.derive.algebra.monomials import (
     unit,
 )
 from lagrangian.page.formula import TermKind
+from lagrangian.records import dataclass
 
 LARGEST_FORM = 1_000_000
 """A product with more terms is refused, because nobody could read it or store it."""

@@ -6,13 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.form import Ring
+from lagrangian.records import dataclass
 
 MAX_INVERSE_ROWS = 4
 """The inverse of a block of M is written out up to this number of rows."""

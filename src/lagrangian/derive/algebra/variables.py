@@ -5,12 +5,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar, cast
 
 import sympy as sp
 
 from lagrangian.derive.algebra.form import Form, Harmonic
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

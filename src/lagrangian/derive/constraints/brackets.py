@@ -9,11 +9,11 @@ can be reached have the dimension of the closure under brackets.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from lagrangian.derive.constraints.pfaffian import Sheet
 from lagrangian.derive.constraints.spans import GenericPoint
 from lagrangian.graph import Tangents
+from lagrangian.records import dataclass
 
 MAX_NODES = 100_000
 """No more brackets are computed when the graph has this many nodes."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.derive.constraints.pfaffian import Sheet
 from lagrangian.derive.constraints.spans import GenericPoint
 from lagrangian.graph import operands, reached
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,6 @@ it is integrated. Every f is verified: df is a combination of the rows. Counts o
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 from typing import Any, cast
@@ -26,6 +25,7 @@ from lagrangian.derive.constraints.pfaffian import RowForm, Sheet
 from lagrangian.derive.constraints.spans import GenericPoint, OutsideError
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient, reached
+from lagrangian.records import dataclass
 
 MAX_ATTEMPTS = 60
 """The largest number of antiderivatives that SymPy computes for one system."""

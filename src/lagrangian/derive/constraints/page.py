@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple, cast
 
@@ -23,6 +22,7 @@ from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import Heading, Item, Left, Name, Table, Text, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass
 from lagrangian.write.written import Written
 
 

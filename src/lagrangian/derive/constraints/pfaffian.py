@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Protocol, cast
 
@@ -15,6 +14,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Program, from_sympy, gradient, reached, replaced, to_sympy
+from lagrangian.records import dataclass, field
 
 
 class HasRow(Protocol):

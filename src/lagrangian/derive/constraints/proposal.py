@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from typing import cast
 
@@ -16,6 +15,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive.constraints.integrals import Integral
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 ANGLES = ("theta", "alpha", "beta", "phi", "psi", "gamma")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.derive.constraints.pfaffian import RowForm, Sheet
 from lagrangian.derive.constraints.satisfied import satisfied
 from lagrangian.derive.constraints.spans import GenericPoint
+from lagrangian.records import dataclass
 
 STARTS = 6
 """The number of points from which a position that satisfies the earlier rows is sought."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import mpmath
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from lagrangian.derive.constraints.pfaffian import Sheet
 from lagrangian.derive.constraints.spans import DIGITS, evaluated
 from lagrangian.graph import reached
+from lagrangian.records import dataclass
 
 STEPS = 40
 """The number of Newton steps from a start."""

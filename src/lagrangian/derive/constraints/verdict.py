@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import mpmath
@@ -19,6 +19,7 @@ from lagrangian.derive.constraints.integrals import TRIED, Integral, IntegralSea
 from lagrangian.derive.constraints.pfaffian import HasRow, RowForm, Sheet, Variables, combined, forms
 from lagrangian.derive.constraints.rows import RedundantRow, Sorted, sort_rows
 from lagrangian.derive.constraints.spans import ExactPlace, FloatPlace, GenericPoint, OutsideError, UnclearError
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 __all__ = ["Holonomy", "Integral", "RedundantRow", "judge"]

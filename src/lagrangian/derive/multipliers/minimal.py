@@ -10,7 +10,6 @@ differentiated, never before.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 import sympy as sp
@@ -25,6 +24,7 @@ from lagrangian.derive.multipliers.rows import RowForms
 from lagrangian.derive.multipliers.speeds import Linear, Speeds, reduced_speeds
 from lagrangian.model import Friction, time
 from lagrangian.page.formula import EquationTerm, Heading, Item, Left, Name, Text, formula, text
+from lagrangian.records import dataclass
 
 MOST_DIVIDED = 2
 """Rows that are divided by what can vanish, after which the elimination is not shown any more."""

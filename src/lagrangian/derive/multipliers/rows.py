@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Container
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy as sp
 
@@ -19,6 +19,7 @@ from lagrangian.model.elements import answers
 from lagrangian.model.names import moving_symbol
 from lagrangian.model.rows import Row, named_conditions, rows_of
 from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,6 @@ In this order, until no row is left:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import cast
 
 import sympy as sp
@@ -28,6 +27,7 @@ from lagrangian.derive.multiplier import SpeedLine
 from lagrangian.derive.multipliers.rows import RowForms
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import text
+from lagrangian.records import dataclass, field
 
 
 @dataclass(eq=False)

@@ -11,7 +11,6 @@ accelerations are those that solve the equations of motion.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, cast
 
 import mpmath
@@ -25,6 +24,7 @@ from lagrangian.derive.reasons.motion import Moving
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, CompiledExpressions, States
 from lagrangian.model import Model, time
 from lagrangian.model.geometry import entries
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 NEWTON = 60

@@ -10,7 +10,7 @@ or a round track, and which of these it is makes no difference to the equations.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal, TypeAlias, cast
 
 import sympy as sp
@@ -23,6 +23,7 @@ from lagrangian.derive.reasons.loads import AppliedLoads, FixedPoints
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.model import Body, Point, Torque, Words
 from lagrangian.model.elements.base import difference
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 HoldKind: TypeAlias = Literal["rod", "pin", "track", "rolling", "other"]

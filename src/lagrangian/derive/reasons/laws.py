@@ -15,7 +15,6 @@ All sides are normal forms, so that equality is decided exactly. With the sums o
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import mpmath
@@ -27,6 +26,7 @@ from lagrangian.derive.reasons.loads import AppliedLoads, load_work, on_body, pa
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 from lagrangian.page.formula import Check, Name, Partial, Text, Total, text
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,6 @@ that it is in the constraint forces of the masses that the lever carries. Each o
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
@@ -25,6 +24,7 @@ from lagrangian.model import Body, Damper, Element, Force, Frame, Friction, Grav
 from lagrangian.model.elements.base import difference
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.model.elements.vectors import norm
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 

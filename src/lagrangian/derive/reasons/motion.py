@@ -12,7 +12,6 @@ over all particles of a body are exactly these two (König), so the lecture's su
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import sympy as sp
 
@@ -20,6 +19,7 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.model import Body
 from lagrangian.model.geometry import turned
+from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
 Column = tuple[Form, ...]

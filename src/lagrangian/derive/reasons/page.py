@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sp
@@ -28,6 +27,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
+from lagrangian.records import dataclass
 from lagrangian.write.written import Written
 
 

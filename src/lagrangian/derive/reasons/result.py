@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 from lagrangian.derive.context import Context
 from lagrangian.derive.derived import Derived
@@ -16,6 +15,7 @@ from lagrangian.derive.reasons.laws import Law
 from lagrangian.derive.reasons.loads import AppliedLoads
 from lagrangian.derive.reasons.motion import Column, Moving
 from lagrangian.model import Body
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 

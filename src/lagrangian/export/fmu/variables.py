@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from lagrangian.errors import ModelError
 from lagrangian.export.equations import check_values
@@ -12,6 +11,7 @@ from lagrangian.export.start import Start, start_of
 from lagrangian.model import Model
 from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import named_conditions
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ Zero entries cost nothing. Stages are kept in registers if the vectors are short
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.codegen.ir import Value
+from lagrangian.records import dataclass
 
 from .method import Method, MethodStep
 from .printer import Printer, Vec

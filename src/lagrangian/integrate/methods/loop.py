@@ -10,12 +10,12 @@ Everything that lasts from step to step is in the work space, so the loop can be
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lagrangian.codegen.emit import attributes
 from lagrangian.codegen.ir import Module, Value
 from lagrangian.integrate.status import RunStatus
+from lagrangian.records import dataclass
 
 from . import memory_layout as at
 from .evaluate import PrintedProgram

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from lagrangian.records import dataclass, field
 
 from .printer import Printer, Vec
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from lagrangian.codegen.ir import Function, Value
+from lagrangian.records import dataclass, field
 
 from .printer import Printer, Vec
 

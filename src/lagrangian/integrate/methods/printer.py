@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 from lagrangian.codegen.ir import Function, Module, Value
+from lagrangian.records import dataclass
 
 UNROLLED = 16  # entries of the longest vector that is kept in registers
 HEAD = 8  # slots of the work space that hold scalars shared with Python

@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum, auto
 from typing import Any, TypeAlias
 
 import sympy as sp
 
 from lagrangian.model.geometry import Frame, Point
+from lagrangian.records import dataclass
 
 Unit: TypeAlias = "tuple[int, ...]"
 """The exponents of the SI base units kg, m, s, A, K, mol and cd, without trailing zeros."""

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from copy import copy
-from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 
@@ -22,6 +21,7 @@ from lagrangian.model.geometry import Frame, Point, is_listed
 from lagrangian.model.names import is_text, time
 from lagrangian.model.symbols import Coordinate, Velocity
 from lagrangian.page.formula import Name
+from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 
 Words: TypeAlias = "tuple[str | sp.Expr, ...]"

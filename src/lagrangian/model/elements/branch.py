@@ -14,7 +14,6 @@ Systems, McGraw-Hill 1968, chapters 5 and 6.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, ClassVar, cast
 
 import sympy as sp
@@ -27,6 +26,7 @@ from lagrangian.model.elements.base import Element, Level, Surroundings, Use, Wo
 from lagrangian.model.geometry import Frame, as_expr
 from lagrangian.model.names import time
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 CURRENT_SYMBOL = sp.Symbol("current")
 """In a law: the current of the branch [A]."""

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -24,6 +23,7 @@ from lagrangian.model.elements.answers import (
 )
 from lagrangian.model.elements.base import XI, Level, Surroundings, Use, V
 from lagrangian.model.elements.branch import CHARGE_ENTRY, CHARGE_SYMBOL, CircuitBranch, integral
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -14,7 +14,6 @@ so a positive λ acts in the direction that increases f (or c).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import sympy as sp
@@ -22,6 +21,7 @@ import sympy as sp
 from lagrangian.model.elements.answers import ENERGY, FORCE, Unit
 from lagrangian.model.elements.base import Condition, Surroundings, Words, difference
 from lagrangian.model.geometry import Frame, Point, entries, turned
+from lagrangian.records import dataclass
 
 LETTERS = "xyz"
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar
 
@@ -17,6 +16,7 @@ from lagrangian.model.elements.base import Condition, Element, Ledger, Level, Su
 from lagrangian.model.elements.conditions import LETTERS, Coincidence, Separation, Stated
 from lagrangian.model.elements.rigid_body import RigidBody
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -29,6 +28,7 @@ from lagrangian.model.elements.base import (
 from lagrangian.model.elements.vectors import norm
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.model.names import time
+from lagrangian.records import dataclass
 
 RATE = sp.Symbol("rate")
 """In a law: the rate of the deflection δ̇ [m/s or rad/s]."""

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -32,6 +31,7 @@ from lagrangian.model.elements.conditions import Unmoved
 from lagrangian.model.elements.constraint import Restriction
 from lagrangian.model.geometry import Point, as_expr, is_listed
 from lagrangian.model.names import is_text, multiplier_symbol, time
+from lagrangian.records import dataclass
 
 MOST_ROWS = 3
 """The largest number of rows that press together: the directions of space."""

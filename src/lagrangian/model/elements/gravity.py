@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -16,6 +15,7 @@ from lagrangian.model.elements.answers import ACCELERATION, REQUIRED, Entry, Fie
 from lagrangian.model.elements.base import XI, Body, Element, Level, Surroundings, Use, V
 from lagrangian.model.elements.vectors import norm
 from lagrangian.model.geometry import Point, as_expr, as_vector
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, TypeAlias
 
 import sympy as sp
@@ -17,6 +16,7 @@ from lagrangian.model.elements.base import Condition, Level, Surroundings, Use
 from lagrangian.model.elements.conditions import LETTERS, OnLine, Perpendicular, SameTurn
 from lagrangian.model.elements.constraint import Restriction, body_axes, dimension_of, together
 from lagrangian.model.geometry import Frame, Point
+from lagrangian.records import dataclass
 
 BETWEEN = Entry(FieldKind.TWO_POINTS, "The points that it joins, one on each body.", REQUIRED)
 BODIES = Entry(

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar
 
 import sympy as sp
@@ -14,6 +13,7 @@ import sympy as sp
 from lagrangian.model.elements.answers import MASS, REQUIRED, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import Body, Level, Surroundings, Use
 from lagrangian.model.geometry import Point, as_expr
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

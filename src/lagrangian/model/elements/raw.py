@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -17,6 +16,7 @@ from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundi
 from lagrangian.model.elements.vectors import diagonal
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.names import time
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

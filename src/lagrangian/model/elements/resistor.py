@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -16,6 +15,7 @@ from lagrangian.model.elements.base import XI, Action, Level, Surroundings, Use
 from lagrangian.model.elements.branch import CHARGE_ENTRY, CURRENT_SYMBOL, THROUGH, CircuitBranch
 from lagrangian.model.elements.vectors import main_symbol
 from lagrangian.model.geometry import as_expr
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

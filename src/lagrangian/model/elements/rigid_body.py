@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar, cast
 
 import sympy as sp
@@ -15,6 +14,7 @@ from lagrangian.model.elements.answers import INERTIA, MASS, REQUIRED, Entry, Fi
 from lagrangian.model.elements.base import Body, Level, Surroundings, Use
 from lagrangian.model.elements.vectors import diagonal
 from lagrangian.model.geometry import Frame, Point, as_expr, entries, is_listed, turned
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, ClassVar
 
@@ -15,6 +14,7 @@ from lagrangian.model.elements.base import Condition, Level, Surroundings, Use
 from lagrangian.model.elements.conditions import Separation
 from lagrangian.model.elements.constraint import Restriction
 from lagrangian.model.geometry import Point, as_expr
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -27,6 +26,7 @@ from lagrangian.model.elements.base import (
 )
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.page.plain import plain
+from lagrangian.records import dataclass
 
 DELTA = sp.Symbol("delta")
 """In a law: the extension δ − δ₀ [m or rad]."""

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from lagrangian.model.elements.answers import ANGLE, REQUIRED, ActsOn, Entry, FieldKind, Measure
@@ -15,6 +14,7 @@ from lagrangian.model.elements.conditions import NoSlip, Stated
 from lagrangian.model.elements.constraint import Restriction
 from lagrangian.model.elements.rigid_body import RigidBody
 from lagrangian.model.geometry import Frame, Point, as_expr, is_listed
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -9,7 +9,7 @@ the bias −kv L̇, a damper the gain −kv L̇. Actuators with a state of their
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lagrangian.quantities.source import shown
 from lagrangian.read.robots.markup import Tag
@@ -18,6 +18,7 @@ from lagrangian.read.robots.mjcf_tags import Orientations
 from lagrangian.read.robots.robot import RobotActuator, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, Vector
 from lagrangian.read.robots.tendons import Tendons
+from lagrangian.records import dataclass
 
 READ = ("general", "motor", "position", "velocity", "damper")
 RANGES = {"ctrlrange": "control", "forcerange": "effort"}

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 import sympy as sp
@@ -17,6 +16,7 @@ from lagrangian.model.names import time
 from lagrangian.read.robots.naming import Identifiers, identifier
 from lagrangian.read.robots.robot import Robot, RobotActuator, RobotJoint, RobotSite, RobotTendon
 from lagrangian.read.robots.rotations import ZERO, FixedPose, FixedTurn, Vector
+from lagrangian.records import dataclass
 
 TURNING_OR_SLIDING = ("revolute", "continuous", "prismatic")
 ALONG, ABOUT = ("N", "N/m", "N*s/m", "m", "m/s"), ("N*m", "N*m/rad", "N*m*s", "rad", "rad/s")

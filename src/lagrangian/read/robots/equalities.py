@@ -10,7 +10,6 @@ MuJoCo's equalities give way; here they hold. At the pose that the file describe
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.mjcf_sites import site_named
@@ -18,6 +17,7 @@ from lagrangian.read.robots.mjcf_tags import Orientations
 from lagrangian.read.robots.robot import RobotEquality, RobotJoint, RobotSite
 from lagrangian.read.robots.rotations import ZERO, FixedPose
 from lagrangian.read.robots.tendons import check_scalar
+from lagrangian.records import dataclass, field
 
 PLAIN = (0.0, 1.0, 0.0, 0.0, 0.0)
 """The coefficients of q₁ = q₂."""

@@ -9,13 +9,13 @@ import math
 import re
 from bisect import bisect_right
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from typing import Any, NoReturn
 from xml.parsers import expat
 
 from lagrangian.codes import CodeText
 from lagrangian.errors import ParseError, Place, did_you_mean
 from lagrangian.quantities.source import printable, shown
+from lagrangian.records import dataclass, field
 
 MAX_TAGS = 50_000
 """The largest number of elements in a file."""

@@ -14,7 +14,6 @@ from __future__ import annotations
 import re
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
@@ -28,6 +27,7 @@ from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.mjcf_tags import Defaults, Orientations
 from lagrangian.read.robots.rotations import ZERO, FixedPose
 from lagrangian.read.robots.solids import Solid
+from lagrangian.records import dataclass, field
 
 Array = NDArray[np.float64]
 

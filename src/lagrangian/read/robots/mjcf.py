@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from lagrangian.quantities.source import shown
@@ -24,6 +23,7 @@ from lagrangian.read.robots.robot import JointKind, JointLimits, Robot, RobotJoi
 from lagrangian.read.robots.rotations import ZERO, FixedPose, Vector, X, Z, length
 from lagrangian.read.robots.tendons import Tendons
 from lagrangian.read.robots.tree import checked_tree
+from lagrangian.records import dataclass, field
 
 GROUND = "world"
 KINDS: dict[str, JointKind] = {"hinge": "revolute", "slide": "prismatic", "free": "floating", "ball": "ball"}

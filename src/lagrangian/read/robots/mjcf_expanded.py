@@ -7,7 +7,7 @@ its pose is T_1 T_2 … T, and that of copy i of <replicate> begins with the i-t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 from lagrangian.errors import ParseError
@@ -15,6 +15,7 @@ from lagrangian.quantities.source import shown
 from lagrangian.read.robots.beside import beside
 from lagrangian.read.robots.markup import MAX_TAGS, MarkupFile, Tag
 from lagrangian.read.validate import MAX_BYTES, decode
+from lagrangian.records import dataclass, field
 
 MAX_INCLUDED = 100
 """The largest number of files that one file includes."""

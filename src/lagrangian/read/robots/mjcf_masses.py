@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.meshes import Meshes
@@ -11,6 +11,7 @@ from lagrangian.read.robots.mjcf_tags import Defaults, Orientations, between
 from lagrangian.read.robots.robot import Inertial, RobotLink
 from lagrangian.read.robots.rotations import FixedPose, Vector, product, turned_tensor
 from lagrangian.read.robots.solids import Solid, solid, together, volume
+from lagrangian.records import dataclass
 
 DENSITY = 1000.0
 """The density of a geom [kg/m³] unless it is given."""

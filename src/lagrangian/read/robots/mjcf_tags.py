@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.rotations import (
@@ -20,6 +20,7 @@ from lagrangian.read.robots.rotations import (
     length,
     product,
 )
+from lagrangian.records import dataclass
 
 WRITTEN = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
 """The ways in which an orientation may be written."""

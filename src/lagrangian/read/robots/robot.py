@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from lagrangian.errors import Place
 from lagrangian.read.robots.rotations import FixedPose, Rows, Vector
+from lagrangian.records import dataclass, field
 
 JointKind: TypeAlias = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "ball"]
 

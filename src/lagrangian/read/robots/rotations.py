@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 import sympy as sp
+
+from lagrangian.records import dataclass
 
 Vector: TypeAlias = tuple[float, float, float]
 Rows: TypeAlias = tuple[Vector, Vector, Vector]

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from lagrangian.read.robots.rotations import Rows, Vector, turned, turned_tensor
+from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True)

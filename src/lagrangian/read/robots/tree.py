@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import shown
 from lagrangian.read.robots.markup import Tag
 from lagrangian.read.robots.robot import MAX_CHAIN, MAX_LINKS, RobotJoint, RobotLink
+from lagrangian.records import dataclass
 
 
 def check_count(tag: Tag, links: int) -> None:

@@ -10,12 +10,12 @@ import json
 import re
 from base64 import b64encode, b85encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from importlib.resources import files
 from string import Template
 from typing import Any, Literal
 from zlib import DEFLATED, MAX_WBITS, compressobj
 
+from lagrangian.records import dataclass, field
 from lagrangian.write import html_page
 from lagrangian.write.document import Boxed, Document, Section
 from lagrangian.write.expression_tree import Math
