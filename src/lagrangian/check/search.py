@@ -111,9 +111,9 @@ class Vectors:
     def __init__(self, pool: Pool, E: Array) -> None:
         flat = E.reshape(len(E), -1)
         felt = np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > 1e-12)
-        every = [(int(k), t) for k in felt for t in PLAIN if pool.all[k].takes(t)]
-        cost = np.array([float(pool.cost[k]) + _oddness(t, pool.all[k]) for k, t in every])
-        index, times = np.array([k for k, _ in every], int), np.array([float(t) for _, t in every])
+        index, times, odd = pool.kept("plain", lambda: _plain(pool))
+        held = np.isin(index, felt)
+        index, times, cost = index[held], times[held], pool.cost[index[held]] + odd[held]
         probe = np.random.default_rng(11).standard_normal((3, flat.shape[1]))
         seen = (flat @ probe.T)[index] * times[:, None]
         likely = np.argsort(cost, kind="stable")
@@ -157,6 +157,13 @@ class Vectors:
     def _told(self, a: int) -> Told:
         number = Fraction(float(self.times[a])).limit_denominator(LARGEST_DENOMINATOR)
         return Told(self.pool.all[self.index[a]], number, float(self.cost[a]))
+
+
+def _plain(pool: Pool) -> tuple[Array, Array, Array]:
+    """The place of every possible mistake with each plain multiple that it takes, the multiple and its oddness."""
+    every = [(k, t) for k, possible in enumerate(pool.all) for t in PLAIN if possible.takes(t)]
+    odd = [_oddness(t, pool.all[k]) for k, t in every]
+    return np.array([k for k, _ in every], int), np.array([float(t) for _, t in every]), np.array(odd)
 
 
 def _kinship(one: Told, other: Told) -> float:

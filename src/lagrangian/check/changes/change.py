@@ -54,15 +54,20 @@ class Site:
     def changed(self, change: Callable[[Sum], Sum]) -> Site:
         """What the site gains when every sum is replaced by ``change`` of it: the differences."""
 
-        def difference(old: Sum) -> Sum:
-            return minus(change(old), old) if old else old
+        return self.gaining(lambda old: minus(change(old), old))
+
+    def gaining(self, gained: Callable[[Sum], Sum]) -> Site:
+        """What the site gains if every sum gains ``gained`` of it."""
+
+        def own(old: Sum) -> Sum:
+            return gained(old) if old else old
 
         return replace(
             self,
-            T=difference(self.T),
-            V=difference(self.V),
-            Xi={i: difference(x) for i, x in self.Xi.items()},
-            rows={i: difference(x) for i, x in self.rows.items()},
+            T=own(self.T),
+            V=own(self.V),
+            Xi={i: own(x) for i, x in self.Xi.items()},
+            rows={i: own(x) for i, x in self.rows.items()},
         )
 
     def within(self, row: int) -> Site:

@@ -142,7 +142,7 @@ class GeometryChanges:
             return
         speeds: list[sp.Expr] = []
         for v in rates:
-            square = self.sites.sum(sp.Add(*[x.diff(v) ** 2 for x in velocity]))
+            square = self.sites.sum(sp.Add(*[bounded.diff(x, v) ** 2 for x in velocity]))
             if not square:
                 return
             speeds.append(cast("sp.Expr", sp.powdenest(sp.sqrt(self.sites.ring.expr(square)), force=True)))
@@ -191,9 +191,9 @@ class GeometryChanges:
         angular velocity that holds ξ̇_i, these are quoted; otherwise ξ̇_i and what was put in its place.
         """
         speeds = [x for b in bodies for x in (*self.s.velocity(b), *self.s.omega(b)) if x.has(v)]
-        if not speeds or any(bounded.expand(x.diff(w) + sign * x.diff(v)) != 0 for x in speeds):
+        if not speeds or any(bounded.expand(bounded.diff(x, w) + sign * bounded.diff(x, v)) != 0 for x in speeds):
             return v, v + sign * w
-        backwards = all(x.diff(v).could_extract_minus_sign() for x in speeds)
+        backwards = all(bounded.diff(x, v).could_extract_minus_sign() for x in speeds)
         return (sign * w - v if backwards else v - sign * w), v
 
     def _turning(self, b: Any) -> Iterator[LocalChange]:
@@ -260,7 +260,7 @@ class GeometryChanges:
         ratios = [a / b for a in self.lengths[:4] for b in self.lengths[:4] if a != b]
         found += [r * x for r in ratios for x in v]
         found += [replaced(right, {x: sp.S.Zero}) for x in v]
-        by = [right.diff(x) for x in v if right.has(x)]
+        by = [bounded.diff(right, x) for x in v if right.has(x)]
         more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
         rolled = [right + g * x / r for r in self.lengths[:4] for x in v if not right.has(x) for g in (1, -1)]
         listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7)}
@@ -316,7 +316,7 @@ class GeometryChanges:
     def _ways(self) -> list[sp.Expr]:
         """The ways r φ of points on drums and pulleys: pieces of positions that are a length times a coordinate."""
         pieces = [p for b in self.s.bodies for x in self.s.position(b) for p in sp.Add.make_args(bounded.expand(x))]
-        found = [p for p in pieces if any(p.diff(q) in (x, -x) for q in self.s.q for x in self.lengths)]
+        found = [p for p in pieces if any(bounded.diff(p, q) in (x, -x) for q in self.s.q for x in self.lengths)]
         return list(dict.fromkeys(found))[:MOST_WAYS]
 
     def _inner(self, spring: Any, k: sp.Expr, extension: sp.Expr) -> Iterator[LocalChange]:

@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site
-from lagrangian.check.changes.ring import Sum, TooLong, put, scaled, times
+from lagrangian.check.changes.ring import Monomial, Sum, TooLong, minus, product, put, scaled
 from lagrangian.check.changes.sites import Sites
 from lagrangian.check.misconceptions.base import partner
 from lagrangian.model import Damper
@@ -31,6 +31,8 @@ class LetterChanges:
         self.ring = sites.ring
         self.model = sites.model
         self._found: dict[int, list[tuple[Sum, str, float]]] = {}
+        self._written: dict[tuple[int, int], sp.Expr] = {}
+        self._gained: dict[tuple[Monomial, int, int], list[tuple[Monomial, Fraction | int]]] = {}
 
     def changes(self, places: Iterable[Site]) -> Iterator[LocalChange]:
         """All changes of one atom at every site."""
@@ -55,10 +57,12 @@ class LetterChanges:
     def _at(self, site: Site, atom: int) -> Iterator[LocalChange]:
         right = self.ring.atoms[atom]
         exponents = {dict(m).get(atom, 0) for s in site.sums() for m in s}
-        for instead, kind, cost in self.instead(atom):
-            effect = self._put(site, atom, instead)
+        for k, (instead, kind, cost) in enumerate(self.instead(atom)):
+            effect = self._put(site, atom, k, instead)
             if effect is None:
                 continue
+            if (atom, k) not in self._written:
+                self._written[atom, k] = self.ring.expr(instead)
             if kind == "lost" and 0 in exponents:
                 kind = "lost_in_a_sum"
             times = exponents - {0} if kind.startswith("lost") else set[int]()
@@ -68,12 +72,12 @@ class LetterChanges:
                 site=site,
                 effect=effect,
                 right=right ** times.pop() if len(times) == 1 else 1 / right if times and max(times) < 0 else right,
-                written=self.ring.expr(instead),
+                written=self._written[atom, k],
             )
         yield from self._powers(site, atom, exponents)
         if 0 in exponents and isinstance(right, sp.Symbol):
             for number, kind, cost in ((0, "left_out_of_a_sum", 1.5), (-1, "sign_in_a_sum", 1.7)):
-                effect = self._put(site, atom, scaled({((atom, 1),): Fraction(1)}, number))
+                effect = self._put(site, atom, number - 1, scaled({((atom, 1),): Fraction(1)}, number))
                 if effect is not None:
                     one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
                     more = cost + one + site.surcharge
@@ -102,9 +106,31 @@ class LetterChanges:
                 kind=kind, cost=cost + site.surcharge, site=site, effect=effect, right=self.ring.atoms[atom]
             )
 
-    def _put(self, site: Site, atom: int, instead: Sum) -> Site | None:
+    def _put(self, site: Site, atom: int, place: int, instead: Sum) -> Site | None:
+        """What a site gains with ``instead`` in place of an atom; ``place`` numbers what stands instead of this atom.
+
+        What a monomial gains is found once: the same monomials stand in many sites.
+        """
+        known = self._gained
+
+        def gained(s: Sum) -> Sum:
+            total: Sum = {}
+            for m, c in s.items():
+                key = (m, atom, place)
+                if key not in known:
+                    known[key] = list(minus(put({m: 1}, atom, instead), {m: 1}).items())
+                for new, number in known[key]:
+                    value = c if number == 1 else -c if number == -1 else c * number
+                    if new in total:
+                        value += total[new]
+                    if value:
+                        total[new] = value
+                    else:
+                        del total[new]
+            return total
+
         try:
-            effect = site.changed(lambda s: put(s, atom, instead))
+            effect = site.gaining(gained)
         except TooLong:
             return None
         return None if effect.empty else effect
@@ -274,8 +300,7 @@ class LetterChanges:
                 a = self.ring.atom(p)
                 held = min((dict(m).get(a, 0) for s in site.sums() for m in s), default=0)
                 for e in (1, -1, 2, -2):
-                    extra: Sum = {((a, e),): Fraction(1)}
-                    effect = site.changed(lambda s, by=extra: times(s, by))
+                    effect = site.changed(lambda s, by=((a, e),): {product([m, by]): c for m, c in s.items()})
                     cost = (1.9 if abs(e) == 1 else 2.2) + site.surcharge
                     yield LocalChange(
                         kind="foreign_factor" if e > 0 else "factor_missing" if held >= -e else "divided_by",

@@ -78,7 +78,7 @@ class WorkChanges:
         """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
         actions = self.s.actions(element)
         if len(actions) == 1:
-            rates = [self.s.expand(sp.diff(actions[0].rate, v)) for v in self.s.v]
+            rates = [self.s.expand(bounded.diff(actions[0].rate, v)) for v in self.s.v]
             yield self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
             return
         ring = self.sites.ring
@@ -137,8 +137,8 @@ class WorkChanges:
                 for both in (True, False):
                     found: dict[int, Any] = {}
                     for i, v in enumerate(self.s.v):
-                        new = -force * other * sp.diff(other if both else rate, v)
-                        extra = self._sum(new + force * rate * sp.diff(rate, v))
+                        new = -force * other * bounded.diff(other if both else rate, v)
+                        extra = self._sum(new + force * rate * bounded.diff(rate, v))
                         if extra:
                             found[i] = extra
                     if found:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.page.formula import Name, text
 
@@ -40,7 +41,7 @@ def _unsquared(energy: sp.Expr) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
         if not (energy * p**2).has(p):
             yield p, energy * (p - 1), False
             yield p, energy * (p**2 - 1), True
-        second = energy.diff(p, 2)
+        second = bounded.diff(energy, p, p)
         if second == 0 or second.has(p):
             continue
         yield p, second / 2 * (p - p**2), False

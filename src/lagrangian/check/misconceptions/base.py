@@ -7,7 +7,7 @@ one only by the contribution of the mistake: wrong row i = right row i + d/dt �
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol, cast
 
@@ -101,7 +101,7 @@ class Ingredients:
     @cached_property
     def momenta(self) -> list[sp.Expr]:
         """∂T*/∂ξ̇_i."""
-        return [self.T.diff(v) for v in self.v]
+        return [bounded.diff(self.T, v) for v in self.v]
 
     @cached_property
     def bodies(self) -> tuple[Any, ...]:
@@ -216,7 +216,7 @@ class Ingredients:
         """∂v/∂ξ̇ and ∂ω/∂ξ̇ for every coordinate."""
         if ("slopes", body) not in self._memo:
             velocity, omega = sp.Matrix(self.velocity(body)), sp.Matrix(self.omega(body))
-            self._memo["slopes", body] = [(velocity.diff(v), omega.diff(v) if omega else None) for v in self.v]
+            self._memo["slopes", body] = [(_slopes(velocity, v), _slopes(omega, v) if omega else None) for v in self.v]
         return self._memo["slopes", body]
 
     def rate(self, expr: sp.Expr) -> sp.Expr:
@@ -237,6 +237,11 @@ class Ingredients:
         """The arguments of sines and cosines that depend on coordinates."""
         found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}
         return sorted((a for a in found if a.has(AppliedUndef)), key=sp.default_sort_key)
+
+
+def _slopes(vector: sp.Matrix, by: sp.Expr) -> sp.Matrix:
+    """The derivative of every component."""
+    return sp.Matrix([bounded.diff(x, by) for x in cast("Sequence[sp.Expr]", vector.flat())])
 
 
 def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:

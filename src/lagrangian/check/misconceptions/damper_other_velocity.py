@@ -87,7 +87,7 @@ def _squared(s: Ingredients, body: Body) -> sp.Expr | None:
 
     def made() -> sp.Expr | None:
         squares = sp.Add(*[x**2 for x in s.velocity(body)])
-        return bounded.trigsimp(squares) if bounded.size(squares) <= LONGEST else None
+        return squares if bounded.size(squares) <= LONGEST else None
 
     return s.kept(("squared", body), made)
 

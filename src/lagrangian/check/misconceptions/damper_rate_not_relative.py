@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import NO_D, Ingredients, Variant, put
 from lagrangian.model import Damper
 from lagrangian.page.formula import text
@@ -28,10 +29,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         others += [put(rate, {v: v + sign * w}) for v in held for w in s.v if w not in held for sign in (-1, 1)]
         for other in dict.fromkeys(others):
             what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, ".")
-            change = {i: -b * other * rate.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
+            change = {i: -b * other * bounded.diff(rate, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
             yield from _in_one(s, element, other, change)
-            full = {i: -b * other * other.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
+            full = {i: -b * other * bounded.diff(other, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
 
 

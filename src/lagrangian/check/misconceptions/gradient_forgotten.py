@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Minus, Partial, text
 
@@ -15,8 +16,8 @@ WHY = text("The left-hand side is d/dt ∂L/∂ξ̇ − ∂L/∂ξ, and T* often
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Drop ∂T*/∂ξ in all equations and in each one; drop the whole ∂L/∂ξ in each one and in all."""
-    slopes = [s.T.diff(q) for q in s.q]
-    whole = [(s.T - s.V).diff(q) for q in s.q]
+    slopes = [bounded.diff(s.T, q) for q in s.q]
+    whole = [bounded.diff(s.T - s.V, q) for q in s.q]
     L = sp.Symbol("L")
     if sum(x != 0 for x in slopes) > 1:
         yield Variant(

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.page.formula import text
 
@@ -28,6 +29,6 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if mg * own != V:
                 yield Variant(what=what, V=times * V, element=gravity)
         for p in letters(own):
-            if own.diff(p) != 0 and own.subs(p, 0) == 0 and not own.diff(p).has(p):
+            if bounded.diff(own, p) != 0 and own.subs(p, 0) == 0 and not bounded.diff(own, p).has(p):
                 what = text(f"The weight of {body.title} comes without its arm ", p, ".")
-                yield Variant(what=what, V=mg * (own.diff(p) - own), element=gravity)
+                yield Variant(what=what, V=mg * (bounded.diff(own, p) - own), element=gravity)

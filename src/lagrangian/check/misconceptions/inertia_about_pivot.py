@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import time
@@ -38,12 +39,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 def _arms(s: Ingredients, body: object) -> list[sp.Expr]:
     """The squared distances of the centre of mass from points of attachment that are constant."""
     away = sp.Add(*[(a - b) ** 2 for a, b in zip(s.position(body), s.parent(body), strict=True)])
-    slopes = [sp.Add(*[sp.diff(x, q) ** 2 for x in s.position(body)]) for q in s.q]
+    slopes = [sp.Add(*[bounded.diff(x, q) ** 2 for x in s.position(body)]) for q in s.q]
     found: list[Any] = [_constant(s, d) for d in (away, *slopes)]
     return [d for d in dict.fromkeys(found) if d not in (0, 1, None)]
 
 
 def _constant(s: Ingredients, expr: sp.Expr) -> sp.Expr | None:
     """The constant value of an expression; None if it is not constant."""
-    slope = CompiledExpressions([sp.diff(expr, time)]).at(States(s.model, 2))
+    slope = CompiledExpressions([bounded.diff(expr, time)]).at(States(s.model, 2))
     return put(expr, dict.fromkeys(s.q, sp.S.Zero)) if np.abs(slope).max() < 1e-9 else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.model import Capacitor, Inductor
 from lagrangian.page.formula import text
@@ -24,13 +25,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         coil = isinstance(element, Inductor)
         energy = s.expand(element.kinetic(s.model) if coil else -element.potential(s.model))
         for i, q in enumerate(s.q):
-            if q in charges or (force := energy.diff(q)) == 0:
+            if q in charges or (force := bounded.diff(energy, q)) == 0:
                 continue
             what = text(f"The force of {element.title} on ", q, " is missing.")
             yield Variant(what=what, rows={i: force}, element=element, coordinate=i)
         if isinstance(element, Inductor):
             flux = s.expand(element.flux(s.model))
-            moved = sum((flux.diff(q) * v for q, v in zip(s.q, s.v, strict=True)), start=flux * 0)
+            moved = sum((bounded.diff(flux, q) * v for q, v in zip(s.q, s.v, strict=True)), start=flux * 0)
             sign = {i: s.expand(element.current(s.model)).diff(v) for i, v in enumerate(s.v)}
             rows = {i: -moved * x for i, x in sign.items() if x != 0}
             if moved != 0:

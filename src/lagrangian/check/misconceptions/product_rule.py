@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Partial, Total, text
 
@@ -40,4 +41,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 def _lost(s: Ingredients, momentum: sp.Expr, by: object) -> sp.Expr:
     """Σ_k ∂p/∂ξ_k ξ̇_k: the part of d/dt that comes from the factors."""
-    return sp.Add(*[momentum.diff(s.q[k]) * s.v[k] for k in by])  # type: ignore[attr-defined]
+    return sp.Add(*[bounded.diff(momentum, s.q[k]) * s.v[k] for k in by])  # type: ignore[attr-defined]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, half_square, put
 from lagrangian.model import time
 from lagrangian.page.formula import text
@@ -37,14 +38,14 @@ def _velocity(s: Ingredients, body: object, q: sp.Expr) -> tuple[sp.Expr, ...]:
         return ()
     stand_in = {a: sp.Function(f"angle{i}")(time) for i, a in enumerate(dict.fromkeys(sums))}
     back = {f: a for a, f in stand_in.items()}
-    rates = {sp.Derivative(f, time): sp.diff(a, q) * sp.diff(q, time) for a, f in stand_in.items()}
+    rates = {sp.Derivative(f, time): bounded.diff(a, q) * bounded.diff(q, time) for a, f in stand_in.items()}
     moved = []
     for x in position:
         hidden = x.replace(
             lambda e: isinstance(e, (sp.sin, sp.cos)) and e.args[0] in stand_in,
             lambda e: e.func(stand_in[e.args[0]]),
         )
-        moved.append(put(put(sp.diff(hidden, time), rates), back))
+        moved.append(put(put(bounded.diff(hidden, time), rates), back))
     return tuple(moved)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import text
 
@@ -46,4 +47,4 @@ def first_order(row: sp.Expr, moving: Iterable[sp.Expr]) -> sp.Expr:
     """The part up to first order in coordinates, rates and accelerations, all of them in ``moving``."""
     e = sp.Dummy("e")
     scaled = put(row, {x: e * x for x in moving})
-    return put(scaled, {e: sp.S.Zero}) + put(sp.diff(scaled, e), {e: sp.S.Zero})
+    return put(scaled, {e: sp.S.Zero}) + put(bounded.diff(scaled, e), {e: sp.S.Zero})

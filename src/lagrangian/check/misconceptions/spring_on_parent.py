@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
@@ -17,7 +18,7 @@ WHY = text(
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Add the force of a spring to an equation whose coordinate does not stretch it, with both signs."""
     for spring, _, V in s.springs():
-        slopes = {i: V.diff(q) for i, q in enumerate(s.q)}
+        slopes = {i: bounded.diff(V, q) for i, q in enumerate(s.q)}
         for i, x in slopes.items():
             for force in [y for y in slopes.values() if y != 0] if x == 0 else []:
                 what = text(

@@ -20,7 +20,7 @@ WHY = text(
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """For every linear spring with a linear deflection: reverse, add or replace a coordinate."""
     for spring, extension, V in s.springs():
-        if spring.k is None or any(extension.diff(q).has(*s.q) for q in s.q):
+        if spring.k is None or any(bounded.diff(extension, q).has(*s.q) for q in s.q):
             continue
         for changed in dict.fromkeys(_deflections(s, extension)):
             if bounded.expand(changed**2 - extension**2) != 0:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import text
 
@@ -20,14 +21,14 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if spring.k is None or not held:
             continue
         title, k = spring.title[:1].upper() + spring.title[1:], s.expand(spring.k)
-        if not any(extension.diff(q).has(*s.q) for q in held):
+        if not any(bounded.diff(extension, q).has(*s.q) for q in held):
             for q, p in ((q, p) for q in held for p in s.q if p not in held):
                 what = text(f"{title} is stretched by ", q + p, ", as if to the ground.")
                 yield Variant(what=what, V=k * put(extension, {q: q + p}) ** 2 / 2 - V, element=spring)
         if len(held) < 2:
             continue
-        if not any(extension.diff(q).has(*s.q) for q in held):
-            each = sp.Add(*[(extension.diff(q) * q) ** 2 for q in held])
+        if not any(bounded.diff(extension, q).has(*s.q) for q in held):
+            each = sp.Add(*[(bounded.diff(extension, q) * q) ** 2 for q in held])
             what = text(
                 f"The parts of the deflection of {spring.title} were squared one by one: the mixed term is missing."
             )
