@@ -128,7 +128,9 @@ def test_terms_are_told_in_the_scale_of_the_answer() -> None:
     answer = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0\n"
     answer += "(1+M/m)*x'' + l*cos(theta)*theta'' + l*sin(theta)*theta'^2 + b*x'/m = F/m"
     verdict = check_answer(derivation("cart-pole"), answer)
-    assert str(verdict.mistakes[0].what).startswith("The term -l*sin(theta)*theta'^2 of the equation of x")
+    told = str(verdict.mistakes[0].what)
+    assert told.startswith("The term l*sin(theta)*theta'^2 of the equation of x has the wrong sign")
+    assert told.endswith("on the left-hand side it should be -l*sin(theta)*theta'^2.")
 
 
 def test_lengths_and_ratios_are_known_by_their_units() -> None:

@@ -16,6 +16,7 @@ from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, 
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
+from lagrangian.check.held import held
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
@@ -91,15 +92,26 @@ def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], ver
     if read is None:
         return verdict
     judged = _judged(truth, read.lines)
-    named = mistakes(truth, read.lines, judged.findings)
+    named = mistakes(held(truth) or truth, read.lines, judged.findings)
     of_constraints = wrong_constraints(truth, verdict.findings)
     told = (*named.told, *read.mistakes, *of_constraints)
     if not told:
         return verdict
     better = {f.line.number: f for f in judged.findings}
     better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in read.wrong}
-    findings = tuple(better.get(f.line.number, f) for f in verdict.findings)
+    findings = tuple(_without_forces(truth, better.get(f.line.number, f)) for f in verdict.findings)
     return replace(verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes)
+
+
+def _without_forces(truth: Reference, finding: Finding) -> Finding:
+    """A finding, without the terms that differ where a multiplier was eliminated: they are those of several rows."""
+    forces = [m.symbol for m in truth.derivation.multipliers.values()]
+    eliminated = finding.line.kind == "equation" and not finding.line.expr.has(*forces)
+    return replace(finding, differences=()) if eliminated and _lacks(finding, forces) else finding
+
+
+def _lacks(finding: Finding, forces: Sequence[sp.Expr]) -> bool:
+    return any(d.kind == "missing" and d.term.has(*forces) for d in finding.differences)
 
 
 def _valued(

@@ -24,6 +24,7 @@ from lagrangian.check.search import (
     by_rows,
     first_explained,
 )
+from lagrangian.check.second_choices import distinct
 from lagrangian.check.sheets import sheets
 from lagrangian.check.solved import denominator, solved_from_wrong
 from lagrangian.check.undivided import undivided
@@ -34,6 +35,8 @@ from lagrangian.records import dataclass
 
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
+BEYOND = 0.3
+"""What a mistake costs more that would change another equation, too, in which it was not seen."""
 LIKELY = 2.4
 """A mistake that costs less is likelier than coordinates that nobody spoke of."""
 ALIKE = 0.05
@@ -77,8 +80,10 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
     left: list[AnsweredLine] = []
     of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
+    rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
     for sheet in sheets(truth, of_equation):
-        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, left)
+        right = [rows[id(line)] for line in sheet if id(line) in rows]
+        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
     for found, more in _without_partial(of_sheets):
         groups.append(found)
         own += more
@@ -112,11 +117,13 @@ def _of_sheet(
     wrong: Sequence[AnsweredLine],
     combined: set[int],
     against: set[int],
+    right: Sequence[str],
     left: list[AnsweredLine],
 ) -> Iterator[tuple[list[Explanation], list[Mistake]]]:
     """The explanations of one set of equations together or, where there is none, of each wrong one on its own.
 
-    Wrong equations that nothing explains are added to ``left``.
+    ``right`` are the coordinates whose equations are right: a mistake that would show there was not made. Wrong
+    equations that nothing explains are added to ``left``.
     """
     own = [line for line in sheet if any(line is w for w in wrong)]
     if not own:
@@ -126,13 +133,27 @@ def _of_sheet(
     if found or more:
         yield found, more
         return
+    felt = against | _felt_in(pool, right)
     for line in own if len(sheet) > 1 else ():
-        found, more = _of_equations(pool, [line], [line], against)
+        found, more = _of_equations(pool, [line], [line], felt)
+        found = _of_rows_alone(pool, found)
         if found or more:
             yield found, more
         else:
             left.append(line)
     left += own if len(sheet) == 1 else []
+
+
+def _felt_in(pool: Pool, coordinates: Sequence[str]) -> set[int]:
+    """The possible mistakes that would change the equations of some coordinates, by their identity."""
+    rows = [i for i, c in enumerate(pool.truth.model.coordinates) if c.name in coordinates]
+    return {id(pool.all[k]) for i in rows for k in np.flatnonzero(pool.felt[:, i])}
+
+
+def _of_rows_alone(pool: Pool, found: Sequence[Explanation]) -> list[Explanation]:
+    """Explanations of one equation alone, those of which nothing is known to be wrong in the others less likely."""
+    more = [e.cost + BEYOND * any(pool.felt[pool.places[id(t.mistake)]].sum() > 1 for t in e.told) for e in found]
+    return [replace(e, cost=cost) for cost, e in sorted(zip(more, found, strict=True), key=lambda x: x[0])]
 
 
 def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
@@ -242,7 +263,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
     own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open
     elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
-    more = _once([*elsewhere, *listed], told)
+    more = distinct(_once([*elsewhere, *listed], told), told)
     single = len(chosen) == 1 and (chosen[0][0].mistake.wrong is not None or chosen[0][0].cost <= LIKELY)
     return NamedMistakes(told, more[:5], single)
 

@@ -66,9 +66,44 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     names = sorted(used - known, key=str)
     if not own or len(names) > len(own) or len(names) > MOST or not rows:
         return None
-    readings = islice(_readings(truth, rows, names, own), MOST_READINGS)
     exprs = [line.expr for line in rows]
-    best = max(readings, key=lambda table: _score(_matched(truth, exprs, table, own)))
+    possible = list(islice(_readings(truth, rows, names, own), MOST_READINGS))
+    matches = [_matched(truth, exprs, x, own) for x in possible]
+    scores = [_score(found) for found in matches]
+    found = _read(truth, lines, rows, possible[scores.index(max(scores))])
+    if not any(map(_is_odd, found.mistakes)):
+        return found
+    plain_ones = [k for k, x in enumerate(possible) if all(c in (1, -1) for _, c in x.values())]
+    plain_ones.sort(key=lambda k: (_against(truth, exprs, matches[k]), -scores[k]))
+    others = [_read(truth, lines, rows, possible[k]) for k in plain_ones]
+    return next((x for x in others if not any(map(_is_odd, x.mistakes))), found)
+
+
+def _against(truth: Reference, exprs: Sequence[sp.Expr], found: Sequence[_Match]) -> int:
+    """How many rows would hold an inertia with the wrong sign: mistakes that nobody makes."""
+    count = 0
+    for expr, match in zip(exprs, found, strict=True):
+        for c in truth.model.coordinates if match.factor is not None else ():
+            right = match.factor * truth.rows[match.row].diff(c.acceleration)
+            ratio = bounded.cancel(expr.diff(c.acceleration) / right) if right != 0 else sp.S.Zero
+            count += bool(ratio.is_number and ratio < 0)
+    return count
+
+
+def _is_odd(mistake: Mistake) -> bool:
+    """Whether a multiplier would have a wrong number, as with −2 λ for λ: rather two other mistakes were made."""
+    if mistake.name != "multiplier_factor":
+        return False
+    _, written, _, right = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
+    return bool((right / written).is_number)
+
+
+def _read(
+    truth: Reference, lines: Sequence[AnsweredLine], rows: Sequence[AnsweredLine], best: _Reading
+) -> ReadMultipliers:
+    """The lines with multipliers read in one way, and what is wrong with these."""
+    own: list[Any] = [m.symbol for m in truth.derivation.multipliers.values()]
+    exprs = [line.expr for line in rows]
     table = {s: cast("sp.Expr", c * x) for s, (x, c) in best.items()}
     told = [text(f"'{plain(s)}' was read as ", x, ".") for s, x in table.items() if s != x]
     read = {id(line): replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in rows}

@@ -11,8 +11,9 @@ from typing import cast
 import numpy as np
 import sympy as sp
 
-from lagrangian.check.align import LARGEST, agreed, slopes_of, slopes_of_equations
+from lagrangian.check.align import LARGEST, agreed, slopes_of_equations
 from lagrangian.check.changes.pool import Pool
+from lagrangian.check.held import Held
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import EXOTIC, SMALL, Explanation, Vectors, singles
 from lagrangian.check.verdict import Mistake
@@ -36,14 +37,15 @@ def of_reduced(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], Mistake | 
     P = CompiledExpressions([expr]).at(truth.states)[0]
     if not np.isfinite(P).all() or np.abs(P).max() > LARGEST:
         return [], None
-    mine = slopes_of_equations(truth, [expr])[0]
+    rows = [truth.put_in(x) for x in (expr, *truth.rows)] if isinstance(truth, Held) else [expr, *truth.rows]
+    mine, *each = slopes_of_equations(truth, rows)
     forces = dict.fromkeys(_forces(truth), sp.S.Zero)
     W = CompiledExpressions([cast("sp.Expr", row.xreplace(forces)) for row in truth.rows]).at(truth.states)
     found: list[Explanation] = []
     for signs in product((-1.0, 1.0), repeat=truth.n - 1):  # the right ones last
         combined = alpha * np.array([1.0, *signs])[:, None]
         right = np.einsum("is,is->s", combined, W)
-        slopes = np.einsum("is,ims->ms", combined, slopes_of(truth))
+        slopes = np.einsum("is,ims->ms", combined, np.array(each))
         for f, _ in agreed(truth, mine, slopes):
             rest = P / f - right
             if min(signs) < 0 and np.abs(rest).max() <= SMALL * np.abs(right).max():

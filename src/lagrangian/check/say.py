@@ -274,7 +274,7 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     if times == -2:
         name = "sign_of_a_term" if site.single else "wrong_sign"
         hint = _text("There is a wrong sign: ", *site.brief, *where, ".")
-        return name, _text(*whole, f" {have} the wrong sign", *where, "."), hint
+        return name, _text(*_unsigned(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
     number = 1 + times
     name = "factor_of_a_term" if site.single else "wrong_number"
     hint = _text(*brief, *where, f" {have} a wrong number.")
@@ -282,6 +282,20 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
         return name, _text(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
     said = sp.Rational(number.numerator, number.denominator)
     return name, _text(*whole, f" {count} ", said, " times", *where, "."), hint
+
+
+def _unsigned(words: Words, site: Site) -> Words:
+    """The words of a site with its single term without the sign, which is not the one that was written."""
+    if not site.single or not isinstance(words[1], sp.Expr) or not words[1].could_extract_minus_sign():
+        return words
+    return (words[0], -words[1], *words[2:])
+
+
+def _true_sign(site: Site) -> Words:
+    """With which sign the single term of an equation stands on its left-hand side."""
+    if not (site.single and site.rows) or not isinstance(site.words[1], sp.Expr):
+        return ()
+    return (": on the left-hand side it should be ", site.words[1])
 
 
 def _verbs(site: Site) -> tuple[str, str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -47,22 +47,39 @@ class Explanation:
     under: Alignment | None = None
 
 
-def singles(
-    pool: Pool, E: Sequence[Array], rest: Array, under: Alignment | None = None, squares: Array | None = None
-) -> list[Explanation]:
+def singles(pool: Pool, E: Sequence[Array], rest: Array) -> list[Explanation]:
     """The single mistakes whose effects are a multiple of ``rest``, the cheapest first.
 
-    ``E`` are the effects (C, S) on each of the k quantities whose rests are ``rest`` (k, S), ``squares`` the sums of
-    their squares (C,) where those are known: cos ∠(E, rest) = Σ_j E_j·rest_j / (|E| |rest|).
+    ``E`` are the effects (C, S) on each of the k quantities whose rests are ``rest`` (k, S).
     """
-    r = rest.reshape(len(E), -1)
-    size = np.abs(r).max()
+    [found] = _singles(pool, E, [rest], [None], np.sum([squared(e) for e in E], axis=0))
+    return found
+
+
+def _singles(
+    pool: Pool, E: Sequence[Array], rests: Sequence[Array], under: Sequence[Alignment | None], squares: Array
+) -> list[list[Explanation]]:
+    """The same for several rests at once, each under its own alignment; ``squares`` (C,) are |E|².
+
+    cos ∠(E, rest) = Σ_j E_j·rest_j / (|E| |rest|): a product of two matrices for all rests and effects.
+    """
+    r = np.array([x.reshape(len(E), -1) for x in rests])
     with np.errstate(all="ignore"):
-        norms = np.sqrt(sum(map(squared, E)) if squares is None else squares)
-        along = sum(e @ x for e, x in zip(E, r / np.linalg.norm(r), strict=True)) / norms
+        norms = np.sqrt(squares)
+        unit = r / np.linalg.norm(r, axis=(1, 2), keepdims=True)
+        along = sum(e @ unit[:, j].T for j, e in enumerate(E)) / norms[:, None]
+    parallel = (np.abs(along) > 1 - PARALLEL) & (norms > 0)[:, None]
+    return [_multiples(pool, E, x, map(int, np.flatnonzero(parallel[:, a])), under[a], norms) for a, x in enumerate(r)]
+
+
+def _multiples(
+    pool: Pool, E: Sequence[Array], r: Array, places: Iterable[int], under: Alignment | None, norms: Array
+) -> list[Explanation]:
+    """The single mistakes at some places of the pool of which a simple multiple is ``r`` (k, S)."""
+    size = np.abs(r).max()
     found: list[Explanation] = []
     doubt = under.doubt if under is not None else 0.0
-    for k in np.flatnonzero((np.abs(along) > 1 - PARALLEL) & (norms > 0)):
+    for k in places:
         own = np.array([e[k] for e in E])
         times = float((own * r).sum()) / float(norms[k]) ** 2
         if np.abs(times * own - r).max() > SMALL * size:
@@ -80,11 +97,13 @@ def squared(effects: Array) -> Array:
     return np.einsum("cs,cs->c", effects, effects)
 
 
-def _in_rows(pool: Pool, rest: Array, under: Alignment, rows: Sequence[int]) -> list[Explanation]:
-    """The single mistakes that explain what is wrong in some of the system's rows, the cheapest first."""
+def _in_rows(
+    pool: Pool, rests: Sequence[Array], under: Sequence[Alignment], rows: Sequence[int]
+) -> list[list[Explanation]]:
+    """The single mistakes that explain each of several rests of some of the system's rows, the cheapest first."""
     E = [pool.W[:, i] for i in rows]
     squares = np.sum([pool.kept(("squares", i), lambda i=i: squared(pool.W[:, i])) for i in rows], axis=0)
-    return singles(pool, E, rest, under, squares)
+    return _singles(pool, E, rests, under, squares)
 
 
 def simple_number(times: float) -> Fraction | None:
@@ -178,7 +197,11 @@ def _name(possible: Possible) -> str:
 
 def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
     """The explanations of all rows at once: single mistakes, and pairs where no single one is plausible."""
-    best = sorted((e for a in found for e in _in_rows(pool, a.rest, a, a.rows)), key=lambda e: e.cost)
+    best: list[Explanation] = []
+    for rows in dict.fromkeys(a.rows for a in found):
+        own = [a for a in found if a.rows == rows]
+        best += [e for each in _in_rows(pool, [a.rest for a in own], own, rows) for e in each]
+    best.sort(key=lambda e: e.cost)
     if best and best[0].cost <= EXOTIC:
         return best
     vectors: dict[tuple[int, ...], Vectors] = {}
@@ -198,7 +221,7 @@ def by_rows(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
         for j, i in enumerate(a.rows):
             if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
                 continue
-            one = _in_rows(pool, a.rest[[j]], a, [i])
+            [one] = _in_rows(pool, [a.rest[[j]]], [a], [i])
             if not one or one[0].cost > EXOTIC:
                 vectors: Vectors = pool.kept(("vectors", (i,)), lambda i=i: Vectors(pool, pool.W[:, [i]]))
                 one = sorted([*one, *vectors.pairs(a.rest[[j]], a)], key=lambda e: e.cost)

@@ -86,6 +86,10 @@ class States:
         values = np.repeat(np.array(drawn), self.size // count)
         return self.sides[symbol].put(values, self) if symbol in self.sides else values
 
+    def fix(self, symbol: sp.Basic, values: Array) -> None:
+        """Give a symbol values that follow from those of others."""
+        self._known[symbol] = values
+
     def blocks(self) -> Iterable[slice]:
         """The states for each position."""
         return (slice(i, i + self.motions) for i in range(0, self.size, self.motions))

@@ -111,14 +111,14 @@ class LetterChanges:
 
         What a monomial gains is found once: the same monomials stand in many sites.
         """
-        known = self._gained
+        known, one = self._gained, Fraction(1)
 
         def gained(s: Sum) -> Sum:
             total: Sum = {}
             for m, c in s.items():
                 key = (m, atom, place)
                 if key not in known:
-                    known[key] = list(minus(put({m: 1}, atom, instead), {m: 1}).items())
+                    known[key] = list(minus(put({m: one}, atom, instead), {m: one}).items())
                 for new, number in known[key]:
                     value = c if number == 1 else -c if number == -1 else c * number
                     if new in total:

@@ -87,6 +87,11 @@ class Pool:
         """The place of every possible mistake in the arrays, by its identity."""
         return self.kept("places", lambda: {id(p): k for k, p in enumerate(self.all)})
 
+    @property
+    def felt(self) -> Any:
+        """Whether every possible mistake changes every row, (C, n)."""
+        return self.kept("felt", lambda: np.abs(self.W).max(axis=2) > 1e-9)
+
     def _seen(self) -> Array:
         """The effects on rows, energies and forces along three random directions."""
         random, count = np.random.default_rng(5), len(self.all)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 import sympy as sp
@@ -282,6 +283,29 @@ class Sites:
         for i, row in enumerate(self.rows):
             yield from self._of_row(i, row)
             yield from self._derivatives(i)
+        yield from self._entries()
+
+    def _entries(self) -> Iterator[Site]:
+        """The two equal entries of a symmetric matrix of two coordinates: of ξ̈_j in equation i and of ξ̈_i in j."""
+        s = self.of
+        for of, moving in (("accelerations", s.a), ("rates", s.v), ("coordinates", s.q)):
+            atoms = [self.ring.atom(x) for x in moving]
+            for i, j in combinations(range(self.n), 2):
+                found = {row: self._alone(row, atoms[by]) for row, by in ((i, j), (j, i))}
+                if not all(found.values()):
+                    continue
+                words: Words = ("the terms with ", moving[j], " in the equation of ", s.q[i], " and with ", moving[i])
+                words = (*words, " in that of ", s.q[j])
+                brief: Words = (f"the coupling by {of} in the equations of ", s.q[i], " and ", s.q[j])
+                of_terms = {self.element_of(row, m) for row, x in found.items() for m in x}
+                element = of_terms.pop() if len(of_terms) == 1 else None
+                yield Site(words=words, brief=brief, step=5, element=element, rows=found, surcharge=0.45)
+
+    def _alone(self, row: int, atom: int) -> Sum:
+        """The terms of a row with one moving atom, once, that is no sine's argument, and no other rate."""
+        rates = {self.ring.atom(x) for x in (*self.of.v, *self.of.a)} - {atom}
+        held = {m: c for m, c in self.rows[row].items() if dict(m).get(atom) == 1}
+        return {m: c for m, c in held.items() if not any(a in rates for a, _ in m)}
 
     def _of_row(self, i: int, row: Sum) -> Iterator[Site]:
         if len(row) > MOST_TERMS:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian.check.misconceptions.base import Ingredients, Variant
-from lagrangian.check.misconceptions.velocity_terms_forgotten import velocity_terms
+from lagrangian.check.misconceptions.velocity_terms_forgotten import turned_terms, velocity_terms
 from lagrangian.page.formula import text
 
 STEP = 5
@@ -13,8 +13,8 @@ WHY = text("d/dt (r²θ̇) = r²θ̈ + 2rṙθ̇: the derivative of a square bri
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Halve the products of two rates: in all equations, and in each one."""
-    products = {i: velocity_terms(s, i)[1] for i in range(s.n)}
+    """Halve the products of two rates, those of one rate and a given rotation too: in all equations, and in each."""
+    products = {i: velocity_terms(s, i)[1] + turned_terms(s, i) for i in range(s.n)}
     held = {i: x for i, x in products.items() if x != 0}
     if len(held) > 1:
         yield Variant(

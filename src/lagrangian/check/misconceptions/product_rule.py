@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import Partial, Total, text
 
 STEP = 5
@@ -19,7 +19,8 @@ WHY = text(
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """In all equations, in each one, and forgotten only for the rates of other coordinates."""
-    lost = [_lost(s, p, range(s.n)) for p in s.momenta]
+    momenta = [p - put(p, dict.fromkeys(s.v, sp.S.Zero)) for p in s.momenta]  # m(ẋ − Ωy): no factor before Ωy
+    lost = [_lost(s, p, range(s.n)) for p in momenta]
     if sum(x != 0 for x in lost) > 1:
         what = text("The factors before the rates were not differentiated in time: the product rule is missing.")
         yield Variant(what=what, rows={i: -x for i, x in enumerate(lost) if x != 0})
@@ -31,7 +32,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         )
         yield Variant(what=what, rows={i: -x}, coordinate=i)
         for k in range(s.n):
-            part = _lost(s, s.momenta[i], [k])
+            part = _lost(s, momenta[i], [k])
             if part not in (0, x):
                 what = text(
                     "In ", Total(Partial(sp.Symbol("L"), s.v[i])), " the change of ", s.q[k], " in time is missing."

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import sympy as sp
 
@@ -45,7 +46,7 @@ def _velocity(s: Ingredients, body: object, q: sp.Expr) -> tuple[sp.Expr, ...]:
             lambda e: isinstance(e, (sp.sin, sp.cos)) and e.args[0] in stand_in,
             lambda e: e.func(stand_in[e.args[0]]),
         )
-        moved.append(put(put(bounded.diff(hidden, time), rates), back))
+        moved.append(put(put(bounded.diff(cast("sp.Expr", hidden), time), rates), back))
     return tuple(moved)
 
 

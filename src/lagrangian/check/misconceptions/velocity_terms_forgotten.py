@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import text
 
 STEP = 5
@@ -40,7 +41,7 @@ def velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
 
 def _velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
     """The squares of rates and the products of two rates in equation i: Σ_jk (∂²T/∂ξ̇_i∂ξ̇_j)_k ξ̇_j ξ̇_k − ∂T/∂ξ_i."""
-    whole = sp.Add(*[bounded.diff(s.momenta[i], s.q[k]) * s.v[k] for k in range(s.n)]) - bounded.diff(s.T, s.q[i])
+    whole = _with_rates(s, i)
     squares: list[sp.Expr] = []
     products: list[sp.Expr] = []
     for j in range(s.n):
@@ -51,3 +52,15 @@ def _velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
                 continue
             (squares if j == k else products).append(factor * s.v[j] * s.v[k] / (2 if j == k else 1))
     return sp.Add(*squares), sp.Add(*products)
+
+
+def turned_terms(s: Ingredients, i: int) -> sp.Expr:
+    """The terms of one rate in equation i that a given rotation brings, such as −2mΩẏ in rotating axes."""
+    whole, still = _with_rates(s, i), dict.fromkeys(s.v, sp.S.Zero)
+    return sp.Add(*[put(bounded.diff(whole, v), still) * v for v in s.v])
+
+
+def _with_rates(s: Ingredients, i: int) -> sp.Expr:
+    """Σ_k ∂p_i/∂ξ_k ξ̇_k − ∂T/∂ξ_i."""
+    moved = sp.Add(*[bounded.diff(s.momenta[i], s.q[k]) * s.v[k] for k in range(s.n)])
+    return cast("sp.Expr", moved - bounded.diff(s.T, s.q[i]))

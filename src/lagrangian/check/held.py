@@ -1,0 +1,82 @@
+"""The right equations at states that satisfy the constraints, where these are linear in a coordinate: y = r φ.
+
+An answer may write y″ or r φ″ for the same thing, and may have put one into the other. At such states both are equal.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.derive.sampling import CompiledExpressions, States
+from lagrangian.model import Model, time
+from lagrangian.model.rows import rows_of
+
+
+class Held(Reference):
+    """A reference whose states satisfy the constraints; ``table`` has the coordinates that follow from the others.
+
+    It holds their rates and accelerations, too.
+    """
+
+    table: Mapping[sp.Expr, sp.Expr]
+
+    def put_in(self, expr: sp.Expr) -> sp.Expr:
+        """An expression in the other coordinates alone."""
+        return _with(expr, self.table)
+
+
+def held(truth: Reference) -> Held | None:
+    """The reference at states on the constraints, made once; None unless every row is linear in a coordinate."""
+    key = ("held",)
+    if key not in truth.others:
+        truth.others[key] = _held(truth)
+    return cast("Held | None", truth.others[key])
+
+
+def _held(truth: Reference) -> Held | None:
+    solved = _solved(truth.model)
+    if not solved:
+        return None
+    table: dict[sp.Expr, sp.Expr] = {}
+    for c in truth.model.coordinates:
+        if c.symbol in solved:
+            value = truth.put(solved[c.symbol])
+            rate = bounded.diff(value, time)
+            table |= {c.symbol: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)}
+    other = cast("Held", copy.copy(truth))
+    other.__class__ = Held
+    for name in ("W", "accelerations"):
+        other.__dict__.pop(name, None)
+    other.table, other.others = table, {}
+    other.states = States(truth.model, truth.states.motions, sides=truth.sides)
+    for x, values in zip(table, CompiledExpressions(list(table.values())).at(other.states), strict=True):
+        other.states.fix(x, values)
+    return other
+
+
+def _solved(model: Model) -> dict[Any, sp.Expr] | None:
+    """For every row one coordinate in terms of those that are left; None if a row is not linear in any."""
+    found: dict[Any, sp.Expr] = {}
+    coordinates = {c.rate: c.symbol for c in model.coordinates}
+    for row in rows_of(model):
+        if row.position is None and bounded.replaced(row.rate, dict.fromkeys(coordinates, sp.S.Zero)) != 0:
+            return None
+        zero = row.position if row.position is not None else cast("sp.Expr", row.rate.xreplace(coordinates))
+        zero = bounded.expand(_with(model.expand(zero, constants=True), found))
+        slopes = {c.symbol: bounded.diff(zero, c.symbol) for c in model.coordinates if zero.has(c.symbol)}
+        q = next((x for x, slope in slopes.items() if slope != 0 and not slope.has(time, *coordinates.values())), None)
+        if q is None:
+            return None
+        value = bounded.expand(q - zero / slopes[q])
+        found = {x: bounded.expand(_with(e, {q: value})) for x, e in found.items()} | {q: value}
+    return found
+
+
+def _with(expr: sp.Expr, table: Mapping[Any, sp.Expr]) -> sp.Expr:
+    return cast("sp.Expr", bounded.replaced(expr, dict(table)))
