@@ -18,7 +18,7 @@ from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
 
 
-class Held(Reference):
+class OnConstraints(Reference):
     """A reference whose states satisfy the constraints; ``table`` has the coordinates that follow from the others.
 
     It holds their rates and accelerations, too.
@@ -31,15 +31,15 @@ class Held(Reference):
         return _with(expr, self.table)
 
 
-def held(truth: Reference) -> Held | None:
+def held(truth: Reference) -> OnConstraints | None:
     """The reference at states on the constraints, made once; None unless every row is linear in a coordinate."""
     key = ("held",)
     if key not in truth.others:
         truth.others[key] = _held(truth)
-    return cast("Held | None", truth.others[key])
+    return cast("OnConstraints | None", truth.others[key])
 
 
-def _held(truth: Reference) -> Held | None:
+def _held(truth: Reference) -> OnConstraints | None:
     solved = _solved(truth.model)
     if not solved:
         return None
@@ -49,8 +49,8 @@ def _held(truth: Reference) -> Held | None:
             value = truth.put(solved[c.symbol])
             rate = bounded.diff(value, time)
             table |= {c.symbol: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)}
-    other = cast("Held", copy.copy(truth))
-    other.__class__ = Held
+    other = cast("OnConstraints", copy.copy(truth))
+    other.__class__ = OnConstraints
     for name in ("W", "accelerations"):
         other.__dict__.pop(name, None)
     other.table, other.others = table, {}

@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, agreed, slopes_of_equations
 from lagrangian.check.changes.pool import Pool
-from lagrangian.check.held import Held
+from lagrangian.check.held import OnConstraints
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import EXOTIC, SMALL, Explanation, Vectors, singles
 from lagrangian.check.verdict import Mistake
@@ -37,7 +37,7 @@ def of_reduced(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], Mistake | 
     P = CompiledExpressions([expr]).at(truth.states)[0]
     if not np.isfinite(P).all() or np.abs(P).max() > LARGEST:
         return [], None
-    rows = [truth.put_in(x) for x in (expr, *truth.rows)] if isinstance(truth, Held) else [expr, *truth.rows]
+    rows = [truth.put_in(x) for x in (expr, *truth.rows)] if isinstance(truth, OnConstraints) else [expr, *truth.rows]
     mine, *each = slopes_of_equations(truth, rows)
     forces = dict.fromkeys(_forces(truth), sp.S.Zero)
     W = CompiledExpressions([cast("sp.Expr", row.xreplace(forces)) for row in truth.rows]).at(truth.states)
