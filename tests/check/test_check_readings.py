@@ -113,7 +113,7 @@ LONG_NAMES = loads(
         (r"(M + m) \ddot x + m length lenght \cos\theta \ddot\theta = F", "no 'lenght'. Did you mean 'length'?"),
         (r"(M + m) \ddot x + m \mathrm{lenght} \cos\theta \ddot\theta = F", "'lenght' was read as length."),
         (r"(M + m) \ddot x + m lenght \cos\theta \ddot\theta = F", "'lenght' was read as length."),
-        ("(M + m)*x'' + q*phi'' = F", "The system has no 'phi'."),
+        ("(M + m)*x'' + m*length*phi'' = F", "The system has no 'phi'."),
     ],
 )
 def test_a_misspelled_name_is_answered_with_the_one_that_is_meant(answer: str, said: str) -> None:

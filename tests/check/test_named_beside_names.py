@@ -100,7 +100,8 @@ def test_a_heading_with_the_form_of_the_equations_is_no_equation(drum: lg.Deriva
     verdict = drum.check(rows.replace("k2*r^2", "k2*r"))
     (mistake,) = verdict.mistakes
     assert mistake.element == "spring 'holder'"
-    assert not drum.check("M q'' + K q = f").right
+    with pytest.raises(lg.ParseError, match="what is 'K'"):
+        drum.check("M q'' + K q = f")
 
 
 def test_a_spring_may_be_given_the_way_of_a_drum() -> None:

@@ -150,12 +150,17 @@ def test_blanks_in_brackets_remain_products_where_the_shape_wants_them() -> None
         "m*L^2*D2theta + b*D2theta + m*g*L*sin(theta) = 0",
         "m L^2 ddot θ + b ddot θ + m g L sinθ = 0",
         "m L² ¨θ + b ¨θ + m g L sin θ = 0",
-        "<p>m L<sub>2</sub> θ'' + b θ' + m g L sin θ = 0</p>",
         "m L² θ''\n + b θ' = 0\nm L²\n + m g L sin θ = 0",
     ],
 )
 def test_what_is_wrong_stays_wrong(written: str) -> None:
     assert not derivation("pendulum").check(written).right
+
+
+def test_a_name_that_nothing_explains_is_asked_about() -> None:
+    with pytest.raises(ParseError, match="what is 'L_2'") as caught:
+        derivation("pendulum").check("<p>m L<sub>2</sub> θ'' + b θ' + m g L sin θ = 0</p>")
+    assert caught.value.place is not None and caught.value.place.column == 6
 
 
 def test_errors_point_into_what_was_written() -> None:

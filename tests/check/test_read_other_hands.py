@@ -227,12 +227,16 @@ def test_decimals_are_read_as_rounded_from_four_digits_on(written: str, right: b
         ("m x'' = H + m g sin(beta)\nH/2 = -k x/2", True),
         (f"m x'' = S1 - S2\nS1 + S2 = m g sin(beta) + k x\nS1 - m g sin(beta) = 0\n{SLOPE}", True),
         ("m x'' = m g sin(beta) - S\nS = -k x", False),
-        ("m x'' = m g sin(beta) - S - H\nS = k x", False),
         (f"m x'' = S1 - S2\n{SLOPE.replace('sin', 'cos')}", False),
     ],
 )
 def test_forces_that_equations_determine_are_eliminated(written: str, right: bool) -> None:
     assert slope().check(written).right == right
+
+
+def test_a_force_that_nothing_determines_is_asked_about() -> None:
+    with pytest.raises(ParseError, match="what is 'H'"):
+        slope().check("m x'' = m g sin(beta) - S - H\nS = k x")
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,13 @@ BARE = r"m L^2\ddot\theta + b\dot\theta + m g L\sin\theta"
 
 
 def right(written: str, name: str = "cart-pole") -> bool:
-    """Whether an answer is judged right."""
-    return derivation(name).check(written).right
+    """Whether an answer is judged right; one with a name that nothing explains is asked about, and is not."""
+    try:
+        return derivation(name).check(written).right
+    except ParseError as error:
+        if "what is '" not in str(error):
+            raise
+        return False
 
 
 @pytest.mark.parametrize(

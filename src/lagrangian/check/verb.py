@@ -10,6 +10,7 @@ from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
+from lagrangian.check.unexplained import question, unexplained
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
@@ -107,7 +108,10 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = check.check(derivation, check.lines_of(other), hint=hint, explain=False)
         if verdict.right:
             return _told(verdict, other)
-    return _told(check.check(derivation, check.lines_of(answer), hint=hint), answer)
+    verdict = check.check(derivation, check.lines_of(answer), hint=hint)
+    if asked := unexplained(derivation, answer, verdict):
+        raise question(asked)
+    return _told(verdict, answer)
 
 
 def _told(verdict: check.Verdict, answer: Answer) -> check.Verdict:

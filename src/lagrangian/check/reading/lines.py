@@ -333,8 +333,10 @@ class Lines:
     def _equations(self, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         values = [reader.value(side) for side in sides]
         if len(values) == 1:
-            if isinstance(values[0], MatrixBase) and not any(map(self.subjects.moves, sides)):
-                self._not_judged(reader, "it is a list without an equals sign")
+            listed = isinstance(values[0], MatrixBase)
+            said = any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
+            if (listed or said) and not any(map(self.subjects.moves, sides)):
+                self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
                 return []
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]

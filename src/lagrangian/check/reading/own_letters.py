@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
-from lark import Tree
+from lark import Token, Tree
 
 from lagrangian.check.reading.names import names_in
 from lagrangian.check.reading.nodes import only_name
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subjects
-from lagrangian.read.letters import key
+from lagrangian.read.letters import key, undotted
 
 
 def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
     """Return the letters of energies that statements, given by their sides, give a value that is no energy.
 
-    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them.
+    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them; and those that
+    an equation with accelerations uses alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
     first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
-    found: set[str] = set()
+    found = set(_used_as_names(statements, first, subjects))
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
         kind = None if named is None or named[1] or moving[k] else energy_of(named[0], model, lhs=True)
         if named is None or kind is None:
@@ -37,3 +38,33 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         ):
             found.add(key(str(named[0])))
     return frozenset(found)
+
+
+def _used_as_names(
+    statements: Sequence[Sequence[Tree]], first: Sequence[tuple[Token, int] | None], subjects: Subjects
+) -> Iterator[str]:
+    """The letters of energies that stand alone in an equation with accelerations, D theta'' = …, or whose rate is
+    formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is."""
+    for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
+        kind = None if named is None or named[1] else energy_of(named[0], subjects.model, lhs=True)
+        if named is None or kind is None:
+            continue
+        written = str(named[0])
+        states = [undotted(x)[0] for side in sides[1:] for x, _ in names_in(side)]
+        if any(x in ("T", "V", "U") and energy_of(x, subjects.model) for x in states):
+            continue  # L = T - V
+        for j, others in enumerate(statements):
+            if j == k or not any(map(subjects.accelerates, others)):
+                rated = any(x == written and changing for side in others for x, changing in names_in(side))
+                if j != k and rated and (kind == "D" or not any(map(_squares, sides[1:]))):
+                    yield key(written)
+                continue
+            alone = only_name(others[0])
+            used = any(x == written for side in others for x, _ in names_in(side))
+            if used and (alone is None or alone[0] != written):
+                yield key(written)
+
+
+def _squares(side: Tree) -> bool:
+    """Whether a power stands in a tree."""
+    return any(x.data == "power" and len(x.children) > 1 for x in side.iter_subtrees())

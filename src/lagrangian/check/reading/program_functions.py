@@ -5,6 +5,9 @@ return [v, (F - k*x)/m]         x' = v,  v' = (F - k*x)/m
 
 function dz = f(t, z)           z(2) is v, or by default the coordinates and then their rates
 dz = [z(2); (F - k*z(1))/m]
+
+% z = [x; v]                    the states in a comment, as z(1) = x, z(2) = v or in a list
+dz(2) = (F - k*z(1))/m          without the function's first line
 """
 
 from __future__ import annotations
@@ -32,9 +35,21 @@ _INDEXED = re.compile(rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME})
 _LIST = r"(?:(?:np|numpy|jnp)\.(?:array|asarray|hstack)[ \t]*\([ \t]*)?[\[(]"
 _RETURNED = re.compile(rf"^[ \t]*+return[ \t]++(?P<list>{_LIST})", re.MULTILINE)
 _NOTHING = re.compile(
-    rf"^[ \t]*+(?:end|return|return[ \t]++{_NAME}|{_NAME}[ \t]*=[ \t]*(?:np\.)?zeros\([\w(), ]*\)){_END}", re.MULTILINE
+    rf"^[ \t]*+(?:end|return|return[ \t]++{_NAME}"
+    rf"|{_NAME}[ \t]*=[ \t]*(?:np\.)?(?:zeros|empty)(?:_like)?\([\w(), ]*\)){_END}",
+    re.MULTILINE,
 )
 _CLOSED = {"(": ")", "[": "]"}
+_RATES = re.compile(
+    rf"^[ \t]*+(?P<out>[dD](?P<of>[^\W\d_]\w*?)(?:_?dt)?|(?P<dotted>[^\W\d_]\w*?)_?(?:dot|prime))[ \t]*+"
+    rf"(?:{_INDEX})?[ \t]*+=(?!=)",
+    re.MULTILINE,
+)
+"""What the rates of a state are called: dz, dzdt, dz_dt, zdot, and one of them, dz(1)."""
+_COMMENT = re.compile(r"(?:(?<!\\)[#%]|//)(?P<said>[^\n]*)")
+_STATE = rf"(?P<name>{_NAME}['’′]{{0,2}})"
+_ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}"
+_LISTED_STATES = r"(?<!\w)STATE[ \t]*+(?:=|:|is)[ \t]*+[\[(](?P<names>[^\[\]()]*+)[\])]"
 
 
 @dataclass
@@ -50,21 +65,25 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     """Return an answer in which a function that returns the rates of a state is a list of equations."""
     text = written.text
     headers = list(_HEADER.finditer(text))
-    if len(headers) != 1 and not (not headers and _RETURNED.search(text)):
+    loose = _without_header(text) if not headers and not _RETURNED.search(text) else None
+    if len(headers) != 1 and loose is None and not (not headers and _RETURNED.search(text)):
         return written
-    function = _function(text, headers)
+    function = loose or _function(text, headers)
+    function.names = _commented(text, function.state, coordinates) | function.names
     edits: list[Edit] = [(m.start(), m.end(), "") for m in headers]
     edits += [(m.start(), m.end(), "") for m in _NOTHING.finditer(text)]
     edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] == function.state]
     edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     names = [function.names.get(i) for i in range(2 * len(coordinates))]
     default = [*coordinates, *(f"{name}'" for name in coordinates)]
+    if function.state is not None and _alternates(text, function, len(coordinates)):
+        default = [name + prime for name in coordinates for prime in ("", "'")]
     states = [name or default[i] for i, name in enumerate(names)]
     if function.state is not None:
         edits += _indices(text, function.state, states)
     if function.out is not None:
-        rates = re.finditer(rf"(?<!\w){function.out}\((\d)\)(?=[ \t]*=)", text)
-        edits += [(*m.span(), f"{states[int(m[1]) - 1]}'") for m in rates if 0 < int(m[1]) <= len(states)]
+        rates = [(m, _place(m)) for m in re.finditer(rf"(?<!\w){function.out}{_INDEX}(?=[ \t]*=)", text)]
+        edits += [(*m.span(), f"{states[at]}'") for m, at in rates if 0 <= at < len(states)]
     edits += _returned(text, function, states)
     kept: list[Edit] = []
     for edit in sorted(edits):
@@ -86,14 +105,62 @@ def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:
     for match in unpacked[:1]:
         found.names = dict(enumerate(x.strip() for x in match["names"].split(",")))
     for match in indexed:
-        found.names[int(match["zero"]) if match["zero"] else int(match["one"]) - 1] = match["name"]
+        found.names[_place(match)] = match["name"]
     return found
+
+
+def _place(match: re.Match[str]) -> int:
+    """The place in a list that an index means, from 0: z[0] and z(1) are the first."""
+    return int(match["zero"]) if match["zero"] else int(match["one"]) - 1
+
+
+def _without_header(text: str) -> _Function | None:
+    """The state and the name of its rates where both are used with an index and no function begins; None if not."""
+    for match in _RATES.finditer(text):
+        state = match["of"] or match["dotted"]
+        if re.search(rf"(?<!\w){state}{_INDEX}", text):
+            found = _Function(state, match["out"])
+            for named in _INDEXED.finditer(text):
+                if named["of"] == state:
+                    found.names[_place(named)] = named["name"]
+            return found
+    return None
+
+
+def _commented(text: str, state: str | None, coordinates: Sequence[str]) -> dict[int, str]:
+    """The states that comments name: z(1) = x, z(2) = v, or z = [x; v]."""
+    if state is None:
+        return {}
+    found: dict[int, str] = {}
+    for comment in _COMMENT.finditer(text):
+        for match in re.finditer(_ONE_STATE.replace("STATE", state), comment["said"]):
+            found[_place(match)] = match["name"]
+        for match in re.finditer(_LISTED_STATES.replace("STATE", state), comment["said"]):
+            listed = [
+                x.strip() for x in re.split("[,;]" if re.search("[,;]", match["names"]) else r"\s", match["names"])
+            ]
+            if all(re.fullmatch(_STATE, x) for x in listed):
+                found |= dict(enumerate(listed))
+    return {at: _spelled_out(name, coordinates) for at, name in found.items()}
+
+
+def _spelled_out(name: str, coordinates: Sequence[str]) -> str:
+    """theta' for theta_dot, which may get a prime behind it."""
+    return next((stem + "'" * order for order, stem in spelled_rates(name) if stem in coordinates), name)
+
+
+def _alternates(text: str, function: _Function, n: int) -> bool:
+    """Whether every coordinate is followed by its rate: the first rate is the second state."""
+    out, state = function.out, function.state
+    second = rf"{state}(?:\[1\]|\(2\))[ \t]*+[,;\n]"
+    first = rf"(?:return[ \t]++{_LIST}|(?<!\w){out}[ \t]*=[ \t]*{_LIST}|(?<!\w){out}(?:\[0\]|\(1\))[ \t]*=)[ \t]*+"
+    return n > 1 and re.search(first + second, text) is not None
 
 
 def _indices(text: str, state: str, states: Sequence[str]) -> Iterator[Edit]:
     """The names of the states in the place of z[0] or z(1)."""
     for match in re.finditer(rf"(?<!\w){state}{_INDEX}", text):
-        at = int(match["zero"]) if match["zero"] else int(match["one"]) - 1
+        at = _place(match)
         if 0 <= at < len(states):
             yield match.start(), match.end(), states[at]
 

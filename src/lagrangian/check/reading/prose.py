@@ -37,6 +37,8 @@ _DEFINES = re.compile(
     r"\s*+=(?![=>])"
 )
 """A name that is given a value behind words alone."""
+_SAYING = frozenset(["get", "got", "find", "found", "obtain", "obtained", "have", "see", "write", "use", "arrive"])
+"""What may follow I: with s = R θ I get."""
 _ARTICLES = frozenset(["I", "a"])
 """Letters that are words between words."""
 CHANGING = frozenset(
@@ -213,16 +215,17 @@ def without_tail(text: str, words: Words, *, led: bool = False) -> str:
         return text
     if (said := _EXPLAINED.search(text)) is not None and _explains(said[1], words):
         text = blank(text, said.start(), len(text))
-    end, count, linked = len(text), 0, False
+    end, count, linked, below = len(text), 0, False, ""
     while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
         links = _links(match[1], words)
         if (
             not links
             and not _is_word(match[1], words)
+            and not (match[1] == "I" and below in _SAYING)
             and not _is_letter(text[:end], match[1], words, inside=count > 0)
         ):
             break
-        end, count, linked = match.start(1), count + 1, linked or links
+        end, count, linked, below = match.start(1), count + 1, linked or links, match[1].lower()
     apart = count == 1 and text[max(0, end - 2) : end].isspace()  # D = …   Rayleigh
     if count < (1 if linked or apart or led else 2) or not _ENDS.search(text[:end]):
         return text
