@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy as sp
-from lark import Token, Tree
+from lark import Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
@@ -37,7 +37,6 @@ from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
-from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
@@ -257,7 +256,7 @@ class Lines:
             if any(not is_placeholder(x) for x in value.atoms(AppliedUndef)):
                 self._not_judged(reader, "an energy in it has no value")  # L = T - V + λ (x² + y² - l²)
             return made_line("statement", None, value, None, sides[0], side, reader)
-        if kind in ENERGIES and (given := self._parameter(sides[0], value)) is not None:
+        if kind in ENERGIES and (given := self.subjects.parameter(sides[0], value)) is not None:
             return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
             self.names.stated[kind] = value
@@ -370,9 +369,9 @@ class Lines:
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
                 self._unjudged(left, right, reader)
-        elif (found := only_name(a)) is not None and not found[1] and self._change(found[0], right):
+        elif (found := only_name(a)) is not None and not found[1] and self.subjects.changes_coordinate(found[0], right):
             return made_line("definition", None, right, str(found[0]), a, b, reader)
-        elif (given := self._parameter(a, right) or self._parameter(b, left)) is not None:
+        elif (given := self.subjects.parameter(a, right) or self.subjects.parameter(b, left)) is not None:
             return made_line("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
         return made_line(kind, left, right, None, a, b, reader)
 
@@ -385,18 +384,3 @@ class Lines:
         rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
         if any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
             self._not_judged(reader, "nothing says what is differentiated there")
-
-    def _parameter(self, side: Tree, value: sp.Expr) -> str | None:
-        """The parameter that a side consists of, if the other side is its value: J = m*R^2/2."""
-        if (found := only_name(side)) is None or found[1] or value.has(AppliedUndef, time):
-            return None
-        names, dots = self.names.scope.meanings(found[0])
-        return names[0] if not dots and names and names[0] in {p.name for p in self.model.parameters} else None
-
-    def _change(self, token: Token, value: sp.Expr) -> bool:
-        """Whether a line expresses a coordinate of the model in new ones: x2 = x1 + s, where the model has no s."""
-        names, dots = self.names.scope.meanings(token)
-        if dots or len(names) != 1 or names[0] not in {c.name for c in self.model.coordinates}:
-            return False
-        new = {u.symbol for u in self.names.unknown.values() if isinstance(u.symbol, AppliedUndef)}
-        return bool(value.atoms(AppliedUndef) & new) and not value.has(sp.Derivative)

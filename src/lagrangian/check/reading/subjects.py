@@ -17,6 +17,7 @@ from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
 from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
 from lagrangian.model import Model
+from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
@@ -166,6 +167,21 @@ class Subjects:
         if first is None or second is None or (first.kind, second.kind) != ("p-rate", "slope"):
             return None
         return Subject("left", first.name) if first.name == second.name else None
+
+    def parameter(self, side: Tree, value: sp.Expr) -> str | None:
+        """The parameter that a side consists of, if the other side is its value: J = m*R^2/2."""
+        if (found := only_name(side)) is None or found[1] or value.has(AppliedUndef, time):
+            return None
+        names, dots = self.names.scope.meanings(found[0])
+        return names[0] if not dots and names and names[0] in {p.name for p in self.model.parameters} else None
+
+    def changes_coordinate(self, token: Token, value: sp.Expr) -> bool:
+        """Whether a line expresses a coordinate of the model in new ones: x2 = x1 + s, where the model has no s."""
+        names, dots = self.names.scope.meanings(token)
+        if dots or len(names) != 1 or names[0] not in {c.name for c in self.model.coordinates}:
+            return False
+        new = {u.symbol for u in self.names.unknown.values() if isinstance(u.symbol, AppliedUndef)}
+        return bool(value.atoms(AppliedUndef) & new) and not value.has(sp.Derivative)
 
     def _taken(self, token: Token) -> bool:
         """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
