@@ -1,4 +1,4 @@
-"""Forty bad or odd constraints in files: each is told where it is, what is wrong and what would be right."""
+"""Fifty bad or odd constraints in files: each is told where it is, what is wrong and what would be right."""
 
 import pytest
 
@@ -79,6 +79,29 @@ BAD = {
         "E302",
         "contradicts",
     ),
+    "more rows than velocities": (
+        '[[pin]]\nname="p"\nbetween=["P","Q"]\n[[constraint]]\nname="c"\nexpression="theta"\n'
+        '[[velocity_constraint]]\nname="d"\nexpression="x\' - theta\' - 1"\n',
+        "E302",
+        "the constraint 'd' contradicts 'p.x', 'p.y', 'c'",
+    ),
+    "too short": (
+        '[[constraint]]\nname="rod"\nbetween=["P","Q"]\ndistance="l"\n[[constraint]]\nexpression="x - 5*l"\n',
+        "E304",
+        "'rod' by 3 open",
+    ),
+    "held open": (
+        '[[constraint]]\nname="rod"\nbetween=["P","Q"]\ndistance="l"\n[simulate]\nfixed=["x","y"]\n',
+        "E304",
+        "do not hold x or y fixed",
+    ),
+    "unknown field": ('[[constraint]]\nbetween=["P","Q"]\ndistence="l"\n', "E405", "'distance'"),
+    "unknown axes": ('[[constraint]]\nbetween=["P","Q"]\naxes="zz"\n', "E412", "unknown frame 'zz'"),
+    "unknown joint": (
+        '[[constraint]]\nname="rod"\nbetween=["P","Q"]\ndistance="l"\n[simulate]\nreactions=["rud"]\n',
+        "E402",
+        "no joint 'rud'",
+    ),
     "kink": ('[[constraint]]\nexpression="abs(x) - l"\n', "E308", "kink"),
     "sqrt neg": ('[[constraint]]\nexpression="sqrt(-1 - x^2/l^2)"\n', "E503", "finite"),
     "impossible": ('[[constraint]]\nexpression="x^2/l^2 + 1"\n', "E304", "open"),
@@ -113,6 +136,7 @@ def test_a_system_that_cannot_move_is_solved_all_the_same() -> None:
     s = lg.loads(HEAD + '[[pin]]\nname="p"\nbetween=["P","Q"]\n[[constraint]]\nname="c"\nexpression="theta"\n')
     d = s.derive()
     assert d.constraints is not None and d.constraints.verdict == "holonomic: #GC = #DDOF = 0"
+    assert "Nothing is left to move freely" in str(d)
     assert all(check.holds is not False for check in d.verified)
     run = s.simulate(0.5, x=0.3, y=0.2)
     assert run.success and run["x"][-1] == pytest.approx(1.0)

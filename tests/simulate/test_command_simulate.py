@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from importlib import import_module
@@ -28,6 +29,39 @@ def test_a_summary_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert row[1] == "30" and row[-1] == "deg"
     below = next(line.split() for line in out.splitlines() if line.split()[-1:] == ["(rad)"])
     assert below[0] == f"({np.pi / 6:.4g})"
+
+
+BLOCK = """
+name = "block"
+
+[coordinates]
+x = ""
+
+[points]
+P = ["x", 0]
+
+[[particle]]
+mass = 2
+at = "P"
+
+[[friction]]
+name = "floor"
+mu = 0.5
+normal = 20
+deflection = "x"
+"""
+
+
+def test_a_summary_says_when_friction_sticks(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """A block at 2 m/s that brakes with μ g = 5 m/s² rests after 0.4 s."""
+    path = tmp_path / "block.toml"
+    path.write_text(BLOCK, encoding="utf-8")
+    _, out, _ = said(capsys, str(path), "--duration", "1", "--init", "x'=2")
+    assert "friction 'floor' sticks once, 0.6 s in all:\n    0.4 … 1 s\n" in out
+    _, out, _ = said(capsys, str(path), "--duration", "0.1", "--init", "x'=2")
+    assert "friction 'floor' slips all the time" in out
+    _, out, _ = said(capsys, str(path), "--duration", "1", "--init", "x'=2", "--json")
+    assert json.loads(out)["stuck"]["floor"] == [[pytest.approx(0.4, abs=1e-12), 1.0]]
 
 
 def test_csv_on_standard_output_holds_the_run(capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,7 @@
 """Runs of systems with constraints: every state satisfies them, and what a run says of that."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -100,6 +102,15 @@ def test_a_linkage_steps_over_a_position_where_it_can_branch_or_the_run_names_wh
     stopped = system.simulate(1.0, initial=PEAUCELLIER, rtol=1e-6)
     assert stopped.success or "come to depend on each other there" in stopped.message
     assert stopped.success or "method='taylor' or method='rk4' with a step" in stopped.message
+
+
+def test_an_energy_that_is_missed_is_told_with_its_figure(monkeypatch):
+    monkeypatch.setattr(import_module("lagrangian.simulate.simulation"), "KEPT", 1e-13)
+    run = SYSTEM.simulate(1.0, **RELEASED, method="RK45")
+    (said,) = (n for n in run.notices if n.code == "E511")
+    assert f"missed by {float(run.audit):.1e} of what moves" in said.text and "'dop853'" in said.text
+    loose = SYSTEM.simulate(1.0, **RELEASED, rtol=1e-6)
+    assert float(loose.audit) > 1e-13 and not any(n.code == "E511" for n in loose.notices)  # as it was asked for
 
 
 def test_without_projection_the_drift_is_measured():

@@ -114,6 +114,8 @@ def test_a_block_on_a_swinging_belt(start: tuple[float, float]) -> None:
     assert len(exact.sticks) > 3 and len(exact.slips) > 3
     assert run.events["belt sticks"].t == pytest.approx(exact.sticks, abs=1e-9)
     assert run.events["belt slips"].t == pytest.approx(exact.slips, abs=1e-9)
+    until = [min((end for end in exact.slips if end > begin), default=6.0) for begin in exact.sticks]
+    assert run.stuck["belt"] == pytest.approx(np.transpose([exact.sticks, until]), abs=1e-9)
     assert run["x"] == pytest.approx([exact(t) for t in run.t], abs=1e-9)
     assert float(run.audit) < 1e-10
 
@@ -340,6 +342,12 @@ def test_a_file_says_the_same() -> None:
     run = lg.loads(text).simulate(duration=20, initial={"theta": 1.0}, **TIGHT)
     times, _ = swings(1.0, 0.5)
     assert run.events["pivot sticks"].t == pytest.approx(times[-1:], abs=1e-9)
+
+
+def test_what_rests_at_the_start_sticks_from_then_on_and_what_only_slips_has_no_such_time() -> None:
+    s = pendulum()
+    assert s.simulate(1, theta=0.01).stuck["pivot"].tolist() == [[0.0, 1.0]]  # m g l sin θ < c
+    assert s.simulate(0.1, theta=1.0).stuck["pivot"].shape == (0, 2)
 
 
 @pytest.mark.parametrize("method", ["Radau", "gauss4"])

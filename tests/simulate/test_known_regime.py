@@ -77,6 +77,15 @@ def test_modes_that_make_no_sense_are_refused() -> None:
         pendulum().compile()
 
 
+def test_readers_of_a_file_are_told_what_to_write_there() -> None:
+    in_file = lg.loads(pendulum().to_toml())
+    with pytest.raises(lg.Error, match=r"E311.*(?s:.*)Fix: .*sense = 1 in \[\[friction\]\] while it slips") as caught:
+        in_file.compile()
+    assert caught.value.place is not None and "side" not in str(caught.value)
+    with pytest.raises(lg.Error, match=r"E311(?s:.*)side = 1 or -1"):
+        lg.loads(bead().to_toml()).compile()
+
+
 @pytest.mark.slow
 def test_reactions_are_those_of_the_regime_at_each_time() -> None:
     """m a = R + m g with the accelerations of the run, while it swings and after it sticks."""

@@ -103,7 +103,8 @@ def test_the_time_of_a_terminal_event_changes_as_the_formula_says() -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "options", [{"method": "rk4", "step": 1e-3}, {"method": "Radau"}, {"method": "gauss4", "step": 1e-3}]
+    "options",
+    [{"method": "rk4", "step": 1e-3}, {"method": "Radau"}, {"method": "LSODA"}, {"method": "gauss4", "step": 1e-3}],
 )
 def test_other_methods_find_the_same(options: dict[str, Any]) -> None:
     system, names = lg.example("double-pendulum"), ["m1", "L2", "theta1", "theta2'"]

@@ -55,7 +55,7 @@ def test_default_tolerances_are_those_of_a_run_and_given_ones_are_passed_on(
     assert lg.RunSettings(method=method).of_a_step() == pytest.approx((1e-9 * shares[0], 1e-12 * shares[1]))
     given = lg.RunSettings(method=method, rtol=1e-6, atol=1e-7).of_a_step()
     assert given == pytest.approx((1e-9, 1e-10) if method in (None, "dop853") else (1e-6, 1e-7))
-    assert lg.RunSettings(method=method).over_run == (method == "LSODA")
+    assert lg.RunSettings(method=method).over_run == (method in ("BDF", "LSODA"))
     assert not lg.RunSettings(method=method, rtol=1e-6).over_run
 
 

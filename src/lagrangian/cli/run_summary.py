@@ -6,12 +6,16 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lagrangian.cli.wording import in_options
 from lagrangian.simulate import plot
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.write import Title
 from lagrangian.write.tables import Column
+
+SPANS = 4
+"""The largest number of spans of time of a friction that are listed."""
 
 
 def summary(run: Trajectory) -> list[str]:
@@ -21,6 +25,7 @@ def summary(run: Trajectory) -> list[str]:
         f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
         f"  {run.audit}",
         f"  {in_options(run.message)}",
+        *(f"  {words}" for name, spans in run.stuck.items() for words in _friction(name, spans)),
         "",
     ]
     rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
@@ -38,6 +43,17 @@ def summary(run: Trajectory) -> list[str]:
     return lines
 
 
+def _friction(name: str, spans: NDArray[np.float64]) -> list[str]:
+    """How often a friction sticks and how long in all; below, the first and the last spans of time."""
+    if not len(spans):
+        return [f"friction '{name}' slips all the time"]
+    listed = [f"{a:.5g} … {b:.5g}" for a, b in spans.tolist()]
+    if len(listed) > SPANS:
+        listed = [*listed[: SPANS - 1], "…", listed[-1]]
+    often = "once" if len(spans) == 1 else f"{len(spans)} times"
+    return [f"friction '{name}' sticks {often}, {np.sum(np.diff(spans)):.5g} s in all:", f"  {', '.join(listed)} s"]
+
+
 def figures(run: Trajectory) -> dict[str, Any]:
     """Return the same as data, in SI units."""
     return {
@@ -53,6 +69,7 @@ def figures(run: Trajectory) -> dict[str, Any]:
         "rejected": int(run.rejected),
         "evaluations": int(run.nfev),
         "balance": {"kind": "energy" if run.audit.conserved else "power", "missed_by": float(run.audit.figure)},
+        "stuck": {name: spans.tolist() for name, spans in run.stuck.items()},
         "columns": [
             {
                 "name": c.name,

@@ -38,7 +38,8 @@ def rows(d: Description) -> list[ConstraintRow]:
     found: list[ConstraintRow] = []
     for named in named_conditions(d.model):
         c, f, acceleration = CONDITIONS[type(named.condition)](d, named.condition)
-        found.append(ConstraintRow(named.name, named.element.name, c, f, acceleration))
+        element = named.element
+        found.append(ConstraintRow(named.name, element.name, c, f, acceleration, place=element.place))
     return found
 
 

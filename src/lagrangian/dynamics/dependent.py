@@ -98,6 +98,7 @@ def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelEr
     return ModelError(
         f"the constraint '{row.name}' contradicts {listed}",
         fix="leave one of them out, or change it: no motion satisfies all of them",
+        place=row.place,
         code="E302",
     )
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lagrangian.dynamics.axes import Accelerations
+from lagrangian.errors import Place
 from lagrangian.model import Friction
 from lagrangian.records import dataclass
 
@@ -21,7 +22,8 @@ class ConstraintRow:
 
     ``name`` is what the row is called (``loop.x``). Rows of one ``closure`` are measured together when the program asks
     whether one of them depends on the others. ``acceleration`` gives c's derivative out of accelerations that are there
-    already; without it c is differentiated. ``scale`` is the size, in the unit of f, that a gap is compared with.
+    already; without it c is differentiated. ``scale`` is the size, in the unit of f, that a gap is compared with, and
+    ``place`` where the constraint stands in its file.
     """
 
     name: str
@@ -30,6 +32,7 @@ class ConstraintRow:
     residual: int | None = None
     acceleration: Callable[[Accelerations], int] | None = None
     scale: float = 1.0
+    place: Place | None = None
 
 
 @dataclass(frozen=True)

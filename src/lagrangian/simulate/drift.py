@@ -14,6 +14,7 @@ from lagrangian.codes import Code
 from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Program, evaluate
 from lagrangian.integrate import METHODS, Drift, RunStatus
+from lagrangian.integrate.method_names import MULTISTEP
 from lagrangian.integrate.projection import BREAKS
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
@@ -39,9 +40,6 @@ DEPENDENT = 1e-9
 
 BRANCHING = 1e-3
 """A run that ends where the margin has become less than this has come to a position where a linkage can branch."""
-
-MULTISTEP = frozenset({"BDF", "LSODA"})
-"""Methods with a history: noise in the accelerations is in all of it."""
 
 WHERE = "constraints"
 """The subject of notices about a run's constraints."""

@@ -188,6 +188,18 @@ class Recorded(Guided):
         answer = kernel(np.ascontiguousarray(self.y.T[at]), self.u[at], self.p, self.t[at])
         return answer if isinstance(answer, dict) else {next(iter(kernel.program.outputs)): answer}
 
+    @cached_property
+    def stuck(self) -> Mapping[str, Array]:
+        """When each friction sticks, by name: from when to when [s], (k, 2), up to the end of the run."""
+        found: dict[str, Array] = {}
+        for name, modes in self.modes.items():
+            begins, ends = self.events[f"{name} sticks"].t, self.events[f"{name} slips"].t
+            if len(modes) and modes[0] == 0 and not np.any(begins <= self.t[0]):
+                begins = np.concatenate([self.t[:1], begins])
+            ends = np.append(ends, self.t[-1:])
+            found[name] = np.stack([begins, ends[np.searchsorted(ends[:-1], begins)]], axis=1)
+        return Entries(found, "stuck")
+
     # -- energies -----------------------------------------------------------------------------------------------
 
     @cached_property

@@ -18,7 +18,7 @@ from lagrangian.integrate import METHODS
 from lagrangian.integrate.chunks import MEMORY
 from lagrangian.integrate.ensemble import Progress
 from lagrangian.integrate.estimate import Confirm
-from lagrangian.integrate.method_names import SCIPY
+from lagrangian.integrate.method_names import MULTISTEP, SCIPY
 from lagrangian.model import Model
 from lagrangian.records import dataclass
 from lagrangian.simulate.events import Event, listed_events
@@ -52,9 +52,9 @@ SHARES = {"Radau": (1.0, 1.0), "RK23": (1e-2, 1e-2), "BDF": (1e-2, 1e-2), "LSODA
 order; RK23 would take too many steps; and the corrector of BDF and LSODA does not get below rounding.
 """
 
-SMOOTH = (0.1, 10.0)
-"""Factors of these for LSODA where ẋ does not jump (`RunSettings.over_run`): it keeps its order with smaller errors,
-and lowers it where rounding in a component that stays near zero is more than ``atol``."""
+SMOOTH = (1e-2, 10.0)
+"""Factors of these for BDF and LSODA where ẋ does not jump (`RunSettings.over_run`): they keep their order with smaller
+errors, and lower it where rounding in a component that stays near zero is more than ``atol``."""
 
 FINEST_RTOL = 100 * float(np.finfo(float).eps)
 """The smallest relative tolerance of a step that is possible with doubles."""
@@ -140,8 +140,8 @@ class RunSettings:
 
     @property
     def over_run(self) -> bool:
-        """Whether errors are measured by the largest values of the run so far: by LSODA without a given ``rtol``."""
-        return self.method == "LSODA" and self.rtol is None
+        """Whether errors are measured by the largest values of the run so far: by BDF and LSODA without ``rtol``."""
+        return self.method in MULTISTEP and self.rtol is None
 
     def of_a_step(self) -> tuple[float, float]:
         """Return the relative and the absolute tolerance of one step; values given to SciPy's methods are these."""

@@ -208,6 +208,11 @@ def _verdict(found: Constraints) -> Iterator[Item]:
             f"directions grows: {depths}. So #GC = {h.growth[-1]} coordinates are needed in the long run and #DDOF = "
             f"{h.DDOF} rates at an instant: #GC > #DDOF, and the system is nonholonomic by {least}{h.degree}."
         )
+    if h.DDOF == 0:
+        yield text(
+            "Nothing is left to move freely: the constraints alone decide the position at every instant, and the "
+            "equations give the forces that hold it there."
+        )
     if h.special is not None:
         yield text(f"With the given values of the parameters the verdict changes: {h.special}.")
 

@@ -86,6 +86,14 @@ function show(answer, { place, said, trouble }) {
   const energies = columns.filter((/** @type {any} */ c) => c.name.startsWith("energy.") && c.name !== "energy.supplied")
     .map((/** @type {any} */ c) => ({ ...c, name: c.name === "energy.kinetic" ? "T*" : "V" }));
   place.replaceChildren(...[...groups.values()].map((g) => curves(time, g.slice(0, 6))), curves(time, energies));
-  const { message, steps, method, balance } = answer.data;
-  said.textContent = `${message[0].toUpperCase()}${message.slice(1)}. ${method}, ${steps} steps; the ${balance.kind} is missed by ${figure(balance.missed_by, 2)}.`;
+  const { message, steps, method, balance, stuck } = answer.data;
+  said.textContent = `${message[0].toUpperCase()}${message.slice(1)}. ${method}, ${steps} steps; the ${balance.kind} is missed by ${figure(balance.missed_by, 2)}.${Object.entries(stuck).map(frictionWords).join("")}`;
+}
+
+/** How often and how long a friction sticks.
+ * @param {[string, [number, number][]]} entry */
+function frictionWords([name, spans]) {
+  if (!spans.length) return ` Friction ${name} slips all the time.`;
+  const seconds = spans.reduce((sum, [from, to]) => sum + to - from, 0);
+  return ` Friction ${name} sticks ${spans.length === 1 ? "once" : `${spans.length} times`}, ${figure(seconds, 3)} s in all.`;
 }
