@@ -214,4 +214,4 @@ def _ledger(derivation: Derivation) -> str:
     from lagrangian.write.views import table_view
 
     rows = [(row.element, row.column, str(row.reason)) for row in derivation.ledger]
-    return table_view(derivation.model.name, ["Every element once"], ("element", "booked in", "because"), rows)
+    return table_view(derivation.model.name, ["Every element once"], ("element", "counted in", "because"), rows)

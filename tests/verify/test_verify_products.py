@@ -30,9 +30,9 @@ FORWARD = "the compiled accelerations solve Lagrange's equations"
 HESSIAN = "the compiled M is the Hessian of T* in the rates"
 PYTHON, C = "the exported Python gives the same numbers", "the exported C gives the same numbers"
 JAVASCRIPT = "the exported JavaScript gives the same numbers"
-SLOPES = "the linearization's A and B, along a run, too, equal difference quotients of these rates"
+SLOPES = "A and B of the linearization, also along a run, equal difference quotients of ẋ"
 DERIVED_FORWARD = "the compiled accelerations solve the equations"
-DERIVED_MASS = "the compiled M is the one above, and the Hessian of T* in the rates"
+DERIVED_MASS = "the compiled M is that of the equations, and the Hessian of T* in the rates"
 DERIVED_ENERGIES = "the compiled energies are T* and V"
 
 
@@ -108,20 +108,20 @@ def functions_alone(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 FAULTS = {
-    "a_q": "the compiled derivatives of the accelerations, by parameters, too, equal difference quotients",
-    "a_p": "the compiled derivatives of the accelerations, by parameters, too, equal difference quotients",
-    "r_v": "so do those of the inverse dynamics",
-    "r_p": "so do those of the inverse dynamics",
-    "M": "so do those of the inverse dynamics",
-    "Minv": "those by Xi fit M, and those pulled back are weighted sums of them",
-    "w_p": "those by Xi fit M, and those pulled back are weighted sums of them",
-    "w_q": "those by Xi fit M, and those pulled back are weighted sums of them",
-    "h_q": "the compiled Hessian products equal difference quotients of those pulled back",
-    "h_p": "the compiled Hessian products equal difference quotients of those pulled back",
-    "linear": "the A and B of any state equal difference quotients of ẋ",
-    "step": "compiled steps by rk4, midpoint and euler are those of these rates",
-    "A": "the A and B of a step equal its difference quotients",
-    "variations": "the variational equations, of which sensitivities of runs come, equal difference quotients",
+    "a_q": "the compiled derivatives of the accelerations, also by parameters, equal difference quotients",
+    "a_p": "the compiled derivatives of the accelerations, also by parameters, equal difference quotients",
+    "r_v": "the compiled derivatives of the inverse dynamics equal difference quotients",
+    "r_p": "the compiled derivatives of the inverse dynamics equal difference quotients",
+    "M": "the compiled derivatives of the inverse dynamics equal difference quotients",
+    "Minv": "the compiled ∂a/∂Xi fits M, and pullback gives weighted sums of the derivatives",
+    "w_p": "the compiled ∂a/∂Xi fits M, and pullback gives weighted sums of the derivatives",
+    "w_q": "the compiled ∂a/∂Xi fits M, and pullback gives weighted sums of the derivatives",
+    "h_q": "the compiled hessian_product equals difference quotients of pullback",
+    "h_p": "the compiled hessian_product equals difference quotients of pullback",
+    "linear": "the compiled A and B of linearized equal difference quotients of ẋ",
+    "step": "the compiled steps by rk4, midpoint and euler follow the textbook, with slowly evaluated ẋ",
+    "A": "the compiled A and B of a step equal difference quotients of the step",
+    "variations": "the variational equations, which give the sensitivities of runs, equal difference quotients",
 }
 
 

@@ -47,7 +47,7 @@ def results() -> dict[str, Any]:
     [
         ("system", ["Elements", "θ"]),
         ("step", ["Ξ", "Why:"]),
-        ("ledger", ["booked in", "T*"]),
+        ("ledger", ["counted in", "T*"]),
         ("modes", ["Poles and modes"]),
         ("run", ["theta", "greatest", "dop853"]),
         ("ensemble", ["2 runs", "how the runs ended"]),

@@ -25,7 +25,8 @@ def constrained(context: Context, found: Constraints) -> Step:
         "Holonomic?",
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
         text(
-            "Lagrange's equations come one by one from wiggling a single coordinate while the others stay fixed. "
+            "Lagrange's equations come one by one from a wiggle (a virtual displacement) of one coordinate "
+            "while the others stay fixed. "
             "Constraints forbid some of these wiggles: which of the three ways below is open depends on whether "
             "they can be integrated."
         ),
@@ -78,7 +79,8 @@ def holonomic(context: Context) -> Step:
         "Holonomic?",
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
         text(
-            "Lagrange's equations come one by one from wiggling a single coordinate while the others stay fixed; only "
+            "Lagrange's equations come one by one from a wiggle (a virtual displacement) of one coordinate "
+            "while the others stay fixed; only "
             "in a holonomic system is each of these wiggles possible."
         ),
         tuple(items),

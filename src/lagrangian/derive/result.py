@@ -235,7 +235,7 @@ def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
 
 def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
     """The ledger as a table."""
-    header = (text("element"), text("booked in"), text("because"))
+    header = (text("element"), text("counted in"), text("because"))
     table = Table(header, tuple((text(r.element), text(_column(r.column)), r.reason) for r in rows))
     return (Heading(text("Energy ledger: every element once")), table)
 

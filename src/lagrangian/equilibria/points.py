@@ -110,7 +110,9 @@ def equilibria_report(found: Equilibria) -> Report[Model]:
             for k, e in enumerate(found)
         ]
         items += [text(f"The constraints push at {k}: {_pushes(e)}.") for k, e in enumerate(found) if e.multipliers]
-        items.append(text(f"Forces balance there to {scientific(EXACT, 1)} of their own size in the box."))
+        items.append(
+            text(f"At each of them the forces balance to {scientific(EXACT, 1)} of their size in the box searched.")
+        )
     items += [text(note[0].upper() + note[1:] + ".") for note in found.notes]
     sides: list[Any] = []
     for name, letter in zip(names, letters, strict=True):

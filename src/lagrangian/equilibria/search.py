@@ -310,19 +310,19 @@ def _notes(
         )
         moved = task.moves_no_mass(left_out[0])
         listed.append(
-            f"the mass matrix is singular at {where}{moved}: these coordinates fail there, and it is left out"
+            f"the mass matrix is singular at {where}{moved}: the coordinates fail there, so that position is left out"
         )
     for direction in task.free:
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
-        listed.append(f"no force depends on {what}: any value is as good; {names[0]} is held")
+        listed.append(f"no force depends on {what}, so any value will do; {names[0]} is held")
     coordinates = [c.name for c in task.model.coordinates]
     for k, what, d in zip(task.steady.leading, task.steady.named(coordinates), task.steady.directions, strict=True):
         alone = np.count_nonzero(d) == 1
         which = f"the charge {what}" if alone else f"a shift of the charges {what} together"
         listed.append(
-            f"no force depends on {which}: what is sought is {'its' if alone else 'their'} current "
-            f"{task.box.names[k]}, steady there"
+            f"no force depends on {which}: what is sought is {'its' if alone else 'their'} steady "
+            f"current {task.box.names[k]}"
         )
     if outside:
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"

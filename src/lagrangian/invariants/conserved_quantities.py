@@ -104,7 +104,7 @@ def _part(found: ConservedQuantities, c: Conserved) -> Part:
     checks = [Check(text(f"its rate along {every} is 0"), True, "exactly, in normal form")]
     if c.drift is not None:
         drift = f"drift below {ROUNDING:.0e}" if c.drift < ROUNDING else f"drift {c.drift:.1e}"
-        checks.append(Check(text(f"along a run of {found.run:.3g} s"), c.drift < KEPT, drift))
+        checks.append(Check(text(f"it stays constant along a run of {found.run:.3g} s"), c.drift < KEPT, drift))
     title = c.name[0].upper() + c.name[1:]
     items = (formula(c.expression, Name("constant")), Text(("Conserved because ", *c.reason.parts, ".")))
     return Part(text(title), items, tuple(checks))

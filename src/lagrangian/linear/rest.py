@@ -128,8 +128,7 @@ def _allowed(manifold: Manifold, here: OperatingPoint, t: float, fixed: Sequence
             fix=Advice(
                 "give ",
                 Argument("fixed", repr(here.names[0])),
-                " with the coordinates that stay, to move it onto them; or "
-                "take the point that compile().assemble(q, v) returns",
+                " with the coordinates that stay, to have the point moved onto the constraints",
             ),
             code="E521",
         )

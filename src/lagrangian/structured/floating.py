@@ -85,7 +85,8 @@ def free(model: Model) -> Step:
         "Holonomic?",
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
         text(
-            "Lagrange's equations come one by one from a wiggle of one freedom while the others stay fixed; only in a "
+            "Lagrange's equations come one by one from a wiggle (a virtual displacement) of one freedom "
+            "while the others stay fixed; only in a "
             "holonomic system is each of these wiggles possible."
         ),
         (
@@ -133,7 +134,8 @@ def held_floating(model: Model, known: Constraints) -> Step:
         "Holonomic?",
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
         text(
-            "Lagrange's equations come one by one from a wiggle of one freedom while the others stay fixed. "
+            "Lagrange's equations come one by one from a wiggle (a virtual displacement) of one freedom "
+            "while the others stay fixed. "
             "Constraints forbid some of these wiggles; what they do instead is a force with a multiplier."
         ),
         tuple(items),

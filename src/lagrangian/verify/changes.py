@@ -76,18 +76,30 @@ def changes(functions: Changing, model: Model, states: Sequence[State]) -> Itera
         for place in places:
             place.kept_on_rows(functions, onto)
     A, B, M, Xi = Name("A"), Name("B"), Name("M"), Name("Xi")
-    derivatives = text("the compiled derivatives of the accelerations, by parameters, too, equal difference quotients")
-    pulled = text("those by ", Xi, " fit ", M, ", and those pulled back are weighted sums of them")
-    hessians = text("the compiled Hessian products equal difference quotients of those pulled back")
-    varied = text("the variational equations, of which sensitivities of runs come, equal difference quotients")
+    derivatives = text("the compiled derivatives of the accelerations, also by parameters, equal difference quotients")
+    pulled = text("the compiled ∂a/∂", Xi, " fits ", M, ", and pullback gives weighted sums of the derivatives")
+    hessians = text("the compiled hessian_product equals difference quotients of pullback")
+    varied = text("the variational equations, which give the sensitivities of runs, equal difference quotients")
     comparisons: list[tuple[Text, float, Comparison]] = [
         (derivatives, TOLERANCE, _derivatives),
-        (text("so do those of the inverse dynamics"), TOLERANCE, _inverse_derivatives),
+        (
+            text("the compiled derivatives of the inverse dynamics equal difference quotients"),
+            TOLERANCE,
+            _inverse_derivatives,
+        ),
         (pulled, ROUNDING, _products),
         (hessians, TOLERANCE, _hessian_products),
-        (text("the ", A, " and ", B, " of any state equal difference quotients of ẋ"), TOLERANCE, _linear),
-        (text("compiled steps by rk4, midpoint and euler are those of these rates"), ROUNDING, partial(_steps, rhs)),
-        (text("the ", A, " and ", B, " of a step equal its difference quotients"), TOLERANCE, _step_derivatives),
+        (text("the compiled ", A, " and ", B, " of linearized equal difference quotients of ẋ"), TOLERANCE, _linear),
+        (
+            text("the compiled steps by rk4, midpoint and euler follow the textbook, with slowly evaluated ẋ"),
+            ROUNDING,
+            partial(_steps, rhs),
+        ),
+        (
+            text("the compiled ", A, " and ", B, " of a step equal difference quotients of the step"),
+            TOLERANCE,
+            _step_derivatives,
+        ),
         (varied, TOLERANCE, _variations),
     ]
     for what, tolerance, compare in comparisons:

@@ -73,7 +73,7 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
         ),
         *(_accelerations(figures) if rows is None else rows.checks(TOLERANCE)),
         Check(
-            text("the compiled ", M, " is the one above, and the Hessian of ", Name("T*"), " in the rates"),
+            text("the compiled ", M, " is that of the equations, and the Hessian of ", Name("T*"), " in the rates"),
             figures.mass < TOLERANCE,
             f"largest relative difference {figures.mass:.1e}",
         ),

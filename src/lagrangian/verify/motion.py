@@ -71,7 +71,7 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Che
             f"largest relative difference {worst.routes:.1e} at {n}",
         ),
         Check(
-            text("the accelerations of forward dynamics solve them"),
+            text("the compiled accelerations solve the equations"),
             worst.solved < TOLERANCE,
             f"largest relative residual {worst.solved:.1e}",
         ),

@@ -137,16 +137,16 @@ def _compiled(model: Model, functions: Functions, expected: Expected, states: Se
     n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
     figures = worst.figures
     M, T, V = Name("M"), Name("T*"), Name("V")
-    left = (" and what the multipliers add",) if model.constraints else ()
+    right = (Name("A"), "ᵀ", Name("lambda")) if model.constraints else ("0",)
     described: list[tuple[str, Text]] = [
         ("formulas", text("every compiled function equals the slow evaluation of its formulas, singly and in batches")),
         ("forward", text("the compiled accelerations solve Lagrange's equations")),
-        ("rows", text("they keep the rows of the constraints")),
-        ("solved", text("they are ", M, "⁻¹ times what the compiled bias leaves", *left)),
+        ("rows", text("the compiled accelerations keep the rows of the constraints")),
+        ("solved", text("the compiled ", M, ", accelerations a and bias satisfy ", M, " a + bias = ", *right)),
         ("inverse", text("the compiled inverse dynamics equals Lagrange's equations, and ", M, " a + bias")),
         ("hessian", text("the compiled ", M, " is the Hessian of ", T, " in the rates")),
         ("energies", text("the compiled energies are the sums of ", T, " and ", V, " over the elements")),
-        ("rhs", text("the compiled right-hand side is the rates and these accelerations")),
+        ("rhs", text("the compiled right-hand side consists of q̇ and the compiled accelerations")),
     ]
     return [
         Check(what, figures[name] < TOLERANCE, f"largest relative difference {figures[name]:.1e} at {n}")

@@ -128,7 +128,11 @@ class RowChecks:
             return
         A, lam = Name("A"), Name("lambda")
         yield Check(
-            text("the compiled rows of the constraints are those above: ", A, ", the terms without rates, and γ"),
+            text(
+                "the compiled rows of the constraints are those of the derivation: ",
+                A,
+                ", the terms without rates, and γ",
+            ),
             found.rows < tolerance,
             f"largest relative difference {found.rows:.1e} at {count}",
         )
@@ -139,7 +143,11 @@ class RowChecks:
         )
         if found.dual is not None:
             yield Check(
-                text("so do those of a second route, by the inverse of ", Name("M")),
+                text(
+                    "a second route, by the inverse of ",
+                    Name("M"),
+                    ", gives the same accelerations and constraint forces",
+                ),
                 found.dual < tolerance,
                 f"largest relative difference {found.dual:.1e}",
             )

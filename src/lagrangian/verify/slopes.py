@@ -79,8 +79,8 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
             missed = missed or off
         else:
             runs, worst = runs + 1, float(np.maximum(worst, off))
-    too = ", along a run, too," if runs else ""
-    what = text("the linearization's ", A, " and ", B, f"{too} equal difference quotients of these rates")
+    too = ", also along a run," if runs else ""
+    what = text(A, " and ", B, f" of the linearization{too} equal difference quotients of ẋ")
     if not points:
         return Check(what, None, f"not checked at any of {len(states)} random states: {refused}")
     at = f"{points} random state{'s' if points != 1 else ''}"

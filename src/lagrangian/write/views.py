@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def system_view(model: Model, words: str, picture: HeadPicture | None = None) -> str:
     """Return a system: its picture, its symbols with their values, its elements and its notices."""
     rows = [(element.title, element.ledger) for element in model.elements]
-    elements = Section("elements", ("Elements",), (_table(("element", "booked in"), rows),))
+    elements = Section("elements", ("Elements",), (_table(("element", "counted in"), rows),))
     said = Section("summary", ("Description",), (Paragraph((words,)),))
     return html_page.fragment(Document(model.name, (said, system_section(model), elements), picture=picture))
 
