@@ -315,7 +315,7 @@ def _notes(
     for direction in task.free:
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
-        listed.append(f"no force depends on {what}, so any value will do; {names[0]} is held")
+        listed.append(f"no force depends on {what}, so any value will do; {names[0]} is held fixed")
     coordinates = [c.name for c in task.model.coordinates]
     for k, what, d in zip(task.steady.leading, task.steady.named(coordinates), task.steady.directions, strict=True):
         alone = np.count_nonzero(d) == 1
