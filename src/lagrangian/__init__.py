@@ -1,11 +1,10 @@
 """Equations of motion by the Lagrangian approach: every step shown, every result checked."""
 
-import typing as _typing
-
 from lagrangian.lazily import closed as _closed
 from lagrangian.lazily import lazily as _lazily
 
-if _typing.TYPE_CHECKING:
+TYPE_CHECKING = False  # for type checkers alone; the module that has it takes 10 ms, in which Ctrl-C shows a traceback
+if TYPE_CHECKING:
     from lagrangian.check.classes import CheckedClass, ClassCount, ClassRow
     from lagrangian.check.verb import CheckedAnswer
     from lagrangian.compare import Comparison, PicturePair, compare
@@ -158,3 +157,4 @@ def __dir__() -> list[str]:
 
 
 _closed(__name__)
+del TYPE_CHECKING

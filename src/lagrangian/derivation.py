@@ -69,7 +69,8 @@ class Derivation(Guided, derive.Derived):
         `lagrangian.Compiled` with its formulas and with those equations; the exported Python and C by running them; the
         linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
         checked on this machine, such as C without a compiler. ``exports``: the exports to other programs are run in
-        them as well, where they are installed, and the checklist as text, Markdown and LaTeX is read back. Raises
+        them as well, where they are installed, a run and its files are compared with another run, and the checklist as
+        text, Markdown and LaTeX is read back. Raises
         `ModelError` if ``states`` is not a valid number.
         """
         found = verify_lines(self, states=states, seed=seed)

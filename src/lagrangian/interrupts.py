@@ -40,7 +40,7 @@ class Interrupts:
 
     def listen(self) -> None:
         """Listen for Ctrl-C from now on; a signal that is ignored, as in a background job of a shell, stays ignored."""
-        if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        if signal.getsignal(signal.SIGINT) not in (signal.default_int_handler, signal.SIG_DFL):
             return
         signal.signal(signal.SIGINT, self._heard)
         sys.unraisablehook = self._unraisable(sys.unraisablehook)

@@ -76,6 +76,21 @@ def test_an_interrupt_while_something_is_imported_is_one_line(interrupted: Any, 
     assert interrupted[name] == (130, "interrupted\n")
 
 
+def test_an_interrupt_before_the_command_can_answer_ends_it_without_a_traceback() -> None:
+    code = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+class Interrupt:
+    def find_spec(self, name, path=None, target=None):
+        if name == "lagrangian.cli":
+            signal.raise_signal(signal.SIGINT)
+sys.meta_path.insert(0, Interrupt())
+import lagrangian.__main__
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
+
+
 SWALLOWED = """
 import signal, time
 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -20,10 +20,11 @@ from lagrangian.export import targets
 from lagrangian.graph import Output, Program
 from lagrangian.linear import jacobians
 from lagrangian.page.formula import Check, text
-from lagrangian.verify import exports, products, slopes
+from lagrangian.verify import exports, poles, products, recorded_runs, slopes
 from lagrangian.verify.changes import changes
 from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.states import random_states
+from lagrangian.write import tables
 
 FORMULAS = "every compiled function equals the slow evaluation of its formulas, singly and in batches"
 FORWARD = "the compiled accelerations solve Lagrange's equations"
@@ -31,6 +32,7 @@ HESSIAN = "the compiled M is the Hessian of T* in the rates"
 PYTHON, C = "the exported Python gives the same numbers", "the exported C gives the same numbers"
 JAVASCRIPT = "the exported JavaScript gives the same numbers"
 SLOPES = "A and B of the linearization, also along a run, equal difference quotients of ẋ"
+POLES = "the poles have the traces of powers of A, and modes are motions of the linear system"
 DERIVED_FORWARD = "the compiled accelerations solve the equations"
 DERIVED_MASS = "the compiled M is that of the equations, and the Hessian of T* in the rates"
 DERIVED_ENERGIES = "the compiled energies are T* and V"
@@ -104,7 +106,7 @@ def functions_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Neither exports nor linearization: the compiled functions are what a test is about."""
     passed = Check(text("left out"), None, "by this test")
     monkeypatch.setattr(products, "exported", lambda *given: (passed,))
-    monkeypatch.setattr(products, "slopes", lambda *given: passed)
+    monkeypatch.setattr(products, "slopes", lambda *given: (passed, passed))
 
 
 FAULTS = {
@@ -389,7 +391,7 @@ def test_a_wrong_linearization_is_noticed(monkeypatch: pytest.MonkeyPatch) -> No
         return {k: graph.mul(graph.const(1.001), e) for k, e in entries.items()}
 
     monkeypatch.setattr(jacobians, "jacobian", wrong)
-    assert failing(crane().verify(states=2)) == {SLOPES}
+    assert failing(crane().verify(states=2)) == {SLOPES, POLES}  # the rates of the coordinates are wrong, too
 
 
 def test_a_wrong_linearization_along_a_run_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -402,7 +404,67 @@ def test_a_wrong_linearization_along_a_run_is_noticed(monkeypatch: pytest.Monkey
     model = crane().model
     functions = Compiled(model)
     states = list(random_states(model, functions.program("forward"), 1, 1))
-    assert slopes.slopes(model, functions.rhs, states).holds is False
+    assert [check.holds for check in slopes.slopes(model, functions.rhs, states)] == [False, True]
+
+
+@pytest.mark.parametrize("part", ["poles", "vectors"])
+def test_a_wrong_pole_and_a_wrong_mode_are_noticed(part: str) -> None:
+    model = crane().model
+    (state,) = random_states(model, dynamics.forward(model), 1, 1)
+    found = slopes.linearized(model, state)
+    assert poles.poles([found]).holds
+    wrong = getattr(found.spectrum, part).copy()
+    wrong[-1] = wrong[-1] * 1.001 + 1e-3
+    vars(found)["spectrum"] = replace(found.spectrum, **{part: wrong})
+    for kept in ("motions", "modes"):
+        vars(found).pop(kept, None)
+    assert poles.poles([found]).holds is False
+
+
+def test_a_shape_that_is_printed_wrong_is_noticed() -> None:
+    model = crane().model
+    (state,) = random_states(model, dynamics.forward(model), 1, 1)
+    found = slopes.linearized(model, state)
+    mode = found.modes[-1]
+    vars(found)["modes"] = (
+        *found.modes[:-1],
+        replace(mode, shape={k: x.conjugate() * 1.01 + 0.01 for k, x in mode.shape.items()}),
+    )
+    assert poles.poles([found]).holds is False
+
+
+def run_checks(model: Any) -> list[Check]:
+    (state,) = random_states(model, dynamics.forward(model), 1, 1)
+    return list(recorded_runs.recorded_runs(model, Compiled(model), state))
+
+
+def test_a_run_and_its_files_hold() -> None:
+    assert [check.holds for check in run_checks(crane().model)] == [True, True]
+
+
+def test_a_wrong_run_and_wrong_energies_are_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = recorded_runs.simulate
+
+    def bent(*given: Any, **named: Any) -> Any:
+        run = plain(*given, **named)
+        run.y[0, 2:] *= 1 + 1e-5
+        return run
+
+    monkeypatch.setattr(recorded_runs, "simulate", bent)
+    assert [check.holds for check in run_checks(crane().model)] == [False, True]
+
+
+@pytest.mark.parametrize("ending", [".csv", ".nc", ".parquet", ".npz"])
+def test_a_file_of_a_run_with_a_wrong_number_is_noticed(monkeypatch: pytest.MonkeyPatch, ending: str) -> None:
+    plain = tables.ENDINGS[ending]
+
+    def rounded(path: pathlib.Path, table: Any) -> None:
+        first, *others = table.columns
+        plain(path, replace(table, columns=(replace(first, values=first.values.astype(np.float32) * 1.0), *others)))
+
+    monkeypatch.setattr(tables, "ENDINGS", {**tables.ENDINGS, ending: rounded})
+    _, files = run_checks(crane().model)
+    assert files.holds is False and files.figure.startswith(f"{ending} differ")
 
 
 def test_slopes_at_kinks_are_passed_over_and_said_where_none_is_left() -> None:
@@ -411,7 +473,8 @@ def test_slopes_at_kinks_are_passed_over_and_said_where_none_is_left() -> None:
     s.particle(1, at=s.origin + (x, 0))
     s.force((sum(Abs(sin(1000 * x + k)) for k in range(3)), 0), at=s.origin + (x, 0))
     state = {"q": [0.3], "v": [0.1], "a": [0.0], "u": [], "p": [], "t": [0.0]}
-    check = slopes.slopes(s.model, s.compile().rhs, [state])
+    check, no_poles = slopes.slopes(s.model, s.compile().rhs, [state])
+    assert no_poles.holds is None
     assert check.holds is None and check.figure.startswith("not checked at any of 1 random states")
 
 

@@ -21,7 +21,8 @@ def verify(
         bool,
         typer.Option(
             "--exports",
-            help="Also run exports in Octave and other programs that are installed, and read the printed page back.",
+            help="Also run exports in Octave and other programs that are installed, hold a run and its files, and read "
+            "the printed page back.",
         ),
     ] = False,
     format: FormatOption = None,
@@ -44,6 +45,6 @@ def verify(
 
     system = open_system(file, example)
     checks = system.verify(states=states, seed=seed, exports=exports)
-    put_report(verification_report(system.model, checks), wanted, width, output)
+    put_report(verification_report(system.model, checks, exports=exports), wanted, width, output)
     if any(check.holds is False for check in checks):
         raise typer.Exit(1)

@@ -34,6 +34,7 @@ from lagrangian.verify.exports import Sources, exported
 from lagrangian.verify.foreign.checks import foreign_checks, not_run
 from lagrangian.verify.neighbours import Changing, depends
 from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.recorded_runs import recorded_runs
 from lagrangian.verify.slopes import slopes
 from lagrangian.verify.states import Expected, State, cancelling, evaluated, random_states, relative
 
@@ -90,7 +91,8 @@ def verify_products(
 ) -> tuple[Check, ...]:
     """Return the checks of every compiled function, of the exported source and of the linearization.
 
-    ``exports``: exports to other programs are run in them, too. Parameters keep their values. If a check
+    ``exports``: exports to other programs are run in them, and a run and its files are compared. Parameters keep their
+    values. If a check
     cannot be made on this machine, ``holds`` is None and the figure says why. Raises `ModelError` if no random state
     has finite accelerations.
     """
@@ -109,11 +111,11 @@ def verify_products(
     _log.info("verifying: the exported sources and the linearization")
     written = exported({name: functions.program(name) for name in functions.exported}, sources, expected, found)
     if exports:
-        written += (*foreign_checks(model, found), *not_run())
+        written += (*foreign_checks(model, found), *not_run(), *recorded_runs(model, functions, found[0]))
     _log.info("verifying: the derivatives and the steps")
     dependent = bool(model.constraints) and any(depends(functions, state) for state in found)
     linear = slopes(model, functions.rhs, found, OnRows(model).of if dependent else None)
-    return (*compiled, *written, linear, *changes(functions, model, found))
+    return (*compiled, *written, *linear, *changes(functions, model, found))
 
 
 def _on_rows(model: Model, states: Sequence[State]) -> list[State]:

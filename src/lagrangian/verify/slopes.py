@@ -12,9 +12,11 @@ from lagrangian import dynamics
 from lagrangian.errors import Error, RunError
 from lagrangian.graph import reached
 from lagrangian.linear.along import linearize_along
+from lagrangian.linear.linear_model import LinearModel
 from lagrangian.linear.linearize import linearize
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
+from lagrangian.verify.poles import poles
 from lagrangian.verify.states import State, relative
 
 Array: TypeAlias = NDArray[np.float64]
@@ -38,17 +40,20 @@ POINTS = 3
 """The number of states at which quotients are computed."""
 
 
-def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], onto: Moved | None = None) -> Check:
-    """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients converge.
+def slopes(
+    model: Model, rhs: Callable[..., Array], states: Sequence[State], onto: Moved | None = None
+) -> tuple[Check, Check]:
+    """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients converge, and that of the poles.
 
     Central quotients D(h) = (f(x + h) − f(x − h))/2h at h, h/2 and h/4 are extrapolated to h → 0 (Richardson), which
     leaves O(h⁶). A state where two extrapolations differ by more than `SETTLED`, as across a kink, is skipped. With
     ``onto``, which moves a state onto the rows of constraints, x is varied along the constraints alone.
     """
     A, B = Name("A"), Name("B")
-    worst, points, refused, runs, missed = 0.0, 0, "", 0, ""
+    worst, refused, runs, missed = 0.0, "", 0, ""
+    held: list[LinearModel] = []
     for state in states:
-        if points == POINTS:
+        if len(held) == POINTS:
             break
         try:
             found = linearized(model, state)
@@ -72,7 +77,7 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
         if not doubt < SETTLED * size:
             refused = refused or "the difference quotients do not settle"
             continue
-        points += 1
+        held.append(found)
         worst = float(np.maximum(worst, np.max(np.abs(exact - quotients), initial=0.0) / size))
         off = too_long(model) or _off_along(model, state, found.states, whole, quotients)
         if isinstance(off, str):
@@ -81,11 +86,11 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State], ont
             runs, worst = runs + 1, float(np.maximum(worst, off))
     too = ", also along a run," if runs else ""
     what = text(A, " and ", B, f" of the linearization{too} equal difference quotients of ẋ")
-    if not points:
-        return Check(what, None, f"not checked at any of {len(states)} random states: {refused}")
-    at = f"{points} random state{'s' if points != 1 else ''}"
+    if not held:
+        return Check(what, None, f"not checked at any of {len(states)} random states: {refused}"), poles(held)
+    at = f"{len(held)} random state{'s' if len(held) != 1 else ''}"
     at += f"; not compared along a run: {missed}" if missed and not runs else ""
-    return Check(what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {at}")
+    return Check(what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {at}"), poles(held)
 
 
 def linearized(model: Model, state: State) -> Any:
