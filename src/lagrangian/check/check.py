@@ -29,6 +29,7 @@ from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
+from lagrangian.check.stated_coordinates import in_stated_coordinates
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.model import is_hard
@@ -334,12 +335,27 @@ def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spe
 def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer with its own coordinates: the system is converted to these and compared again."""
     if not new_names(truth, spelling.lines):
-        return None
+        return _own_coordinates(truth, spelling, verdict)
     change = likeliest(truth, spelling.lines)
     other = in_these(truth, change) if change is not None else None
     if change is None or other is None:
         return None
     lines = tuple(line for line in spelling.lines if line.kind != "definition")
+    return _in_these(other, lines, change, spelling, verdict)
+
+
+def _own_coordinates(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict on a wrong answer in coordinates that it defines, if its mistakes are found in these."""
+    if (own := in_stated_coordinates(truth, spelling.lines)) is None:
+        return None
+    found = _in_these(own.truth, own.lines, own.change, spelling, verdict)
+    return found if found is not None and found.mistakes else None
+
+
+def _in_these(
+    other: Reference, lines: tuple[AnsweredLine, ...], change: ProposedChange, spelling: Spelling, verdict: Verdict
+) -> Verdict | None:
+    """The verdict on lines in the coordinates of another reference; None if they are right there."""
     judged = _judged(other, lines)
     if judged.status.right:  # equal only in double precision
         return None

@@ -180,8 +180,9 @@ class Verdict:
 
     @property
     def first_wrong(self) -> Finding | None:
-        """The first line that is wrong."""
-        return next((f for f in self.findings if not f.status.right), None)
+        """The first line that is wrong; if none is, the first that says nothing."""
+        left = [f for f in self.findings if not f.status.right]
+        return next((f for f in left if f.status is Status.WRONG), left[0] if left else None)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON; the hint level limits how much it reveals."""

@@ -12,8 +12,9 @@ WHY = text("The Lagrangian is kinetic minus potential energy.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Reverse the whole of V; of the stated lines, only L shows it."""
+    """Reverse the whole of V; of the stated lines, only L shows it. Of one spring or weight that is rather said."""
     if s.moves(s.V):
+        parts = [*s.weights(), *s.springs()]
         right = Terms((Name("T*"), Minus(Name("V"))))
         what = text("You took ", Name("L"), " = ", Terms((Name("T*"), Name("V"))), " in place of ", right, ".")
-        yield Variant(what=what, V=-2 * s.V, stated=frozenset({"L"}))
+        yield Variant(what=what, V=-2 * s.V, stated=frozenset({"L"}), doubt=int(len(parts) == 1))
