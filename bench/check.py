@@ -23,7 +23,7 @@ SYSTEMS = ("lecture-3b", "cart-pole", "double-pendulum", "three-masses", "spheri
 
 
 def row(name: str, count: int) -> str:
-    """A row of the table: the first answer, then the median, the 90th percentile and the most of all others."""
+    """A row of the table: the first answer, the median, the 90th percentile and the most of all others, and all."""
     from built_in import derivation
     from mutations import Mutator
 
@@ -37,7 +37,7 @@ def row(name: str, count: int) -> str:
         taken.append(time.process_time() - start)
         named += bool(verdict.mistakes)
     first, rest = taken[0], sorted(taken[1:])
-    figures = (first, statistics.median(rest), rest[int(0.9 * len(rest))], rest[-1])
+    figures = (first, statistics.median(rest), rest[int(0.9 * len(rest))], rest[-1], sum(taken))
     return f"| {name} | {count} | {named} | " + " | ".join(f"{x:.3f}" for x in figures) + " |"
 
 
@@ -49,12 +49,17 @@ def main() -> None:
     options = parser.parse_args()
     from startup import machine
 
-    head = "| system | answers | a mistake is named | first [s] | median [s] | 90 % [s] | most [s] |"
-    lines = [head, "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"]
-    lines += [row(name, options.count) for name in options.systems]
-    table = "\n".join(lines)
-    text = f"## Checking a class\n\n`python bench/check.py --count {options.count}`, CPU. {machine()}.\n\n{table}\n"
-    print(text)
+    head = "| system | answers | a mistake is named | first [s] | median [s] | 90 % [s] | most [s] | all [s] |"
+    lines = [
+        f"## Checking a class\n\n`python bench/check.py --count {options.count}`, CPU. {machine()}.\n",
+        head,
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+    ]
+    print("\n".join(lines), flush=True)
+    for name in options.systems:
+        lines.append(row(name, options.count))
+        print(lines[-1], flush=True)
+    text = "\n".join(lines) + "\n"
     if options.append:
         with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
             file.write(f"\n{text}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import combinations
 from typing import Any, cast
 
@@ -180,16 +181,11 @@ def own_term(
     if terms(expr) > MOST_OWN_TERMS:
         return None
     row = i if kind == "equation" else None
-    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
-    written = [t for t in dict.fromkeys(parts) if t != 0]
-    own = [t for t in written if t != expr]
-    siblings = list(dict.fromkeys(s for t in own for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
+    every, count, values, usable = _written(pool.truth, expr)
+    written = every[:count]
     foreign = foreign_names(pool.truth, expr)
-    values = CompiledExpressions([*written, *siblings]).at(pool.truth.states)
-    usable = np.isfinite(values).all(axis=1) & (np.abs(values).max(axis=1) > 1e-12)
-    usable &= np.abs(values).max(axis=1) < LARGEST
     for k in np.flatnonzero(usable):
-        t, v = [*written, *siblings][k], values[k]
+        t, v = every[k], values[k]
         c = float(v @ rest) / float(v @ v)
         if (
             t == expr
@@ -198,7 +194,7 @@ def own_term(
             or (number := simple_number(c)) is None
         ):
             continue
-        if k < len(written):
+        if k < count:
             idle = _idle(pool, row, t) if number == 1 else None
             return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort_of(pool, kind, row, t, scale))
         if number in (1, -1):
@@ -208,6 +204,22 @@ def own_term(
         return None
     listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use and t not in foreign]
     return in_place(pool, listed, rest, kind, i, right_terms(pool, kind, i), scale, factor)
+
+
+@lru_cache(maxsize=64)
+def _written(truth: Reference, expr: sp.Expr) -> tuple[list[sp.Expr], int, Array, Array]:
+    """The terms of a line, their siblings, how many of both are terms, their values, and which can be compared.
+
+    They are the same under every correspondence of the rows.
+    """
+    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
+    written = [t for t in dict.fromkeys(parts) if t != 0]
+    own = [t for t in written if t != expr]
+    siblings = list(dict.fromkeys(s for t in own for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
+    values = CompiledExpressions([*written, *siblings]).at(truth.states)
+    usable = np.isfinite(values).all(axis=1) & (np.abs(values).max(axis=1) > 1e-12)
+    usable &= np.abs(values).max(axis=1) < LARGEST
+    return [*written, *siblings], len(written), values, usable
 
 
 def foreign_names(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:

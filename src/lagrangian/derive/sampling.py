@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.bounded.sizes import each
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
@@ -122,7 +123,7 @@ class CompiledExpressions:
 
     def _without_fractions(self, expr: sp.Expr) -> sp.Expr:
         table: dict[sp.Basic, sp.Expr] = {}
-        for number in expr.atoms(sp.Rational, sp.Float, sp.NumberSymbol):
+        for number in {x for x in each(expr) if isinstance(x, (sp.Rational, sp.Float, sp.NumberSymbol))}:
             if isinstance(number, sp.Integer) and abs(int(number)) <= EXACT_INTEGER:
                 continue
             if number in (sp.S.Half, -sp.S.Half):  # roots: x^(1/2) is the graph's square root
