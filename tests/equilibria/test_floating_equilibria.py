@@ -70,9 +70,60 @@ def test_a_body_that_falls_has_no_equilibrium() -> None:
     assert any("no equilibrium" in note for note in found.notes)
 
 
-def test_floating_frames_under_constraints_are_refused() -> None:
+def lamp() -> lg.System:
+    """A body of 2 kg on a ball joint 0.5 m above its mass centre."""
+    s = lg.System("lamp")
+    shade = s.floating_frame("lamp")
+    s.rigid_body(2.0, (0.1, 0.2, 0.3), at=shade.point(0, 0, -0.5), frame=shade)
+    s.gravity((0, 0, -1), 9.81)
+    s.ball((shade.origin, s.origin), name="hook")
+    return s
+
+
+@pytest.mark.slow
+def test_a_lamp_on_a_ball_joint_hangs_or_stands_and_the_joint_bears_its_weight() -> None:
+    """About x and y it swings with ω² = m g l/I, I = I_S + m l²; any turn about the vertical is as good."""
+    rates = np.sqrt(9.81 / np.array([0.1 + 0.5, 0.2 + 0.5]))
+    hangs, stands = lamp().equilibria(starts=64)
+    for rest in (hangs, stands):
+        assert rest.dimension == 1
+        assert [rest[f"lamp_{k}"] for k in "xyz"] == pytest.approx([0, 0, 0], abs=1e-12)
+        assert rest.multipliers["hook.z"] == pytest.approx(2 * 9.81, rel=1e-10)
+        assert [rest.multipliers[f"hook.{k}"] for k in "xy"] == pytest.approx([0, 0], abs=1e-9)
+    assert hangs.stability.stable is None and stands.stability.stable is False
+    poles = lamp().linearize(hangs).poles
+    assert sorted(np.abs(poles.imag))[::2] == pytest.approx([0.0, *np.sort(rates)], abs=1e-9)
+    assert sorted(lamp().linearize(stands).poles.real)[-2:] == pytest.approx(np.sort(rates), abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_door_hangs_and_stands_on_its_axis_and_its_stable_rest_is_a_centre() -> None:
+    """Two ball joints hold a floating leaf: ω² = m g_y r/I about the axis, g = 9.81 (0, 0.6, −0.8), r = √(0.5² + 0.1²).
+
+    One of the six rows says again what the others say.
+    """
+    s = lg.System("door")
+    leaf = s.floating_frame("leaf")
+    s.rigid_body(3, (0.2, 0.4, 0.5), at=leaf.point(0.5, 0.1, 1), frame=leaf)
+    s.gravity((0, 3, -4))
+    s.ball((leaf.origin, s.origin), name="lower hinge")
+    s.ball((leaf.point(0, 0, 2), s.origin + (0, 0, 2)), name="upper hinge")
+    found = s.equilibria(starts=64)
+    turned = sorted(2 * np.arctan2(rest["leaf_qz"], rest["leaf_qw"]) for rest in found)
+    hanging = np.pi / 2 - np.arctan2(0.1, 0.5)
+    assert turned == pytest.approx([hanging - np.pi, hanging], abs=1e-9)
+    rate = np.sqrt(3 * 9.81 * 0.6 * np.hypot(0.5, 0.1) / (0.5 + 3 * 0.26))
+    (centre,) = (rest for rest in found if rest["leaf_qz"] > 0)
+    assert sorted(s.linearize(centre).poles.imag) == pytest.approx([-rate, rate], abs=1e-9)
+    for rest in found:
+        forces = [rest.multipliers[f"{end} hinge.z"] for end in ("lower", "upper")]
+        assert sum(forces) == pytest.approx(3 * 9.81 * 0.8, rel=1e-10)
+
+
+def test_floating_frames_beside_circuits_are_refused() -> None:
     system = plate()
-    system.constraint(system["top_x"], name="wall")
-    with pytest.raises(lg.RunError, match="beside constraints or charges") as caught:
+    charge = system.coordinate("charge", unit="C")
+    system.inductor(1e-3, charge)
+    with pytest.raises(lg.RunError, match="a floating frame beside charges") as caught:
         system.equilibria()
     assert caught.value.code == "E202"

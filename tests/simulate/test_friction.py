@@ -350,6 +350,14 @@ def test_what_rests_at_the_start_sticks_from_then_on_and_what_only_slips_has_no_
     assert s.simulate(0.1, theta=1.0).stuck["pivot"].shape == (0, 2)
 
 
+def test_an_event_where_the_sense_of_a_slip_changes_occurs_once() -> None:
+    """θ̇ falls from 0 at the start, and through 0 where the pendulum turns back and its friction changes its sense."""
+    run = pendulum().simulate(6, theta=1.0, events=lg.event("theta'", direction=-1, name="back"))
+    slips = run.events["pivot slips"]
+    assert run.events["back"].t == pytest.approx([0.0, *slips.t[slips.y[0] > 0]], abs=1e-9)
+    assert len(slips) > 4
+
+
 @pytest.mark.parametrize("method", ["Radau", "gauss4"])
 def test_a_method_that_cannot_stick_is_refused(method: str) -> None:
     with pytest.raises(lg.RunError, match=r"E501.*does not find where friction 'pivot' begins to stick"):

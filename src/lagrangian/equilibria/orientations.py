@@ -33,13 +33,12 @@ class SoughtOrientations:
 
     @classmethod
     def of(cls, model: Model) -> SoughtOrientations:
-        """Those of a model; raises `RunError` for floating frames under constraints or beside circuits."""
+        """Those of a model; raises `RunError` for floating frames beside circuits."""
         names = [c.name for c in model.coordinates]
         floating = [f.floating for f in model.floating if f.floating is not None]
-        if floating and (model.constraints or model.charges):
+        if floating and model.charges:
             raise RunError(
-                f"system '{model.name}' has a floating frame beside constraints or charges: its equilibria are not "
-                "sought",
+                f"system '{model.name}' has a floating frame beside charges: its equilibria are not sought",
                 fix="describe its orientation by three angles instead (frames about axes)",
                 code="E202",
             )

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.codegen import Kernel
+from lagrangian.equilibria.orientations import SoughtOrientations
 from lagrangian.errors import RunError
 from lagrangian.linear.linearize import Linearizer
 from lagrangian.linear.manifold import Manifold
@@ -35,9 +36,10 @@ DEPENDENT = 1e-10
 
 @dataclass(frozen=True, eq=False)
 class HeldForces:
-    """What the constraints do not hold at rest: q (N, n) → P h and f (N, n + rows on positions), and their slopes.
+    """What the constraints do not hold at rest: q (N, n) → P h and f (N, m + rows on positions), and their slopes.
 
-    ``bias``, ``rows`` and ``pushed`` are compiled; ``size`` is the size of h, ``gap`` that of f.
+    h has m entries, one for each velocity. ``bias``, ``rows`` and ``pushed`` are compiled; ``size`` is the size of h,
+    ``gap`` that of f. Where frames float, rows for the lengths of their quaternions follow (`SoughtOrientations`).
     """
 
     names: tuple[str, ...]
@@ -48,6 +50,7 @@ class HeldForces:
     p: Array
     size: Array
     gap: Array
+    orientations: SoughtOrientations
 
     @classmethod
     def of(
@@ -58,6 +61,7 @@ class HeldForces:
         u: Array,
         p: Array,
         scale: Callable[[Array], Array],
+        orientations: SoughtOrientations,
     ) -> HeldForces:
         """The forces of a model with constraints, their sizes from the positions q (N, n).
 
@@ -67,8 +71,8 @@ class HeldForces:
         assert manifold is not None
         names = tuple(row.name for row in named_conditions(linearizer.model))
         programs = (kernel(linearizer.forces, "h"), kernel(manifold.rows, "f", "Av", "F", "A"))
-        made = cls(names, *programs, kernel(linearizer.pushed, "h", "K"), u, p, np.ones(q.shape[1]), np.ones(0))
-        rows = made.rows(q, 0 * q, u, p, 0.0)
+        made = cls(names, *programs, kernel(linearizer.pushed, "h", "K"), u, p, np.ones(1), np.ones(0), orientations)
+        rows = made.rows(q, orientations.resting(q), u, p, 0.0)
         made._check(manifold, np.asarray(rows["Av"]))
         return replace(made, size=scale(made._bias(q, 0.0)), gap=scale(np.asarray(rows["f"])))
 
@@ -90,11 +94,12 @@ class HeldForces:
         found, left, pushes = self._held(q, t, bias)
         lam = np.einsum("srn,sn->sr", pushes, left)
         h = bias / self.size
-        n = q.shape[1]
-        K = np.asarray(self.pushed(q, 0 * q, self.u, self.p, t, lam)["K"]) / self.size[:, None]
-        onto = np.eye(n) - np.einsum("sir,srk->sik", self._load(found), pushes)
+        K = np.asarray(self.pushed(q, self.orientations.resting(q), self.u, self.p, t, lam)["K"]) / self.size[:, None]
+        onto = np.eye(h.shape[1]) - np.einsum("sir,srk->sik", self._load(found), pushes)
         value = np.concatenate([np.einsum("sik,sk->si", onto, h), found["f"] / self.gap], axis=1)
         slope = np.concatenate([np.einsum("sik,skj->sij", onto, K), found["F"] / self.gap[:, None]], axis=1)
+        if self.orientations:
+            value, slope = self.orientations.with_lengths(q, value, slope)
         bad = ~(np.abs(value) < LARGE).all(axis=1) | ~(np.abs(slope) < LARGE).all(axis=(1, 2))
         for raw in (bias, *found.values(), K * self.size[:, None]):
             bad |= ~(np.abs(raw).reshape(len(q), -1) < LARGE).all(axis=1)
@@ -109,7 +114,7 @@ class HeldForces:
         return dict(zip(self.names, (lam + 0.0).tolist(), strict=True))
 
     def _bias(self, q: Array, t: float) -> Array:
-        found = self.bias(q, 0 * q, self.u, self.p, t)
+        found = self.bias(q, self.orientations.resting(q), self.u, self.p, t)
         return np.asarray(found["h"] if isinstance(found, dict) else found)
 
     def _load(self, found: dict[str, Array]) -> Array:
@@ -119,7 +124,7 @@ class HeldForces:
 
     def _held(self, q: Array, t: float, bias: Array) -> tuple[dict[str, Array], Array, Array]:
         """The rows, ``bias`` h relative to its size, and (Aᵀ)⁺."""
-        found = {name: np.array(x) for name, x in self.rows(q, 0 * q, self.u, self.p, t).items()}
+        found = {name: np.array(x) for name, x in self.rows(q, self.orientations.resting(q), self.u, self.p, t).items()}
         h = np.where(np.abs(bias) < LARGE, bias, 0.0) / self.size
         return found, h, np.asarray(np.linalg.pinv(self._load(found), rcond=DEPENDENT), float)
 

@@ -163,7 +163,7 @@ class _Task:
         width = self._sizes(M)
         if self.linearizer.manifold is not None:
             try:
-                tangent = self.linearizer.manifold.tangent(np.concatenate([q, 0 * q]), self.p, 0.0)
+                tangent = self.linearizer.manifold.tangent(np.concatenate([q, v]), self.p, 0.0)
             except RunError:  # the verdict says that the constraints leave more than one way there
                 return False
             width = np.array([width[k - len(q)] for k in tangent.kept[tangent.positions :]])
@@ -220,7 +220,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     if linearizer.manifold is None:
         forces = _forces(program, u, p, steady, orientations)
     else:
-        forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale)
+        forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale, orientations)
     h, K = forces(starts)
     check_sizes(model, h, p)
     scale, width = np.ones(h.shape[1]) if held_forces else _scale(h), box.high - box.low
@@ -254,7 +254,7 @@ def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array, orientatio
     got = values(linearizer.forces, **groups)
     found = [got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()]
     if linearizer.manifold is not None:
-        rows = linearizer.manifold.at(np.concatenate([q, np.zeros_like(q)]), p, 0.0)
+        rows = linearizer.manifold.at(np.concatenate([q, orientations.resting(q)]), p, 0.0)
         found += [rows["f"], rows["A"].ravel()]
     return np.concatenate(found)
 

@@ -9,7 +9,8 @@ where S takes the independent entries out of x, and T spans the null space of th
 
     ∂f/∂q δq = 0,    ∂c/∂q δq + A δv = 0.
 
-A row on velocities that is not a rate of an f restricts speeds and no coordinate.
+A row on velocities that is not a rate of an f restricts speeds and no coordinate. The length of a quaternion e never
+changes: eᵀ δe = 0 is one more row for δq.
 """
 
 from __future__ import annotations
@@ -89,6 +90,9 @@ class Manifold:
         self.model = model
         self.names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
         self.size = len(model.coordinates)
+        places = {c.name: k for k, c in enumerate(model.coordinates)}
+        floating = [f.floating for f in model.floating if f.floating is not None]
+        self.quaternions = [[places[c.name] for c in f.orientation] for f in floating]
 
     @cached_property
     def rows(self) -> Program:
@@ -102,9 +106,13 @@ class Manifold:
         return any(reads(self.rows, name, "t") for name in ("f", "Av"))
 
     def at(self, x: Array, p: Array, t: float) -> Arrays:
-        """f, c and their slopes at a state."""
+        """f, c and their slopes at a state, and as ``lengths`` the slopes of |e|²/2 of quaternions."""
         n = self.size
-        return values(self.rows, q=x[:n], v=x[n:], u=np.zeros(len(self.model.inputs)), p=p, t=t)
+        lengths = np.zeros((len(self.quaternions), n))
+        for row, entries in zip(lengths, self.quaternions, strict=True):
+            row[entries] = x[entries]
+        u = np.zeros(len(self.model.inputs))
+        return {**values(self.rows, q=x[:n], v=x[n:], u=u, p=p, t=t), "lengths": lengths}
 
     def holds(self, x: Array, p: Array, t: float) -> bool:
         """Whether a state satisfies every row but for rounding."""
@@ -147,7 +155,7 @@ class Manifold:
     def tangent_of(self, found: Arrays, kept: Sequence[int] | None, idle: Sequence[int] = ()) -> Tangent:
         """The tangent that follows from the slopes of the rows."""
         n, size = self.size, len(self.names)
-        F, A = found["F"], found["A"]
+        F, A = np.vstack([found["F"], found["lengths"]]), found["A"]
         if kept is None:
             late = range(n - 1, -1, -1)
             placed = pivots(F, late)

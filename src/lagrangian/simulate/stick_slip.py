@@ -179,8 +179,11 @@ class _Run:
         if found.drift is not None and way.drifts:
             self.drift = found.drift if self.drift is None else _wider(self.drift, found.drift)
         fired: list[int] = []
+        known = {k for k, when, _ in self.hits if when == t and not way.events[k].reset}
         for e in range(int(found.event_count[0])):
             k, when = int(found.event_index[0, e]), float(found.event_time[0, e])
+            if when == t and k in known:  # where one regime ended and the next begins
+                continue
             if k < len(way.events):
                 self.hits.append((k, when, np.append(found.event_state[0, e], more)))
             if when == reached and (k >= len(way.events) or way.events[k].reset):
