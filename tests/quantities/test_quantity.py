@@ -1,6 +1,7 @@
 """Numbers with units against pint's own conversion and against values that others computed."""
 
 import math
+from functools import cache
 
 import pint
 import pytest
@@ -57,7 +58,11 @@ def test_exponents_of_the_base_units() -> None:
     assert unit_dimension("deg") == (0,) * 7
 
 
-REGISTRY = pint.UnitRegistry()
+@cache
+def registry() -> pint.UnitRegistry:
+    """Made when it is asked for the first time: that takes as long as all other tests here."""
+    return pint.UnitRegistry()
+
 
 BAD = [
     ("", 1, "empty"),
@@ -138,7 +143,7 @@ def test_any_text_gives_a_finite_value_or_a_parse_error(text: str) -> None:
 )
 def test_products_of_units_agree_with_pint(number: int, factors: list[tuple[str, int]]) -> None:
     text = "*".join(f"{name}^{power}" for name, power in factors)
-    there = REGISTRY.Quantity(float(number), "dimensionless")
+    there = registry().Quantity(float(number), "dimensionless")
     for name, power in factors:
-        there = there * REGISTRY.Quantity(1.0, name) ** power
+        there = there * registry().Quantity(1.0, name) ** power
     assert parse_quantity(f"{number} {text}").value == pytest.approx(there.to_base_units().magnitude, rel=1e-12)
