@@ -96,12 +96,15 @@ def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], ver
     named = mistakes(held(truth) or truth, read.lines, judged.findings)
     of_constraints = wrong_constraints(truth, verdict.findings)
     told = (*named.told, *read.mistakes, *of_constraints)
+    verdict = replace(verdict, alternatives=named.others, sure=named.sure)
     if not told:
         return verdict
     better = {f.line.number: f for f in judged.findings}
     better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in read.wrong}
     findings = tuple(_without_forces(truth, better.get(f.line.number, f)) for f in verdict.findings)
-    return replace(verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes)
+    return replace(
+        verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
+    )
 
 
 def _without_forces(truth: Reference, finding: Finding) -> Finding:
@@ -306,7 +309,13 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
             named = mistakes(truth, spelling.lines, findings)
             if named.certain or too_long(truth):
                 note = text("It would be right with ", *change.words.parts, ".")
-                return replace(verdict, mistakes=named.told, alternatives=named.others, notes=(*verdict.notes, note))
+                return replace(
+                    verdict,
+                    mistakes=named.told,
+                    alternatives=named.others,
+                    notes=(*verdict.notes, note),
+                    sure=named.sure,
+                )
         status = Status.OTHER_COORDINATES if judged.status.right else judged.status
         notes = (*spelling.notes, text("In other coordinates: ", *change.words.parts, "."), *judged.notes)
         return Verdict(
@@ -369,6 +378,7 @@ def _in_these(
         change=change.table,
         notes=(*spelling.notes, note),
         hint=verdict.hint,
+        sure=named.sure,
     )
 
 
@@ -386,4 +396,4 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
             *notes,
             text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
         )
-    return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes)
+    return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes, sure=named.sure)

@@ -39,6 +39,10 @@ BEYOND = 0.3
 """What a mistake costs more that would change another equation, too, in which it was not seen."""
 LIKELY = 2.4
 """A mistake that costs less is likelier than coordinates that nobody spoke of."""
+FAR = 3.3
+"""A mistake that costs more is far-fetched: it explains the answer, but what differs is said first."""
+FAR_TOGETHER = 2.6
+"""The same for several mistakes, a mistake."""
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 
@@ -47,12 +51,14 @@ ALIKE = 0.05
 class NamedMistakes:
     """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
-    ``certain``: a single likely mistake explains everything. ``left`` are the wrong equations that they leave open.
+    ``certain``: a single likely mistake explains everything. ``sure``: none of them is far-fetched. ``left`` are the
+    wrong equations that they leave open.
     """
 
     told: tuple[Mistake, ...] = ()
     others: tuple[Mistake, ...] = ()
     certain: bool = False
+    sure: bool = True
     left: tuple[AnsweredLine, ...] = ()
 
 
@@ -265,7 +271,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
     more = distinct(_once([*elsewhere, *listed], told), told)
     single = len(chosen) == 1 and (chosen[0][0].mistake.wrong is not None or chosen[0][0].cost <= LIKELY)
-    return NamedMistakes(told, more[:5], single)
+    far = any(t.cost > FAR for t, _ in chosen) or sum(t.cost for t, _ in chosen) > FAR_TOGETHER * len(chosen)
+    return NamedMistakes(told, more[:5], single, not far)
 
 
 def _of_either(

@@ -17,8 +17,8 @@ SMALL = 1e-7
 PARALLEL = 1e-9
 """1 − |cos| below which two vectors count as parallel."""
 LARGEST_DENOMINATOR = 24
-PLAIN = (Fraction(-1), Fraction(-2), Fraction(1), Fraction(-1, 2))
-"""Left out, other sign, twice, half: the multiples that are tried in pairs."""
+PLAIN = (Fraction(-1), Fraction(-2), Fraction(1), Fraction(-1, 2), Fraction(-3, 4), Fraction(3))
+"""Left out, other sign, twice, half, a quarter and four times (m L²/12 for m L²/3): what is tried in pairs."""
 EXOTIC = 4.6
 """A single mistake that costs more may be less likely than two plain ones."""
 MOST_FOR_PAIRS = 6

@@ -154,8 +154,9 @@ class Verdict:
     """The verdict on an answer.
 
     ``status`` is that of the whole answer; ``findings`` are those of the lines, in order; ``mistakes`` are the
-    misconceptions that explain what is wrong, the most likely first. ``combination[j]`` contains the factors of all
-    right equations in equation j of the answer; ``change`` expresses the answer's coordinates in those of the system.
+    misconceptions that explain what is wrong, the most likely first; ``sure``: none of them is far-fetched.
+    ``combination[j]`` contains the factors of all right equations in equation j of the answer; ``change`` expresses the
+    answer's coordinates in those of the system.
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
     """
 
@@ -167,6 +168,7 @@ class Verdict:
     change: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict)
     notes: tuple[Text, ...] = ()
     hint: int = 3
+    sure: bool = True
 
     @property
     def right(self) -> bool:
@@ -195,6 +197,7 @@ class Verdict:
                 [[plain(x) for x in row] for row in self.combination] if self.combination is not None else None
             )
         if self.hint >= 2:
+            data["sure"] = self.sure
             data["mistakes"] = [m.to_dict(self.hint) for m in self.mistakes]
             data["alternatives"] = [m.to_dict() for m in self.alternatives] if self.hint >= 3 else []
         return data

@@ -102,11 +102,15 @@ def _why(verdict: Verdict) -> Iterator[Item]:
 
     Below hint level 3 a mistake is described by its kind and place, never by its terms.
     """
+    first_words = () if verdict.sure else ("This would explain it, and may not be what you did: ",)
+    if verdict.mistakes and not verdict.sure:
+        yield from _places(verdict)
     for k, mistake in enumerate(verdict.mistakes):
+        begins = ("And: ",) if k else first_words
         if verdict.hint >= 3:
-            yield text(*(("And: ",) if k else ()), *mistake.what.parts)
+            yield text(*begins, *mistake.what.parts)
         elif mistake.brief is not None:
-            yield text(*(("And: ",) if k else ()), *mistake.brief.parts)
+            yield text(*begins, *mistake.brief.parts)
         yield text("To put it right: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
         yield text(*_where(mistake, verdict))
     if verdict.mistakes:
@@ -117,6 +121,11 @@ def _why(verdict: Verdict) -> Iterator[Item]:
             yield text("It could also be this: ", *others[0].what.parts)
         return
     yield text("No mistake was found that explains all of it; these are the places to look at.")
+    yield from _places(verdict)
+
+
+def _places(verdict: Verdict) -> Iterator[Item]:
+    """For every wrong line, what is right in it and where it differs."""
     for f in verdict.findings:
         if not f.status.right and not f.follows:
             yield from _right_and_differing(f)
