@@ -14,6 +14,7 @@ import lagrangian as lg
 from built_in import derivation
 from lagrangian.check.changes.pool import pool_of
 from lagrangian.check.reference import truth_of
+from lagrangian.model import time
 
 SWING = "theta'' + b*L_b^2/(m*L_m^2)*theta' + k*L_k^2/(m*L_m^2)*theta + g/L_m*sin(theta) = tau"
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
@@ -239,3 +240,29 @@ def test_an_inertia_about_an_end_is_too_much_for_the_bodys_own_rate() -> None:
     answer = f"m*(u''+w'')/4 - {more} + k*u = F*(d-a)/d + n*tau/r\nm*(u''+w'')/4 + {more} + k*w = F*a/d"
     name, words = only(bar(), answer)
     assert name == "inertia_added" and "1/4·d^2*m too much as an inertia for" in words, words
+
+
+def test_of_a_far_fetched_explanation_what_differs_is_said_first() -> None:
+    first = "(M+m)*x'' + b*x' + m^2*l*cos(theta)*theta'' - m*l*sin(2*theta)*theta'^2 = F"
+    verdict = derivation("cart-pole").check(f"{first}\n{POLE} = 0")
+    words = str(verdict)
+    assert not verdict.sure
+    assert words.index("What differs in line 1 comes from rigid body 'pole'") < words.index("This would explain it")
+    plain = derivation("cart-pole").check(f"{CART.replace('b*x', '2*b*x')} = F\n{POLE} = 0")
+    assert plain.sure and "This would explain it" not in str(plain)
+
+
+@pytest.mark.parametrize(
+    ("energy", "said"),
+    [
+        ("m/2*((x' - Omega*y)^2 + y'^2)", "along axes that turn, Omega*x is left out."),
+        ("m/2*((x' + Omega*y)^2 + (y' + Omega*x)^2)", "along axes that turn, -Omega*y has the wrong sign."),
+    ],
+)
+def test_parts_of_a_velocity_along_axes_that_turn(energy: str, said: str) -> None:
+    """On a turntable the velocity is (x′ − Ω y, y′ + Ω x) along its axes."""
+    s = lg.System("turntable")
+    x, y, omega = s.coordinate("x"), s.coordinate("y"), s.parameter("Omega")
+    s.particle(s.parameter("m"), at=s.point("P", (x, y), frame=s.frame(omega * time)), name="m")
+    (mistake,) = s.derive().check(f"T = {energy}").mistakes
+    assert said in str(mistake.what), str(mistake.what)

@@ -96,7 +96,6 @@ def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], ver
     named = mistakes(held(truth) or truth, read.lines, judged.findings)
     of_constraints = wrong_constraints(truth, verdict.findings)
     told = (*named.told, *read.mistakes, *of_constraints)
-    verdict = replace(verdict, alternatives=named.others, sure=named.sure)
     if not told:
         return verdict
     better = {f.line.number: f for f in judged.findings}

@@ -39,7 +39,7 @@ BEYOND = 0.3
 """What a mistake costs more that would change another equation, too, in which it was not seen."""
 LIKELY = 2.4
 """A mistake that costs less is likelier than coordinates that nobody spoke of."""
-FAR = 3.3
+FAR = 3.6
 """A mistake that costs more is far-fetched: it explains the answer, but what differs is said first."""
 FAR_TOGETHER = 2.6
 """The same for several mistakes, a mistake."""

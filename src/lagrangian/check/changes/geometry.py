@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site, Words
-from lagrangian.check.changes.pieces import instead_of_piece, instead_of_segment, segment
+from lagrangian.check.changes.pieces import along_turning_axes, instead_of_piece, instead_of_segment, segment
 from lagrangian.check.changes.ring import TooLong, minus
 from lagrangian.check.changes.sites import Sites
 from lagrangian.check.misconceptions.base import half_square, partner
@@ -127,7 +127,7 @@ class GeometryChanges:
                     changed = list(velocity)
                     changed[c] = cast("sp.Expr", x + number * part)
                     yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
-            yield from self._carried(b, velocity, c, own, mass)
+        yield from self._carried(b, velocity, own, mass)
         rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
         for v in rates if len(rates) > 1 else ():
             gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
@@ -135,15 +135,16 @@ class GeometryChanges:
         if 2 <= len(rates) <= 3:
             yield from self._as_numbers(b, velocity, rates, own, mass, brief)
 
-    def _carried(self, b: Any, velocity: list[sp.Expr], c: int, own: sp.Expr, mass: sp.Expr) -> Iterator[LocalChange]:
-        """A part of a component that no rate brings, such as Ω y of turning axes, left out or with the wrong sign."""
-        words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
-        brief: Words = (f"the velocity of {b.title}",)
-        parts = [p for p in sp.Add.make_args(velocity[c]) if p != 0 and not p.has(*self.s.v)]
-        for part in parts if len(parts) < MOST_PIECES else ():
+    def _carried(self, b: Any, velocity: list[sp.Expr], own: sp.Expr, mass: sp.Expr) -> Iterator[LocalChange]:
+        """A part of a velocity that no rate brings, such as Ω x in axes that turn, left out or with the wrong sign."""
+        turned = along_turning_axes(self.s.position(b), velocity, self.s.q)
+        words: Words = (f"the velocity of {b.title}", " along axes that turn" if turned else "")
+        of = [self.sites.ring.expr(self.sites.sum(x)) for x in turned] or velocity
+        parts = [(c, p) for c, x in enumerate(of) for p in sp.Add.make_args(x) if p != 0 and not p.has(*self.s.v)]
+        for c, part in parts if len(parts) <= MOST_PIECES else ():
             for number, kind, cost in ((-1, "velocity_part_left_out", 1.55), (-2, "velocity_part_sign", 1.65)):
-                changed = tuple(cast("sp.Expr", x + number * part) if k == c else x for k, x in enumerate(velocity))
-                yield from self._kinetic(b, half_square(mass, changed), own, kind, cost, words, brief, part)
+                changed = tuple(cast("sp.Expr", x + number * part) if k == c else x for k, x in enumerate(of))
+                yield from self._kinetic(b, half_square(mass, changed), own, kind, cost, words, words[:1], part)
 
     def _as_numbers(
         self, b: Any, velocity: list[sp.Expr], rates: list[Any], own: sp.Expr, mass: sp.Expr, brief: Words

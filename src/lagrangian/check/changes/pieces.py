@@ -7,8 +7,10 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import partner
 from lagrangian.check.misconceptions.base import put as replaced
+from lagrangian.model import time
 
 
 def instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
@@ -50,3 +52,13 @@ def segment(p: sp.Expr) -> sp.Expr:
     """What pieces of one segment have in common: all factors but numbers and sines and cosines."""
     factors = [f for f in sp.Mul.make_args(p) if not f.is_number and not isinstance(f, (sp.sin, sp.cos))]
     return cast("sp.Expr", sp.Mul(*factors))
+
+
+def along_turning_axes(position: Sequence[sp.Expr], velocity: Sequence[sp.Expr], q: Sequence[Any]) -> list[sp.Expr]:
+    """The components of a velocity along axes that turn as prescribed, if the position names one such angle."""
+    turns = {cast("sp.Expr", f.args[0]) for x in position for f in x.atoms(sp.sin, sp.cos) if f.has(time)}
+    angles = [a for a in turns if not a.has(*q)]
+    if len(angles) != 1 or len(velocity) != 2:
+        return []
+    (x, y), c, s = velocity, sp.cos(angles[0]), sp.sin(angles[0])
+    return [bounded.expand(e) for e in (c * x + s * y, c * y - s * x)]
