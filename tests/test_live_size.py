@@ -37,3 +37,19 @@ def test_a_long_description_is_cut_below_the_name_and_whole_in_the_picture() -> 
     words = live._subtitle(system.look().scene)
     assert len(words) < live.LONGEST_SUBTITLE + 3 and words.endswith(" …")
     assert system.look().scene.description.startswith(words.removesuffix(" …"))
+
+
+def test_a_positive_coordinate_without_a_start_begins_as_it_is_drawn() -> None:
+    system = lg.System("ball on a spring")
+    r = system.coordinate("r", positive=True)
+    theta = system.coordinate("theta")
+    m, k, L = system.parameters("m k L", m="1 kg", k="10 N/m", L="0.8 m")
+    system.particle(m, at=system.point("P", (r * sin(theta), -r * cos(theta))))
+    system.spring(k, deflection=r - L)
+    look = system.look()
+    starts = live._starts(system.model, look.scene)
+    assert starts == {"r": look.pose["r"]} and starts["r"] > 0
+    assert live._module(system.model, look.program, (), starts).layout["start"] == [starts["r"], 0.0, 0.0, 0.0]
+    with pytest.raises(lg.RunError, match="'r' is declared positive") as caught:
+        system.simulate(1.0)
+    assert caught.value.fix == "give a start above 0: initial={'r': 1}"

@@ -51,10 +51,11 @@ def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Eve
     """Return the page.
 
     ``anchors`` is the program of the scene, x, u, p, t → r. ``events`` are found in every run, and their resets are
-    made. A system whose equations cannot be written out moves nevertheless, and the page says why it has none. Raises
-    `RunError` for a system that a browser cannot integrate, and for parameters without a value.
+    made. A positive coordinate without an initial value starts as it is drawn, because 0 is not positive. A system
+    whose equations cannot be written out moves nevertheless, and the page says why it has none. Raises `RunError` for
+    a system that a browser cannot integrate, and for parameters without a value.
     """
-    module = _module(model, anchors, events)
+    module = _module(model, anchors, events, _starts(model, scene))
     adjustables = _adjustables(model, module.layout, 0.5 * max(scene.size) / scene.scale)
     contents = PageContents(
         _document(model),
@@ -90,14 +91,22 @@ def _subtitle(scene: Scene) -> str:
     return words[:1].upper() + words[1:]
 
 
-def _module(model: Model, anchors: Program, events: Sequence[Event] | Event) -> BrowserModule:
+def _starts(model: Model, scene: Scene) -> dict[str, float]:
+    """The positive coordinates without an initial value, as they are drawn."""
+    given = model.settings.get("initial", {})
+    return {c.name: scene.pose[c.name] for c in model.coordinates if c.positive and c.name not in given}
+
+
+def _module(
+    model: Model, anchors: Program, events: Sequence[Event] | Event, initial: Mapping[str, float]
+) -> BrowserModule:
     """The solver, with the energy balance and the places of the anchors as functions of the state."""
     given = Given.of(model, named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
     functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
-    return browser_module(model, events=events, functions=functions, fallback=MAX_FUNCTIONS)
+    return browser_module(model, initial=initial, events=events, functions=functions, fallback=MAX_FUNCTIONS)
 
 
 def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:

@@ -56,6 +56,16 @@ def test_the_nearest_position_is_taken_and_rates_follow() -> None:
     assert max(map(abs, dyn.residual(q, v)["velocity"].values())) < 1e-14
 
 
+def test_rates_that_satisfy_the_rows_need_no_program_that_moves_them() -> None:
+    model = four_bar().model
+    assembler, q = assembler_of(model, ("a",)), np.array([1.0, *by_triangles(1.0)[0]])
+    p = np.array([x.value for x in model.parameters], float)
+    assert assembler.velocity(q, np.zeros(3), p) == pytest.approx(0.0, abs=0)
+    assert "closing" not in vars(assembler)
+    assert np.abs(assembler.velocity(q, np.array([1.0, 0.0, 0.0]), p)[1:]).max() > 0.1
+    assert "closing" in vars(assembler)
+
+
 def test_from_the_flat_position_of_all_zeros_a_way_out_is_found() -> None:
     dyn = four_bar().compile()
     q, _ = dyn.assemble(None)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sympy import cos, sin, sqrt
+from sympy import Expr, Rational, cos, sin, sqrt
 from sympy.physics.mechanics import dynamicsymbols
 
 import lagrangian as lg
 from lagrangian.graph import evaluate
 from lagrangian.page.placing import placed, places
+from lagrangian.page.scene import Disc
 
 
 def trammel() -> lg.System:
@@ -142,6 +143,16 @@ def test_a_hoop_that_turns_by_its_coordinate_is_a_wheel_and_the_coordinate_an_an
     assert np.linalg.norm(rim - centre) == pytest.approx(0.5)
     assert not any(p.kind == "measure" for p in scene.parts)
     assert "rolling on a horizontal track" in scene.description
+
+
+@pytest.mark.parametrize(("share", "drawn"), [(1, "hoop"), (Rational(1, 2), "wheel")])
+def test_a_wheel_with_all_its_mass_on_the_rim_is_a_hoop(share: Expr, drawn: str) -> None:
+    s = lg.System("rolling")
+    x = s.coordinates("x")
+    m, R = s.parameters("m R", m="1 kg", R="0.3 m")
+    s.rigid_body(m, share * m * R**2, s.point("C", (x, 0)), s.frame(-x / R), name="round")
+    (rim,) = [p for p in s.look().scene.parts if p.kind in ("hoop", "wheel") and isinstance(p.shape, Disc)]
+    assert rim.kind == drawn and rim.filled == (drawn == "wheel")
 
 
 @pytest.mark.parametrize("sense", [1, -1])

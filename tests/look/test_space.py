@@ -213,3 +213,13 @@ def test_a_limb_that_turns_freely_hangs_on_a_ball() -> None:
     scene = system.look().scene
     (ball,) = [part for part in scene.parts if part.kind == "ball joint"]
     assert ball.placement.at is not None and scene.positions[ball.placement.at] == (0.0, 0.0, 1.0)
+
+
+def test_a_limb_in_a_ball_joint_is_not_called_hinged() -> None:
+    system = lg.System("limb on a boom")
+    m, L, J = system.parameters("m L J", m=1.0, L=0.5, J=0.02)
+    boom = system.frame(system.coordinate("phi"), axis=(0, 0, 1))
+    system.rigid_body(m, (J, J, J), at=boom.point((L, 0, 1)), frame=boom, name="boom")
+    limb = system.ball_frame("limb", parent=boom, origin=boom.point((2 * L, 0, 1)))
+    system.rigid_body(m, (J, J, J), at=limb.point((0, 0, -L)), frame=limb, name="arm")
+    assert "a boom hinged on the ground; an arm on a ball joint on the boom" in system.look().description.lower()

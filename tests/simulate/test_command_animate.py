@@ -47,6 +47,7 @@ def test_svg_goes_to_standard_output(capsys: pytest.CaptureFixture[str]) -> None
     [
         (["-e", "pendulum"], "no file was given"),
         (["-e", "pendulum", "-o", "a.avi"], "the ending of 'a.avi' is not supported"),
+        (["-e", "pendulum", "-o", "a.bmp"], "use one of .svg, .html, .gif, .mp4, .webm"),
         (["-e", "pendulum", "-o", "a.svg", "--trail", "nowhere"], "there is no point or body 'nowhere'"),
         (["-e", "pendulum", "-o", "a.svg", "--speed", "0"], "speed must be a number above 0"),
         (["-e", "pendulum", "-o", "a.svg", "--fps", "1000"], "fps must be a number above 0 and up to 120"),

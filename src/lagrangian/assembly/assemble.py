@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.graph import Program
+from lagrangian.graph import Program, evaluate
 from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
@@ -153,7 +153,12 @@ class Assembler:
     # -- velocities ---------------------------------------------------------------------------------------------
 
     def velocity(self, q: Array, v: Array, p: Array, t: float = 0.0) -> Array:
-        """Return the rates nearest to v, by kinetic energy, that satisfy the rows. Raises `RunError` if none do."""
+        """Return the rates nearest to v, by kinetic energy, that satisfy the rows. Raises `RunError` if none do.
+
+        Rates that satisfy them to the last digit, as those of a system at rest do, need no program that moves them.
+        """
+        if self._satisfied(q, v, p, t):
+            return v
         v, kept = self.closing.rates(q, v, p, t)
         wrong = ~kept
         if wrong.any():
@@ -166,6 +171,11 @@ class Assembler:
             )
         return v
 
+    def _satisfied(self, q: Array, v: Array, p: Array, t: float) -> bool:
+        rows = dynamics.residual(self.model)
+        groups = {"q": q.tolist(), "v": v.tolist(), "u": [0.0] * len(rows.inputs["u"]), "p": p.tolist(), "t": [t]}
+        return not np.any(evaluate(rows, groups)["Av"])
+
 
 REMEMBERED = 8
 """The number of choices of fixed coordinates whose programs are kept for a model; the most recent ones stay."""
@@ -177,8 +187,8 @@ def assembler_of(model: Model, fixed: Iterable[str] = ()) -> Assembler:
     return model.recent("assemblers", key, lambda: Assembler(model, key), REMEMBERED)
 
 
-def seen_position(model: Model, q: Array, p: Array, fixed: Iterable[str] = ()) -> Array:
-    """Return the nearest position found to the guess q at t = 0, for a picture: no program is compiled for one guess.
+def seen_position(model: Model, q: Array, p: Array, fixed: Iterable[str] = (), t: float = 0.0) -> Array:
+    """Return the nearest position found to the guess q, for a picture: no program is compiled for one guess.
 
     The coordinates in ``fixed`` stay. Raises `RunError`, with the gaps, if there is none.
     """
@@ -186,8 +196,8 @@ def seen_position(model: Model, q: Array, p: Array, fixed: Iterable[str] = ()) -
     if not any(row.on_positions for e in model.constraints for row in e.conditions(model)):
         return q
     search = model.recent("seen positions", key, lambda: _dense_search(model, key), REMEMBERED)
-    found, closed = search.run(q[None, :], p, 0.0)
-    return found[0] if closed[0] else assembler_of(model, key).position(q, p)
+    found, closed = search.run(q[None, :], p, t)
+    return found[0] if closed[0] else assembler_of(model, key).position(q, p, t)
 
 
 def _dense_search(model: Model, fixed: tuple[str, ...]) -> LoopSearch:
@@ -209,12 +219,14 @@ def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:
 
 
 def consistent(
-    model: Model, q: Array, v: Array, p: Array, t: float = 0.0, *, fixed: Sequence[str] = ()
+    model: Model, q: Array, v: Array, p: Array, t: float = 0.0, *, fixed: Sequence[str] = (), compiled: bool = True
 ) -> tuple[Array, Array]:
     """Return q and v that satisfy every constraint, from a guess; coordinates in ``fixed`` and their rates stay.
 
+    Without ``compiled``, the position is found without machine code, which is quicker for one start.
     Raises `RunError` if no position closes the loops (E304), or no rates do with the fixed coordinates (E305).
     """
     assembler = assembler_of(model, fixed)
-    at = assembler.position(np.asarray(q, float), p, t)
+    guess = np.asarray(q, float)
+    at = assembler.position(guess, p, t) if compiled else seen_position(model, guess, p, fixed, t)
     return at, assembler.velocity(at, np.asarray(v, float), p, t)

@@ -19,6 +19,8 @@ from lagrangian.look.shapes import line, quarters
 from lagrangian.model import RigidBody
 from lagrangian.page.scene import Disc, Trace
 
+HOOP = 5.0
+"""The width of a hoop's line [px]."""
 COG = 6.0
 """The radius of the mark of a centre of mass [px]."""
 
@@ -71,7 +73,10 @@ def draw_wheel(board: Board, part: Player) -> None:
     rim = board.stage.add(k, (part.radius, 0), board.stage.frames[part.frame])
     radius = float(np.linalg.norm(board.r[rim] - board.r[k])) * board.scale
     place = board.towards(k, rim, "both")
-    board.put(Disc((0.0, 0.0), 1.0), "body", place, of=of, kind="wheel", filled=True, layer=BODY - 1)
+    if _is_hoop(part):
+        board.put(Disc((0.0, 0.0), 1.0), "body", place, of=of, kind="hoop", width=HOOP, layer=BODY - 1)
+    else:
+        board.put(Disc((0.0, 0.0), 1.0), "body", place, of=of, kind="wheel", filled=True, layer=BODY - 1)
     board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", place, of=of, kind="wheel", width=1.0, layer=BODY)
     cog(board, part, 5.0)
     at = board.at(k)
@@ -82,6 +87,13 @@ def draw_wheel(board: Board, part: Player) -> None:
         board.wish(
             (part.radius.name,), at + spoke / 2, (spoke[1], -spoke[0]), "thin", of, distance=2.0, inside=radius > 30
         )
+
+
+def _is_hoop(part: Player) -> bool:
+    """Whether all mass of a wheel is on its rim: J = m R²."""
+    if not isinstance(part.body, RigidBody) or part.radius is None:
+        return False
+    return bool(sp.expand(part.body.tensor[0][0] - part.body.mass * part.radius**2) == 0)
 
 
 def unwinds(motions: Motions, part: Player) -> bool:

@@ -159,7 +159,8 @@ class _Sentences:
             return self._free
         if on == GROUND and len(turns) > 1 and self.space:
             return "turning about a fixed point"
-        return f"{'hinged on' if turns else 'fixed to'} {on}"
+        ball = part.body.axes is not None and part.body.axes.floating is not None
+        return f"{'on a ball joint on' if ball else 'hinged on' if turns else 'fixed to'} {on}"
 
     @property
     def _free(self) -> str:

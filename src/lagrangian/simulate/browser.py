@@ -175,7 +175,7 @@ def browser_module(
     p = given.parameter_values(params)
     check_masses(model, p)
     guess = initial_state(given, model, program, model.settings.get("initial", {}), initial, {})
-    x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None))
+    x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None), compiled=False)
     knowing, _ = spared.of_run(model, x0, p, float(settings.start))
     parts = BrowserParts.of(knowing, drive, method, events_of(model, settings.events))
     made = parts.compiled(method, lanes, settings.of_a_step()[0])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
-from lagrangian.advice import Advice
+from lagrangian.advice import Advice, Argument
 from lagrangian.codes import Code
 from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Graph, Program
@@ -193,7 +193,7 @@ def initial_state(
         if c.positive and not values[c.name] > 0:
             raise RunError(
                 f"'{c.name}' is declared positive, and starts at {values[c.name]:g}",
-                fix=f"give a start above 0: {c.name}=…",
+                fix=Advice("give a start above 0: ", Argument("initial", "1", c.name)),
                 code="E501",
             )
     extra = len(program.inputs["x"]) - len(values)

@@ -37,14 +37,17 @@ def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
 
 
 def onto_constraints(
-    model: Model, x: Array, p: Array, t: float, fixed: Sequence[str]
+    model: Model, x: Array, p: Array, t: float, fixed: Sequence[str], *, compiled: bool = True
 ) -> tuple[Array, tuple[Notice, ...]]:
-    """The start nearest to x that satisfies every constraint, and a notice about coordinates that were moved."""
+    """The start nearest to x that satisfies every constraint, and a notice about coordinates that were moved.
+
+    ``compiled`` is that of `consistent`.
+    """
     if not model.constraints:
         return x, ()
     _check_divisors(model, p, t)
     n, m = len(model.coordinates), len(model.velocities)
-    q, v = consistent(model, x[:n], x[n : n + m], p, t, fixed=fixed)
+    q, v = consistent(model, x[:n], x[n : n + m], p, t, fixed=fixed, compiled=compiled)
     found = np.concatenate([q, v, x[n + m :]])
     change = np.abs(found - x)
     most = int(np.argmax(change))

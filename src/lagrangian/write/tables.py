@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import MissingExtra, ModelError, did_you_mean
+from lagrangian.errors import MissingExtra, ModelError
 from lagrangian.records import dataclass
 from lagrangian.write.files import check_free, write_file, write_with
 
@@ -157,7 +157,7 @@ ENDINGS: Mapping[str, Callable[[Path, ColumnTable], None]] = {
 def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None:
     """Raise an error for an unknown ending, and for an existing file unless it may be replaced."""
     if path.suffix.lower() not in endings:
-        fix = did_you_mean(path.suffix.lower(), endings) or f"use one of {', '.join(endings)}"
+        fix = f"use one of {', '.join(endings)}"
         raise ModelError(f"the ending of '{path.name}' is not supported", fix=fix, code="E402")
     check_free(path, overwrite=overwrite)
 

@@ -62,9 +62,8 @@ def _ways(
     if length > LONGEST:
         return
     level = integral.level if integral.level is not None else sp.Symbol("c")
-    moving = f.atoms(*{q.func for q in coordinates})
-    functions = [part for part in f.atoms(sp.Function) if not isinstance(part, AppliedUndef)]
-    turned = {q for part in functions for q in part.atoms(AppliedUndef)}  # in these f is not a polynomial
+    moving = f.atoms(AppliedUndef)
+    turned = _within_functions(f)  # in these f is not a polynomial
     free = [q for q in free if q in moving and q not in turned]
     for q in free:
         slope = bounded.diff(f, q)
@@ -80,6 +79,22 @@ def _ways(
         angle = sp.Function(name, real=True)(time)
         written = ((x, a + r * sp.sin(angle)), (y, b - r * sp.cos(angle)))
         yield Proposal(integral, written, angle)
+
+
+def _within_functions(f: sp.Expr) -> set[sp.Basic]:
+    """The functions of time in the arguments of others, such as the angles of sines; every part is seen once."""
+    found, seen = set[sp.Basic](), set[tuple[sp.Basic, bool]]()
+    open_parts: list[tuple[sp.Basic, bool]] = [(f, False)]
+    while open_parts:
+        entry = node, within = open_parts.pop()
+        if entry in seen:
+            continue
+        seen.add(entry)
+        if isinstance(node, AppliedUndef):
+            found |= {node} if within else set[sp.Basic]()
+        else:
+            open_parts += [(part, within or isinstance(node, sp.Function)) for part in node.args]
+    return found
 
 
 def _circles(
