@@ -35,6 +35,8 @@ HOSTILE = {
     "deep subscripts": "x_{" * 3000 + "1" + "}" * 3000,
     "deep accents": r"\dot" * 5000 + "x",
     "deep matrices": "[" * 3000,
+    "deep tuples": "x = (" * 2000 + "(" * 3000,
+    "a row that nothing closes": r"\[(" + r"\alpha " * 5000,
     "deep differentials": r"\frac{d}{dt}" * 3000 + "x",
     "deep exponents": "x^-" * 3000 + "1 \\quad",
     "boxes": r"\boxed{" * 5000,

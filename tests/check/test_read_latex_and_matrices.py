@@ -44,6 +44,27 @@ def test_a_letter_that_is_given_a_matrix_is_that_matrix(written: str) -> None:
     assert derivation("lecture-3a").check(written).right
 
 
+COLUMNS = [
+    "M = [ m1  0\n      0   m2 ]\nK = [ k -k\n     -k  k ]\nf = [{F1}  F]'\nM*q'' + K*q = f,   q = [x1 x2]'",
+    "M q'' + K q = Q, q = (x1, x2)\nM = ((m1, 0), (0, m2)), K = ((k, -k), (-k, k)), Q = ({F1}, F)",
+    "M q'' + K q = Q, q = (x1 x2)^T\nM = [m1 0; 0 m2], K = [k -k; -k k], Q = ({F1} F)^T",
+    r"$\mathbf{M}\ddot{\mathbf{x}} + \mathbf{K}\mathbf{x} = \mathbf{f}$, with $\mathbf{x} = [x_1\ x_2]^T$, "
+    r"$\mathbf{M} = \mathrm{diag}(m_1, m_2)$, $\mathbf{K} = \begin{bmatrix}k&-k\\-k&k\end{bmatrix}$, "
+    r"$\mathbf{f} = [\,{F1} \;\; F\,]^{\mathrm T}$",
+]
+
+
+@pytest.mark.parametrize("written", COLUMNS)
+def test_rows_and_columns_are_lists(written: str) -> None:
+    assert derivation("lecture-3a").check(written.replace("{F1}", "-F")).right
+    assert not derivation("lecture-3a").check(written.replace("{F1}", "F")).right
+
+
+def test_brackets_around_factors_are_no_list() -> None:
+    written = "m1 x1'' = (-(F) - (k (x1 - x2)))\nm2 x2'' + ((x2 - x1) k) = (F)"
+    assert derivation("lecture-3a").check(written).right
+
+
 def test_a_matrix_may_have_the_letter_of_a_mass_in_it() -> None:
     written = (
         "M = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\nq = [x; theta]\n"

@@ -303,6 +303,7 @@ class Lines:
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
             own = Subject("Xi")
+            self.names.define(token, value)  # M q'' + K q = Q means the forces that this answer gives
             return [
                 self._stated(replace(own, name=n), x, [side, side], side, reader)
                 for n, x in zip(names, value, strict=True)

@@ -5,8 +5,12 @@
 
     [m 0; 0 m]*[x''; y'']                     [m, 0; 0, m]*[x''; y'']
 
+    [x1 x2]'                                  [x1, x2]'
+    ((m, 0), (0, m))                          [m, 0; 0, m]
+
 Blanks also are products without a sign. They separate entries if the product of matrices has the right shape only so,
-or if the matrix is square and contains a number behind a blank, or products with a sign.
+in a row that is transposed, or if the matrix is square and contains a number behind a blank, a sign that only what
+follows touches, as in [k −k; −k k], or products with a sign.
 """
 
 from __future__ import annotations
@@ -15,6 +19,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from lagrangian.check.reading.listed_rows import TRANSPOSED, spaced_rows, transposed_sides, tuple_sides, tuples
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.check.reading.words import function_of
 from lagrangian.records import dataclass
@@ -44,16 +49,20 @@ _OPEN_END = re.compile(r"(?:=|[-+]|\\cdot|\\times)\s*\Z")
 
 def on_one_line(written: TracedText) -> TracedText:
     """Return an answer with matrices in one line, and with commas between their entries."""
+    written = written.edited(spaced_rows(written.text))
     if "\\begin{" in written.text:
         return _joined(written)
     drawn = [line.lstrip()[0] for line in written.text.split("\n") if _TALL.search(line)]
     if drawn and all(_TALL.match(first) for first in drawn):  # products of matrices, which have no name
         written = TracedText(written.text.translate(_PLAIN), written.origins)
     written = _blocks(_named_rows(written)).sub(_AT, lambda match: " * ")
+    written = written.edited(tuples(written.text))
+    written = written.edited(tuple_sides(written.text))
     if "[" not in written.text:
         return written
     written = written.edited(_row_ends(written.text))
-    return written.edited(_entry_gaps(written.text))
+    written = written.edited(_entry_gaps(written.text))
+    return written.edited(transposed_sides(written.text))
 
 
 def _named_rows(written: TracedText) -> TracedText:
@@ -226,6 +235,7 @@ def _matrices(text: str) -> list[_Matrix]:
 def _entry_gaps(text: str) -> Iterator[Edit]:
     """Commas for the blanks between the entries of matrices."""
     found = {matrix.start: matrix for matrix in _matrices(text)}
+    listed = any(_shows_list(text, matrix) for matrix in found.values())
     for matrix in found.values():
         behind = _TIMES.match(text, matrix.end)
         factor = found.get(behind.end()) if behind is not None else None
@@ -236,9 +246,25 @@ def _entry_gaps(text: str) -> Iterator[Edit]:
             if width == 1 or any(len(x) + 1 != width for x in gaps):
                 continue
             fits = factor is not None and height > 1 and len(factor.rows) == width
-            if fits or (factor is None and height == width and _is_listed(text, matrix, gaps)):
+            if (
+                fits
+                or (height == 1 and TRANSPOSED.match(text, matrix.end))
+                or (factor is None and height == width and listed)
+            ):
                 yield from ((start, end, ", ") for row in gaps for start, end in row)
                 break
+
+
+def _shows_list(text: str, matrix: _Matrix) -> bool:
+    """Whether a square matrix, or a row that is transposed, shows that in this answer blanks are no products in it."""
+    height = len(matrix.rows)
+    if height == 1:
+        return bool(_gaps(text, *matrix.rows[0], wide=False)) and TRANSPOSED.match(text, matrix.end) is not None
+    for wide in (True, False):
+        gaps = [_gaps(text, a, b, wide=wide) for a, b in matrix.rows]
+        if all(len(x) + 1 == height for x in gaps):
+            return _is_listed(text, matrix, gaps)
+    return False
 
 
 def _is_listed(text: str, matrix: _Matrix, gaps: Sequence[Sequence[tuple[int, int]]]) -> bool:
@@ -249,7 +275,7 @@ def _is_listed(text: str, matrix: _Matrix, gaps: Sequence[Sequence[tuple[int, in
     for row, (_, end) in zip(gaps, matrix.rows, strict=True):
         ends = [*(start for start, _ in row[1:]), end]
         behind += (text[gap[1] : stop].strip() for gap, stop in zip(row, ends, strict=True))
-    return any(_BARE_NUMBER.match(entry) for entry in behind)
+    return any(_BARE_NUMBER.match(entry) or _SIGN.match(entry) for entry in behind)
 
 
 def _gaps(text: str, start: int, end: int, *, wide: bool) -> list[tuple[int, int]]:
