@@ -24,7 +24,17 @@ from lagrangian.write.document import (
     Section,
     TableBlock,
 )
-from lagrangian.write.expression_tree import Addition, Glyph, Grid, Math, Number, Tagged, tokens
+from lagrangian.write.expression_tree import (
+    LOOSE,
+    Addition,
+    Glyph,
+    Grid,
+    Math,
+    Number,
+    Tagged,
+    is_tall,
+    tokens,
+)
 from lagrangian.write.lines import lines, set_columns
 from lagrangian.write.mathml import displayed, row, wide
 from lagrangian.write.text import clean
@@ -36,6 +46,15 @@ WIDTH = 96
 
 UNBROKEN_COLUMNS = 24
 """A formula of up to this many columns within a text is kept in one piece."""
+
+NARROW_COLUMNS = 12
+"""A term of a displayed formula may be broken after this many columns, if a line of the screen cannot hold it."""
+
+SHORT_COLUMNS = 36
+"""A term of up to this many columns breaks between its factors rather than in a sum in parentheses."""
+
+BREAKS = ((1, 2), (LOOSE,), (3, LOOSE + 1), (4, LOOSE + 2), (5, LOOSE + 3))
+"""The levels of breaks within a term, the best first: in its outer sums, between its factors, then further inside."""
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
 
@@ -167,12 +186,38 @@ def inline(text: Inline) -> str:
 
 def _flowing(formula: Math) -> str:
     """A formula in a line of words; a long formula in pieces between which the line can break."""
+    pieces = _pieces(tokens(formula), UNBROKEN_COLUMNS, (0, 1))
+    return "<wbr>".join(f"<math>{row(piece)}</math>" for piece in pieces)
+
+
+def _pieces(listed: Iterable[Glyph], least: int, levels: tuple[int, ...]) -> list[list[Glyph]]:
+    """Tokens in pieces of more than ``least`` columns, divided before tokens of these levels."""
     pieces: list[list[Glyph]] = [[]]
-    for token in tokens(formula):
-        if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > UNBROKEN_COLUMNS:
+    for token in listed:
+        if token.level in levels and sum(set_columns(t) for t in pieces[-1]) > least:
             pieces.append([])
         pieces[-1].append(token)
-    return "<wbr>".join(f"<math>{row(piece)}</math>" for piece in pieces)
+    return pieces
+
+
+def _breaking(sign: str, term: Math) -> str:
+    """A term with its sign, which breaks only where a line of the screen cannot hold it, at the best place there is."""
+    listed = list(tokens(term))
+    if is_tall(term):
+        return wide(sign, term, WIDTH - 12) or f'<math displaystyle="true">{sign}{row(listed)}</math>'
+    sums, factors = BREAKS[:2]
+    short = sum(set_columns(t) for t in listed) <= SHORT_COLUMNS
+    return _parts(sign, listed, (factors, sums, *BREAKS[2:]) if short else BREAKS)
+
+
+def _parts(sign: str, listed: list[Glyph], breaks: tuple[tuple[int, ...], ...]) -> str:
+    """Tokens in parts that a browser divides further only where they are too long for a line of their own."""
+    for k, levels in enumerate(breaks):
+        pieces = _pieces(listed, NARROW_COLUMNS, levels)
+        if len(pieces) > 1:
+            made = (_parts("" if i else sign, piece, breaks[k + 1 :]) for i, piece in enumerate(pieces))
+            return "".join(f'<span class="part">{part}</span>' for part in made)
+    return f'<math displaystyle="true">{sign}{row(listed)}</math>'
 
 
 def _contents(document: Document) -> str:
@@ -301,7 +346,7 @@ def _terms(side: Math, kinds: list[str]) -> str:
     for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
         form = "infix" if i else "prefix"
         sign = f'<mo form="{form}">{"−" if minus else "+"}</mo>' if i or minus else ""
-        inner = wide(sign, term, WIDTH - 12) or f'<math displaystyle="true">{sign}{row(tokens(term))}</math>'
+        inner = _breaking(sign, term)
         if isinstance(term, Tagged) and term.elements:
             kind = term.kind if term.kind in KINDS else "other"
             if kind not in kinds:

@@ -1,0 +1,39 @@
+"""Pages on narrow screens: formulas break at the width there is, and no line of them is wider than the screen."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from built_in import derivation
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+
+WIDER = """() => [...document.querySelectorAll('.formula, .result')].filter(e => !e.querySelector('mtable'))
+    .filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.textContent)"""
+
+
+def test_a_long_term_can_break_before_a_function_but_not_before_its_parenthesis() -> None:
+    page = derivation("double-pendulum").to_html()
+    parts = [re.sub(r"<[^>]*>", "", part) for part in re.findall(r'<span class="part">(.*?)</span>', page)]
+    assert {"sin", "cos"} < {part[:3] for part in parts}
+    assert not any(part.startswith(("(", "\u2009")) for part in parts)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
+def test_no_formula_is_wider_than_the_screen_of_a_telephone(tmp_path: Path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=CHROMIUM)
+        for name in ("double-pendulum", "four-bar"):
+            file = tmp_path / f"{name}.html"
+            file.write_text(derivation(name).to_html(), encoding="utf-8")
+            opened = browser.new_page(viewport={"width": 320, "height": 900})
+            opened.goto(file.as_uri())
+            assert opened.evaluate(WIDER) == [], name
+            assert opened.evaluate("document.documentElement.scrollWidth") == 320, name
+        browser.close()
