@@ -102,7 +102,7 @@ L = "L"
         (('L = "L"', 'law = "L*curent"'), "curent"),
         (('L = "1 H"', 'L = "1 F"'), "has the unit F, but H is needed"),
         (('unit = "C"', 'unit = "A"'), "has the unit A, but C is needed"),
-        (('L = "L"', 'law = "L*current^2"'), "L*current^2 has the unit kg m^2/s^2, but Wb is needed"),
+        (('L = "L"', 'law = "L*current^2"'), "L*current^2 has the unit N m, but Wb is needed"),
         (("[[inductor]]", "[[indcutor]]"), "inductor"),
     ],
 )

@@ -141,6 +141,12 @@ MISTAKES = {
     "a part of several": (["simulate", "-e", "triple"], "'triple-pendulum' or 'triple-pendulum-relative'?"),
     "an example as a file": (["new", "Cart_Pole.toml"], "Did you mean 'cart-pole'?"),
     "no example at all": (["new", "xyz"], "`lagrangian examples` lists them"),
+    "an example that is not there": (["new", "lecture-99"], "`lagrangian examples` lists them all"),
+    "a language's other name": (["export", "-e", "pendulum", "--to", "cc"], "Did you mean 'c'?"),
+    "a value for words": (["derive", "moving.toml", "--brief"], "coordinate 'x' has the value '10 m'"),
+    "the argument of another program": (["derive", "located.toml", "--brief"], "Did you mean 'at'? (known"),
+    "a force in N m": (["simulate", "-e", "cart-pole", "--input", "F=3 N*m"], "has the unit N m, but N is needed"),
+    "no equilibrium": (["linearize", "-e", "pendulum", "--at", "theta=0.3"], " rad/s^2 there"),
     "another ending of a model": (["new", "pendulum", "-o", "x.json"], "-o x.toml"),
     "another ending of its data": (["new", "pendulum", "--json", "-o", "x.toml"], "-o x.json"),
     "another ending of a schema": (["schema", "-o", "x.toml"], "-o x.json"),
@@ -159,6 +165,9 @@ def test_every_mistake_begins_with_the_same_word_and_says_what_would_be_right(
     monkeypatch.chdir(tmp_path)
     (tmp_path / "empty.toml").write_text("", encoding="utf-8")
     (tmp_path / "binary.toml").write_bytes(bytes(range(256)))
+    (tmp_path / "moving.toml").write_text('name = "a"\n[coordinates]\nx = "10 m"\n', encoding="utf-8")
+    located = '[coordinates]\nx = ""\n[[particle]]\nmass = 1\nposition = ["x", 0]\n'
+    (tmp_path / "located.toml").write_text(f'name = "a"\n{located}', encoding="utf-8")
     (tmp_path / "broken.toml").write_text((folder / "broken.toml").read_text(encoding="utf-8"), encoding="utf-8")
     argv, words = MISTAKES[case]
     assert main(argv) == 2
@@ -273,7 +282,8 @@ def test_every_help_has_an_example_that_is_read(
     assert lines, short
     assert all(line.split()[1] == verb for line in lines)
     assert "--json" in short
-    assert max(map(len, short.splitlines())) <= 105
+    assert all(len(line) <= 80 for line in lines)
+    assert max(map(len, short.splitlines())) <= 100
 
 
 @pytest.mark.parametrize("verb", VERBS)

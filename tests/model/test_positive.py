@@ -52,6 +52,19 @@ def test_rests_lie_on_the_positive_side(polar: lg.System) -> None:
     assert found == pytest.approx([0.5 - 9.81 / 40, 0.5 + 9.81 / 40])
 
 
+def test_rests_that_are_left_out_have_their_reason_and_no_box_is_spoken_of_that_was_not_given(polar: lg.System) -> None:
+    s = lg.System("two wells, one of them at a negative distance")
+    x = s.coordinate("x", unit="m", positive=True)
+    m, k, a = s.parameters("m k a", m=1, k=1, a=1)
+    s.particle(m, at=s.origin + (x, 0))
+    s.potential(k * ((x / a) ** 2 - 1) ** 2)
+    found = s.equilibria()
+    assert [e["x"] for e in found] == pytest.approx([1.0])
+    assert found.notes == ("2 more are left out, where a coordinate that is always positive is not (x)",)
+    outside = [n for n in polar.equilibria(box={"r": ("0.1 m", "0.5 m")}).notes if "outside" in n]
+    assert outside == ["1 more lies outside the box that was given"]
+
+
 def test_a_run_starts_at_a_positive_distance(polar: lg.System) -> None:
     with pytest.raises(RunError, match="'r' is declared positive, and starts at 0"):
         polar.simulate(1.0)

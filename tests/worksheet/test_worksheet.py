@@ -140,7 +140,9 @@ def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: 
     assert (
         main(["worksheet", "-e", "pendulum", "--variants", "1", "--seed", "5", "-o", str(sheets), "-f", "latex"]) == 0
     )
-    assert "other letters and values" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "other letters and values" in said
+    assert said.count("wrote ") == 3 == len(list(sheets.iterdir()))
     names = ["pendulum-5-questions.tex", "pendulum-5-solution.tex", "pendulum-5.toml"]
     assert sorted(p.name for p in sheets.iterdir()) == names
     answer = tmp_path / "answer.tex"

@@ -91,9 +91,9 @@ def animate(
 
     \b
     Examples:
-      lagrangian animate --example double-pendulum -d 10 --trail P2 -o pendulum.svg
-      lagrangian animate carts.toml -o carts.gif --set k=80 --init "x2=0.4 m" --speed 0.5
-      lagrangian animate cart.toml -d 5 --input "F=3*sin(t)" --fps 50 --width 800 -o cart.mp4
+      lagrangian animate -e double-pendulum -d 10 --trail P2 -o pendulum.svg
+      lagrangian animate carts.toml -o carts.gif --set k=80 --speed 0.5
+      lagrangian animate cart.toml -d 5 --input "F=3*sin(t)" --fps 50 -o cart.mp4
     """
     if output is None:
         raise Error("no file was given", fix="name one with -o: -o motion.svg, .html, .gif, .mp4 or .webm", code="E401")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+from difflib import get_close_matches
 from typing import Annotated
 
 import typer
@@ -65,6 +67,18 @@ def invoked(arguments: list[str]) -> int:
     return 0
 
 
+def _near_choice(what: str) -> list[str]:
+    """The value nearest to one that is not among the choices of an option: 'c' for 'cc'."""
+    listed, choices = _CHOICES.search(what), []
+    if listed is None:
+        return choices
+    choices, given = re.findall("'([^']*)'", listed["known"]), listed["given"].lower()
+    begins = [choice for choice in choices if given and (given.startswith(choice) or choice.startswith(given))]
+    return [f"'{choice}'" for choice in get_close_matches(given, choices, n=2, cutoff=0.6) or begins]
+
+
+_CHOICES = re.compile(r"'(?P<given>[^']*)' is not one of (?P<known>'.*')")
+
 _MISUSE: type[Exception] = typer.BadParameter.__mro__[1]
 """Typer's base class of all errors in options and arguments, which has no public name."""
 
@@ -75,7 +89,7 @@ def _said(wrong: Exception) -> Error:
     if isinstance(wrong, typer.BadParameter):
         what = wrong.format_message()
     what = " ".join(what.replace("Value error, ", "").split())
-    near = getattr(wrong, "possibilities", None)
+    near = getattr(wrong, "possibilities", None) or _near_choice(what)
     verb = context.command_path if context is not None else NAME
     fix = f"Did you mean {' or '.join(near)}?" if near else f"`{verb} --help` shows what it takes, with examples"
     return Error(what[:1].lower() + what[1:].rstrip("."), fix=fix)

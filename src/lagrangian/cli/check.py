@@ -107,7 +107,7 @@ def check(
       lagrangian check carts.toml answer.txt
       lagrangian check --example lecture-3b - --hint 1 < answer.tex
       lagrangian check carts.toml answers/ -o summary.csv --answers table.csv
-      lagrangian check carts.toml answers/ --points T=2,V=2,equations=4 --feedback replies/ --hint 1
+      lagrangian check carts.toml answers/ --points T=2,V=2 --feedback replies/
     """
     from lagrangian.check.reading import decode_answer
     from lagrangian.check.verb import check_answer, read_text

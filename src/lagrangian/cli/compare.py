@@ -54,7 +54,7 @@ def compare(
     Examples:
       lagrangian compare -e lecture-3a -e lecture-3b
       lagrangian compare mine.toml -e lecture-3b
-      lagrangian compare mine.toml theirs.toml --change "x2 = x1 + x2r" -o both.html
+      lagrangian compare mine.toml theirs.toml -c "x2 = x1 + x2r" -o both.html
     """
     wanted = chosen(format, json, output, force)
     from lagrangian.compare import compare as compared

@@ -33,7 +33,9 @@ class Language(StrEnum):
 
 
 def export(
-    to: Annotated[Language, typer.Option("--to", help="The language or the program.")],
+    to: Annotated[
+        Language, typer.Option("--to", metavar="TARGET", help=f"The language or the program: {', '.join(Language)}.")
+    ],
     file: OptionalFile = None,
     example: Example = None,
     output: Annotated[

@@ -53,7 +53,7 @@ def linearize(
     \b
     Examples:
       lagrangian linearize --example cart-pole
-      lagrangian linearize cart.toml --at theta=0 --set M=2 --output-of "tip=x + l*sin(theta)"
+      lagrangian linearize cart.toml -s M=2 --output-of "tip=x + l*sin(theta)"
       lagrangian linearize cart.toml --symbols -o cart.html
     """
     wanted = chosen(format, json, output, force)

@@ -112,7 +112,7 @@ def simulate(
     Examples:
       lagrangian simulate --example double-pendulum --duration 10 --plot run.png
       lagrangian simulate carts.toml -d 10 --set k=80 --init "x2=0.4 m" -o run.csv
-      lagrangian simulate cart.toml -d "500 ms" --input "F=3*sin(t)" --method taylor
+      lagrangian simulate cart.toml -d "500 ms" -i "F=3*sin(t)" --method taylor
     """
     from lagrangian import dynamics
 

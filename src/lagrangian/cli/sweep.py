@@ -152,8 +152,8 @@ def sweep(
     \b
     Examples:
       lagrangian sweep carts.toml k=10:100:50 m2=1:3:20 -d 10 -o sweep.nc
-      lagrangian sweep cart.toml 'm~normal(0.2, 0.02)' --draws 1000 --output-of "max x" -o sweep.zarr
-      lagrangian sweep carts.toml k=10:100:50 -d 10 --json
+      lagrangian sweep cart.toml 'm~normal(0.2, 0.02)' --draws 1000 -o sweep.zarr
+      lagrangian sweep carts.toml k=10:100:50 --output-of "max x1" --json
     """
     file, grid = _file_and_grid(given, example)
     _check_targets(output, plot, resume, force)

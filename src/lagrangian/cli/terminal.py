@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from lagrangian.cli.door import NARROWEST, USUAL, WIDEST
-from lagrangian.errors import Error
+from lagrangian.errors import Error, Place
 
 if TYPE_CHECKING:
     from lagrangian.system import System
@@ -175,7 +175,7 @@ def open_system(file: str | None, example: str | None = None) -> System:
         return loads(standard_input(), name="<standard input>")
     if file in example_names("") and not Path(file).exists():
         fix = f"--example {file} for the built-in example, or `lagrangian new {file} > {file}.toml` for a file of it"
-        raise Error(f"{file}: there is no such file", fix=fix, code="E702")
+        raise Error("there is no such file", place=Place(file), fix=fix, code="E702")
     return load(file)
 
 

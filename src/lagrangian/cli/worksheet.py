@@ -109,6 +109,8 @@ def worksheet(
         written.append({**sheet.to_dict(), "files": [str(path) for path in paths]})
         if not json:
             _tell(name, sheet)
+            for path in paths:
+                say(f"wrote {path}")
     if json:
         put(as_json(written))
 

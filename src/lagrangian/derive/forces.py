@@ -207,7 +207,7 @@ def _two_regimes(context: Context, friction: Friction) -> list[Item]:
             lam,
             " of this row takes the place of the effort:",
         ),
-        formula(fit(shown), sp.S.Zero, brief=True),
+        formula(fit(shown), sp.S.Zero, note=text("while ", friction.title, " sticks"), brief=True),
     ]
     for i, c in enumerate(model.coordinates):
         slope = bounded.diff(rate, c.rate)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,11 @@ CHARGE, CURRENT = Dim.of_unit(answers.CHARGE), Dim.of_unit(answers.CURRENT)
 
 SIDE = 10.0
 """Half the length of a side if no length is known."""
+
+
+LeftOut: TypeAlias = Literal["outside", "negative", "moving"]
+"""Why a root is not listed: it is outside the box that was given, has a positive coordinate that is not, or does not
+rest at other times."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,13 +55,27 @@ class Box:
         inside = (self.low <= 0) & (self.high >= 0) & ~self.positive
         return np.where(inside, 0.0, (self.low + self.high) / 2)
 
-    def placed(self, q: Array) -> tuple[Array, bool]:
-        """A root with whole turns subtracted so that it lies in the box, and whether it does on the given sides."""
+    def placed(self, q: Array) -> tuple[Array, LeftOut | None]:
+        """A root with whole turns subtracted so that it lies in the box, and why it is left out, if it is: it lies
+        outside a given side, or a positive coordinate is not."""
         slack = 1e-9 * (self.high - self.low)
         turned = self.low - slack + (q - self.low + slack) % TURN
         q = np.where(self.turns & self.given, turned, q)
         inside = (q >= self.low - slack) & (q <= self.high + slack)
-        return q, bool((inside | ~self.given).all() and (q > 0)[self.positive].all())
+        if not (q > 0)[self.positive].all():
+            return q, "negative"
+        return q, None if (inside | ~self.given).all() else "outside"
+
+    def words(self, why: LeftOut, count: int) -> str:
+        """How many roots are left out for a reason."""
+        one = count == 1
+        if why == "outside":
+            return f"{count} more {'lies' if one else 'lie'} outside the box that was given"
+        if why == "moving":
+            return f"{count} more {'holds' if one else 'hold'} at one time only, because forces change"
+        names = ", ".join(name for name, positive in zip(self.names, self.positive, strict=True) if positive)
+        is_left = "is" if one else "are"
+        return f"{count} more {is_left} left out, where a coordinate that is always positive is not ({names})"
 
 
 def make_box(

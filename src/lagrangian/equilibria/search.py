@@ -7,6 +7,7 @@ a round finds nothing new. Directions on which h does not depend are held; roots
 from __future__ import annotations
 
 import logging
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
-from lagrangian.equilibria.box import Box, make_box
+from lagrangian.equilibria.box import Box, LeftOut, make_box
 from lagrangian.equilibria.currents import SteadyCurrents, largest_charge
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.orientations import SoughtOrientations
@@ -83,7 +84,8 @@ def equilibria(
     listed = [task.equilibrium(q, hits) for q in proper]
     listed += [task.equilibrium(f.root, hits, f) for f in families if not task.is_singular(f.root)]
     left_out = [q for q in isolated if task.is_singular(q)]
-    kept = sorted((e for e in listed if e is not None), key=lambda e: [round(e.at[n], 9) + 0.0 for n in task.box.names])
+    kept = [e for e in listed if isinstance(e, Equilibrium)]
+    kept.sort(key=lambda e: [round(e.at[n], 9) + 0.0 for n in task.box.names])
     return Equilibria(
         model=model,
         found=tuple(kept),
@@ -92,7 +94,7 @@ def equilibria(
         held={task.box.names[k]: float(task.search.base[k]) for k in task.held},
         starts=count,
         sure=sure,
-        notes=_notes(task, kept, sure, left_out, len(listed) - len(kept)),
+        notes=_notes(task, kept, sure, left_out, Counter(e for e in listed if not isinstance(e, Equilibrium))),
     )
 
 
@@ -116,12 +118,12 @@ class _Task:
     orientations: SoughtOrientations = field(default_factory=SoughtOrientations)
     """The quaternions of floating frames."""
 
-    def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
-        """An equilibrium with its verdict; None if it is outside the box, or is not an equilibrium at other times."""
+    def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | LeftOut:
+        """An equilibrium with its verdict, or why it is left out."""
         count = hits.get(q.tobytes(), 0)
-        q, inside = self.box.placed(self.orientations.signed(q[None])[0])
-        if not inside or not self._rests_always(q):
-            return None
+        q, why = self.box.placed(self.orientations.signed(q[None])[0])
+        if why or not self._rests_always(q):
+            return why or "moving"
         q = self.without_rounding(q)
         x = np.concatenate(self.state(q))
         names = self.box.names
@@ -300,7 +302,7 @@ def _corners(task: _Task) -> Array:
 
 
 def _notes(
-    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], outside: int
+    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], unlisted: Counter[LeftOut]
 ) -> tuple[str, ...]:
     """Notes that a reader should know besides the list."""
     listed = []
@@ -324,9 +326,7 @@ def _notes(
             f"no force depends on {which}: what is sought is {'its' if alone else 'their'} steady "
             f"current {task.box.names[k]}"
         )
-    if outside:
-        why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
-        listed.append(f"{outside} more lie outside the box {why}")
+    listed += [task.box.words(why, count) for why, count in sorted(unlisted.items())]
     rows = [row.name for row in named_conditions(task.model) if not row.condition.on_positions]
     if rows:
         which = "the constraint" if len(rows) == 1 else "the constraints"

@@ -23,7 +23,8 @@ def text(name: str) -> str:
     'name = "pendulum"'
     """
     if name not in names():
-        fix = _near(name[:64]) or "`lagrangian examples` lists them"
+        near = _near(name[:64])
+        fix = f"{near} `lagrangian examples` lists them all" if near else "`lagrangian examples` lists them"
         raise ModelError(f"there is no example '{name[:64]}'", fix=fix, code="E402")
     return (files(__name__) / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
 

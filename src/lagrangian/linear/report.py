@@ -72,6 +72,7 @@ def _point(linear: LinearModel) -> Part:
 
 
 A, B, C, D, K, M, S, f = (Name(x) for x in ("A", "B", "C", "D matrix", "K", "M", "S", "f vector"))
+DAMPING = Name("damping matrix")
 x, u, y, q = (Name(f"{letter} vector") for letter in "xuyq")
 
 
@@ -125,9 +126,25 @@ def _matrices(linear: LinearModel) -> Part:
 
 
 def _second_order(linear: LinearModel) -> Part:
-    matrices = ((M, linear.mass), (D, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
+    matrices = ((M, linear.mass), (DAMPING, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
     own = linear.states[: 0 if linear.mass is None else len(linear.mass)]
-    rates = (M, " δ", Name(q.base, "", 2), " + ", D, " δ", Name(q.base, "", 1), " + ", K, " δ", q, " = ", S, " δ", u)
+    rates = (
+        M,
+        " δ",
+        Name(q.base, "", 2),
+        " + ",
+        DAMPING,
+        " δ",
+        Name(q.base, "", 1),
+        " + ",
+        K,
+        " δ",
+        q,
+        " = ",
+        S,
+        " δ",
+        u,
+    )
     items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, own)]
     items += [formula(name, matrix(found)) for name, found in matrices if found is not None and found.size]
     return Part(text("Small motions"), tuple(items))
@@ -194,7 +211,7 @@ def _combination(missing: Missing) -> str:
 
 def _symbols(linear: LinearModel, found: SymbolicLinearization) -> Part:
     items: list[Item] = [text("About ", *_exact_point(found), ":")]
-    named = [(M, found.M), (D, found.D), (K, found.K), (S, found.S), (A, found.A), (B, found.B)]
+    named = [(M, found.M), (DAMPING, found.D), (K, found.K), (S, found.S), (A, found.A), (B, found.B)]
     for name, m in named:
         if m.cols:
             rows = tuple(tuple(cast("sp.Expr", m[i, j]) for j in range(m.cols)) for i in range(m.rows))

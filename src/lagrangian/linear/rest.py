@@ -17,6 +17,7 @@ from lagrangian.linear.jacobians import Arrays, reads, values
 from lagrangian.linear.manifold import Manifold, point_words
 from lagrangian.model import Model
 from lagrangian.records import dataclass
+from lagrangian.values.dimensions import RATE
 from lagrangian.values.values import Given, Named
 
 Array = NDArray[np.float64]
@@ -245,16 +246,25 @@ def _newton_along(here: OperatingPoint, found: Arrays, n: int, t: float, manifol
     return -along @ np.linalg.lstsq(found["A"][n:] @ along, found["xdot"][n:], rcond=1e-12)[0]
 
 
+def _unit(model: Model, program: Program, k: int) -> str:
+    """The unit of the rate of state number ``k`` after a space, as far as it is known."""
+    dim = Given.of(model, program).states.dims[k]
+    if dim is None or dim.unknown:
+        return ""
+    text = str(dim.times(RATE))
+    return f" rad{text[1:]}" if text.startswith("1/") else f" {text}"
+
+
 def _refused(model: Model, here: OperatingPoint, program: Program, n: int, t: float) -> RunError:
     found = _values(program, here, t)
     worst = int(np.argmax(np.abs(found["xdot"][n:])))
     bound = ROUNDING * max(1.0, _largest(found["A"]))
     if np.abs(found["xdot"][n:]).max(initial=0.0) > bound:
         name = here.names[n + worst]
-        why = f"{name}' = {found['xdot'][n + worst]:.6g} there"
+        why = f"{name}' = {found['xdot'][n + worst]:.6g}{_unit(model, program, n + worst)} there"
     else:
         k = int(np.argmax(np.abs(found["xdot"][:n])))
-        why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}"
+        why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}{_unit(model, program, k)}"
     search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds them"]
     return RunError(
         f"{here.shown} is not an equilibrium: {why}",

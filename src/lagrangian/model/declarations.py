@@ -19,11 +19,22 @@ from lagrangian.model.geometry import as_expr
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
+from lagrangian.quantities.quantity import parse_quantity
 
 
 def _a(noun: str) -> str:
     """``a coordinate``, ``an input``."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
+
+
+def _is_value(description: str) -> bool:
+    """Whether a description is a number with a unit, such as ``10 m``, and says nothing of what is measured."""
+    if not description[:1].isdigit() and description[:1] not in ("+", "-", "."):
+        return False
+    try:
+        return not parse_quantity(description).is_bare
+    except ModelError:
+        return False
 
 
 class Declarations:
@@ -96,6 +107,13 @@ class Declarations:
             raise ModelError(
                 f"positive must be True or False for coordinate '{name}' (got {positive!r:.40})",
                 place=place,
+                code="E406",
+            )
+        if _is_value(description):
+            raise ModelError(
+                f"coordinate '{name}' has the value '{description}' in place of words: it moves, and has no value",
+                place=place,
+                fix="say what it measures; its value at the start is given to a run, as initial value",
                 code="E406",
             )
         made = Coordinate(name, moving_symbol(name, positive=positive), description, unit, place, positive=positive)

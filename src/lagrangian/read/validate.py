@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
+from lagrangian.calls import MEANT
 from lagrangian.errors import ParseError, Place, did_you_mean
 from lagrangian.quantities.source import printable, shown
 from lagrangian.read.file_schema import ModelFile
@@ -169,7 +170,8 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     element = owner(path, data) or None
     if kind == "extra_forbidden":
         known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
-        hint = did_you_mean(str(name)[:64], known)
+        meant = MEANT.get(str(name))
+        hint = f"Did you mean '{meant}'?" if meant in known else did_you_mean(str(name)[:64], known)
         listed = "known: " + ", ".join(known)
         return ParseError(
             f"unknown field {shown(str(name))}",

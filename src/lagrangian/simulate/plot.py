@@ -57,8 +57,6 @@ KINDS = {
 }
 """The common meaning of quantities with a unit."""
 
-NAMED = {"kg m/s^2": "N", "kg m^2/s^2": "N m", "kg m^2/s^3": "W", "kg/s^2": "N/m", "kg/s": "N s/m"}
-
 
 class Units:
     """The SI units of a model's quantities, as far as its declarations and its geometry determine them."""
@@ -99,7 +97,7 @@ class Units:
             if own is None or own.unknown:
                 return ""
             found = (ENERGY if row.position is not None else ENERGY.times(RATE)).times(own, Fraction(-1))
-        return NAMED.get(str(found), str(found))
+        return str(found)
 
     def _worked_out(self, expr: sp.Expr) -> str:
         if self._dims is None:
@@ -110,10 +108,7 @@ class Units:
             return ""
         if found is None or found.unknown or found == NONE:
             return ""
-        text = str(found)
-        if found == NONE.times(RATE):
-            return "1/s"
-        return NAMED.get(text, text)
+        return str(found)
 
 
 def _angles(model: Model) -> set[Any]:

@@ -66,18 +66,24 @@ class Dim:
         return NONE.times(self, exponent)
 
     def __str__(self) -> str:
-        """Return the dimension as a unit: ``kg m^2/s^2``, or ``1`` for none; one of electricity by its name."""
-        if self.known in ELECTRIC:
-            return ELECTRIC[self.known]
-        over = [_factor(u, e) for u, e in zip(BASE, self.known, strict=True) if e > 0]
-        under = [_factor(u, -e) for u, e in zip(BASE, self.known, strict=True) if e < 0]
+        """Return the dimension as a unit: ``kg m^2``, or ``1`` for none; one that has a name by its name, ``N m``."""
+        if self.known in NAMED:
+            return NAMED[self.known]
+        over, under = ([_factor(u, s * e) for u, e in zip(BASE, self.known, strict=True) if s * e > 0] for s in (1, -1))
         text = " ".join(over) or "1"
         return text + ("/" + ("(" + " ".join(under) + ")" if len(under) > 1 else under[0]) if under else "")
 
 
-ELECTRIC: dict[Exponents, str] = {
+NAMED: dict[Exponents, str] = {
     (*unit, *(0,) * (len(BASE) - len(unit))): name
     for unit, name in (
+        (answers.FORCE, "N"),
+        (answers.ENERGY, "N m"),
+        (answers.POWER, "W"),
+        ((1, 0, -2), "N/m"),
+        ((1, 0, -1), "N s/m"),
+        ((1, 2, -1), "N m s"),
+        ((1, -1, -2), "Pa"),
         (answers.CHARGE, "C"),
         (answers.VOLTAGE, "V"),
         (answers.FLUX, "Wb"),
@@ -89,7 +95,7 @@ ELECTRIC: dict[Exponents, str] = {
         ((1, 1, -2, -1), "N/A"),
     )
 }
-"""The units of electricity that have a name of their own."""
+"""The units that people call by a name, or as a product of named ones, rather than by base units."""
 
 
 def _whole(x: Power) -> Power:

@@ -113,7 +113,7 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
 }
 _VECTORS = (
     {letter: letter for letter in "MCGqABJKS"}
-    | {"D matrix": "D"}
+    | {"D matrix": "D", "damping matrix": "Gamma"}
     | {f"{x} vector": x for x in ("x", "u", "y", "q", "f", "p", "gamma", "lambda")}
 )
 """The letters of matrices and vectors, which are bold if a symbol of the system has the same letter."""

@@ -13,7 +13,6 @@ import sympy as sp
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import READABLE, Context, fit
 from lagrangian.derive.derived import Step
-from lagrangian.derive.lagrange import SUMMED
 from lagrangian.derive.multiplier import Multiplier
 from lagrangian.derive.multipliers.rows import RowForms
 from lagrangian.model.rows import Row
@@ -79,7 +78,7 @@ def constraint_step(
             "A constraint's force does no work on a motion that the constraint allows. So it is λ times the slope of "
             "the row, and by virtual work, as for any other force, it adds to the right-hand side of equation i:"
         ),
-        formula(*by_multipliers(), note=SUMMED, brief=True),
+        formula(*by_multipliers(), note=ADDED, brief=True),
         _table(added),
     ]
     if any(one.position is None for one in known):
@@ -97,6 +96,9 @@ def constraint_step(
         tuple(text(one.symbol, " is ", *one.words.parts) for one in known),
     )
 
+
+ADDED = text("added to the right-hand side of equation i, summed over the rows r")
+"""What the multipliers do to the equations."""
 
 NEVER_INTO_L: tuple[str | Left, ...] = (
     "A constraint on velocities is never put into ",
