@@ -69,9 +69,12 @@ class Dim:
         """Return the dimension as a unit: ``kg m^2``, or ``1`` for none; one that has a name by its name, ``N m``."""
         if self.known in NAMED:
             return NAMED[self.known]
-        over, under = ([_factor(u, s * e) for u, e in zip(BASE, self.known, strict=True) if s * e > 0] for s in (1, -1))
-        text = " ".join(over) or "1"
-        return text + ("/" + ("(" + " ".join(under) + ")" if len(under) > 1 else under[0]) if under else "")
+        powers = [(unit, e) for unit, e in zip(BASE, self.known, strict=True) if e]
+        over, under = (
+            [unit if e == sign else f"{unit}^{sign * e}" for unit, e in powers if sign * e > 0] for sign in (1, -1)
+        )
+        below = f"({' '.join(under)})" if len(under) > 1 else "".join(under)
+        return (" ".join(over) or "1") + (f"/{below}" if below else "")
 
 
 NAMED: dict[Exponents, str] = {
@@ -100,10 +103,6 @@ NAMED: dict[Exponents, str] = {
 
 def _whole(x: Power) -> Power:
     return x.numerator if x.denominator == 1 else x
-
-
-def _factor(unit: str, exponent: Power) -> str:
-    return unit if exponent == 1 else f"{unit}^{exponent}"
 
 
 def _dim(*exponents: int) -> Dim:
@@ -322,7 +321,7 @@ def _claim(dims: Dimensions, element: Any, what: str, expr: sp.Expr, wanted: Dim
 
 
 def _is_standard_gravity(x: Any) -> bool:
-    """Whether this is the parameter that `gravity` adds by default."""
+    """Whether `gravity` added this parameter."""
     return isinstance(x, Parameter) and (x.name, x.unit, x.value) == ("g", "m/s^2", 9.81)
 
 
