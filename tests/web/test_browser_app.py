@@ -316,3 +316,34 @@ def test_the_motion_runs_in_a_frame_that_cannot_reach_the_app(page: Any) -> None
         assert inside.evaluate(tried) == "SecurityError"
     page.get_by_role("link", name="Editor").click()
     assert page.locator("#model-editor textarea").is_visible()
+
+
+BRAKED = """name = "block"
+[coordinates]
+x = ""
+[points]
+P = ["x", 0]
+[[particle]]
+mass = 2
+at = "P"
+[[friction]]
+name = "floor"
+mu = 0.5
+normal = 20
+deflection = "x"
+[simulate]
+duration = "1 s"
+initial = { "x'" = 2 }
+"""
+
+
+def test_a_run_says_how_long_friction_sticks(page: Any) -> None:
+    """A block at 2 m/s that brakes with μ g = 5 m/s² rests after 0.4 s; friction has no page that moves."""
+    page.get_by_role("button", name="New model").click()
+    page.wait_for_selector("#derive-state.right")
+    typed(page, page.locator("#model-editor textarea"), BRAKED)
+    page.wait_for_selector("#derive-state.right")
+    page.get_by_role("link", name="Motion").click()
+    expect(page.locator("#motion p[role=status]").last).to_have_text(
+        re.compile(r"Friction floor sticks once, 0\.6(00)? s in all\.$")
+    )
