@@ -34,8 +34,8 @@ WRONG: dict[str, tuple[Callable[[lg.System, Any, Any], object], str, str]] = {
         lambda s, q, x: s.capacitor(1, charge=2 * s.t), "E412", "no coordinate is in its charge 2*t"
     ),
     "one coil twice": (lambda s, q, x: s.mutual_inductance(1, q, q), "E410", "both of its coils have the same charge"),
-    "an inductance of a rate": (lambda s, q, x: s.inductor(x.diff(), q), "E419", "the inductance holds a rate, x'"),
-    "an inductance of an input": (lambda s, q, x: s.inductor(s.input("w"), q), "E417", "holds the input"),
+    "an inductance of a rate": (lambda s, q, x: s.inductor(x.diff(), q), "E419", "the inductance contains a rate, x'"),
+    "an inductance of an input": (lambda s, q, x: s.inductor(s.input("w"), q), "E417", "contains the input"),
     "a law without integral": (lambda s, q, x: s.inductor(None, q, law=lambda i: sp.sin(i**3)), "E415", "coenergy"),
     "a law that cannot be called": (lambda s, q, x: s.resistor(charge=q, law=lambda i: i < 1 and i), "E406", "law"),
     "a capacitance of 0": (lambda s, q, x: s.capacitor(0, q), "E103", "its capacitance is zero"),

@@ -315,7 +315,7 @@ def test_other_groups_can_be_held_too():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (([0.1, 0.2, 0.3], [0.0, 0.0]), r"q has 3 values \(shape \(3,\)\), the program has 2: a, b"),
+        (([0.1, 0.2, 0.3], [0.0, 0.0]), r"q has 3 values \(shape \(3,\)\), but needs 2: a, b"),
         ((0.1, [0.0, 0.0]), "q is a single number"),
         (([0.1, 0.2], [[0.0], [0.0]]), "v has 1 values"),
         ((np.zeros((3, 2)), np.zeros((4, 2))), "leading shapes do not fit together"),

@@ -322,11 +322,11 @@ def test_what_does_not_fit_is_refused():
         s.torque(tau, on=base)
     with pytest.raises(lg.ModelError, match="entry of a quaternion"):
         s.generalized_force(s["base_qx"], tau)
-    with pytest.raises(lg.ModelError, match="holds a rate, base_vx"):
+    with pytest.raises(lg.ModelError, match="contains a rate, base_vx"):
         s.point("P", (s["base_vx"], 0, 0))
     with pytest.raises(lg.ModelError, match="holds a velocity, base_wx"):
         s.potential(s["base_wx"])
-    with pytest.raises(lg.ModelError, match="holds an acceleration, base_wx'"):
+    with pytest.raises(lg.ModelError, match="contains an acceleration, base_wx'"):
         s.dissipation(s["base_wx"].diff())
     with pytest.raises(lg.ModelError, match="has 2 components"):
         s.point("Q", (0, 1))

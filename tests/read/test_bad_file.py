@@ -187,8 +187,8 @@ BAD = [
         5,
         ["'Q', which is defined after it"],
     ),
-    ("rate in a point", change('"x", "0"', '"x\'", "0"'), 14, 1, ["holds a rate", "E308"]),
-    ("rate in V", GOOD + '[energies]\nV = "m*x\'^2"\n', 25, 1, ["potential energy V holds a rate", "E419"]),
+    ("rate in a point", change('"x", "0"', '"x\'", "0"'), 14, 1, ["contains a rate", "E308"]),
+    ("rate in V", GOOD + '[energies]\nV = "m*x\'^2"\n', 25, 1, ["potential energy V contains a rate", "E419"]),
     ("acceleration in T", GOOD + "[energies]\nT = \"m*x''\"\n", 25, 1, ["acceleration", "E418"]),
     (
         "mass that moves",

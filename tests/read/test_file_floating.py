@@ -178,7 +178,7 @@ def test_the_schema_wants_an_angle_or_floating() -> None:
         ('k = "3 N/m"', 'k = "3 N/m"\nhull_vx = 1', "'hull_vx' is defined twice", "hull_vx"),
         ("hull_wx = ", '"hull_x\'" = ', "no coordinate 'hull_x'", "initial"),
         ('deflection = "height"', 'deflection = "hull_vz"', "holds a velocity, hull_vz", "[[damper]]"),
-        ("offset = [0.1, 0, 0.2]", 'offset = [0.1, "hull_wz", 0.2]', "holds a rate, hull_wz", "tip"),
+        ("offset = [0.1, 0, 0.2]", 'offset = [0.1, "hull_wz", 0.2]', "contains a rate, hull_wz", "tip"),
         ('coordinate = "third_wz"', 'coordinate = "third_qz"', "an entry of a quaternion", "[[generalized_force]]"),
         ("floating = true", 'floating = "yes"', "'floating' must be true or false", "floating"),
         ('value = ["T", 0, 0]\non', 'value = "T"\non', r"does not say about which axis", "[[torque]]"),

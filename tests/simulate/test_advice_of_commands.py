@@ -42,7 +42,10 @@ at = ["x", "0"]
             ["simulate", "FILE", "-d", "9", "--set", "m=1", "--max-steps", "3"],
             "a larger --max-steps, or --method Radau",
         ),
-        (["linearize", "-e", "cart-pole", "--at", "theta=1"], "`lagrangian equilibria` finds them; --operating-point"),
+        (
+            ["linearize", "-e", "cart-pole", "--at", "theta=1"],
+            "`lagrangian equilibria` finds equilibria; --operating-point",
+        ),
         (["linearize", "FILE"], "Fix: give --set m=…"),
     ],
 )

@@ -137,13 +137,15 @@ class Assembler:
         shown = ", ".join(f"'{name}' by {gap:.3g}" for name, gap in worst[:4] if gap > 0)
         freed = [name for name in self.fixed if self._closes_without(name, guess, p, t)]
         if freed:
-            fix = f"do not hold {' or '.join(freed[:4])} fixed: freed alone, it lets the loop close"
+            fix = f"do not hold {' or '.join(freed[:4])} fixed: without that, the loop closes"
         elif self.fixed:
-            fix = "no position closes with any one of the fixed coordinates freed: look at the lengths"
+            fix = "no position closes, whichever one of the fixed coordinates is freed: check the lengths"
         else:
             fix = "look at the lengths: no position with them closes the loop"
         return RunError(
-            f"no position was found that satisfies the constraints (nearest: {shown} open)", fix=fix, code="E304"
+            f"no position was found that satisfies the constraints (in the nearest position, {shown} open)",
+            fix=fix,
+            code="E304",
         )
 
     def _closes_without(self, name: str, guess: Array, p: Array, t: float) -> bool:

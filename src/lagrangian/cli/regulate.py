@@ -86,7 +86,9 @@ def _linearized(system: System, where: dict[str, Any]) -> Linearization:
         if error.code != "E521":
             raise
         held = Advice(
-            Verb("equilibria"), " finds them; constant inputs may hold the point, ", Argument("inputs", "5", "F")
+            Verb("equilibria"),
+            " finds equilibria; constant inputs may hold the point, ",
+            Argument("inputs", "5", "F"),
         )
         raise RunError(error.what, fix=held, code=error.code) from error
 

@@ -64,7 +64,7 @@ class InputGroup:
         if array.ndim == 0 or array.shape[-1] != size:
             found = "is a single number" if array.ndim == 0 else f"has {array.shape[-1]} values (shape {array.shape})"
             raise RunError(
-                f"{self.name} {found}, the program has {size}: {listed(self.entries)}",
+                f"{self.name} {found}, but needs {size}: {listed(self.entries)}",
                 code="E501",
                 fix=f"give an array of shape (..., {size}), entries in that order",
             )

@@ -153,7 +153,7 @@ def _refuse(model: Model, blocks: Sequence[Rows], seen: np.ndarray, stacked: np.
                 code="E104",
             )
         raise ModelError(
-            f"coordinate '{c.name}' moves nothing that has mass: wiggle it alone and every body stays",
+            f"coordinate '{c.name}' moves nothing that has mass: if it alone changes, every body stays",
             place=c.place,
             fix=f"leave '{c.name}' out, or put it into the position of a body",
             code="E201",
@@ -164,9 +164,9 @@ def _refuse(model: Model, blocks: Sequence[Rows], seen: np.ndarray, stacked: np.
     listed = " and ".join(f"'{name}'" for name, _ in involved)
     place = model.coordinates[names.index(involved[-1][0])].place
     raise ModelError(
-        f"coordinates {listed} are dependent: wiggle {wiggled} together and nothing with mass moves",
+        f"coordinates {listed} are dependent: nothing with mass moves if they change together, {wiggled}",
         place=place,
-        fix=f"{len(names)} coordinates describe {_rank(stacked)} degrees of freedom; remove one of them",
+        fix=f"{len(names)} coordinates are too many (independent: {_rank(stacked)}); remove one of them",
         code="E202",
     )
 

@@ -265,7 +265,7 @@ def _refused(model: Model, here: OperatingPoint, program: Program, n: int, t: fl
     else:
         k = int(np.argmax(np.abs(found["xdot"][:n])))
         why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}{_unit(model, program, k)}"
-    search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds them"]
+    search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds equilibria"]
     return RunError(
         f"{here.shown} is not an equilibrium: {why}",
         fix=Advice(*search, "; ", ANY_POINT, " linearizes about any point and keeps the constant term (drift)"),

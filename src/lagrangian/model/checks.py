@@ -45,20 +45,22 @@ def check_use(
             )
         if order >= 2:
             raise error(
-                f"the {use.what} holds an acceleration, {name}{chr(39) * int(d.derivative_count)}",
+                f"the {use.what} contains an acceleration, {name}{chr(39) * int(d.derivative_count)}",
                 "energies and forces depend on coordinates, rates and t; accelerations come out of the equations",
                 "E418",
             )
         if use.level < Level.VELOCITY:
             holds = "coordinates" if use.level == Level.POSITION else "parameters"
-            raise error(f"the {use.what} holds a rate, {name}'", f"it may depend on {holds} only, not on rates", "E419")
+            raise error(
+                f"the {use.what} contains a rate, {name}'", f"it may depend on {holds} only, not on rates", "E419"
+            )
     for atom in sorted(full.atoms(AppliedUndef), key=str):
         if atom in velocities and use.level < Level.VELOCITY:
             holds = "coordinates" if use.level == Level.POSITION else "parameters"
             raise error(f"the {use.what} holds a velocity, {atom.func}", f"it may depend on {holds} only", "E419")
         if atom in inputs and not use.inputs:
             raise error(
-                f"the {use.what} holds the input '{inputs[atom]}'",
+                f"the {use.what} contains the input '{inputs[atom]}'",
                 "a constraint may depend on t, but not on inputs: write the prescribed motion as an expression in t"
                 if element.ledger == "λ"
                 else "use parameters for constants; an input is a force, a torque or a prescribed rest length",
@@ -107,7 +109,7 @@ def check_position(
     rates = [f"{d.expr.func}'" for d in full.atoms(sp.Derivative)]
     for rate in sorted([*rates, *(name for v, name in velocities.items() if full.has(v))]):
         raise ModelError(
-            f"{where} holds a rate, {rate}",
+            f"{where} contains a rate, {rate}",
             place=place,
             fix="a position depends on coordinates, parameters and t only",
             code="E308",
@@ -115,14 +117,14 @@ def check_position(
     for kink in sorted(full.atoms(sp.Abs, sp.sign, sp.Min, sp.Max, sp.Heaviside), key=str):
         if kink.has(AppliedUndef, time):
             raise ModelError(
-                f"{where} holds {plain(kink)}: the velocity would jump at its kink",
+                f"{where} contains {plain(kink)}: the velocity would jump at its kink",
                 place=place,
                 fix="a position needs two derivatives; use functions with kinks only in forces and energies",
                 code="E308",
             )
     for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
         raise ModelError(
-            f"{where} holds the input '{inputs[atom]}', whose velocity is not known",
+            f"{where} contains the input '{inputs[atom]}', whose velocity is not known",
             place=place,
             fix="prescribe the motion as an expression in t, or make it a coordinate",
             code="E417",

@@ -72,7 +72,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
         raise ModelError(f"{what} holds a number that {too_large(float(large))}", place=place, fix=SMALLER, code="E101")
     if (part := unknown_part(expr)) is not None:
         raise ModelError(
-            f"{what} holds {str(part)[:60]}, which is not supported ({type(part).__name__})",
+            f"{what} contains {str(part)[:60]}, which is not supported ({type(part).__name__})",
             place=place,
             fix="write it with sin, cos, exp, log, sqrt, Abs, Piecewise and the like",
             code="E402",

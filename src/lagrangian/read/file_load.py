@@ -36,7 +36,7 @@ def load(path: str | FilePath) -> Builder:
         with FilePath(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except FileNotFoundError:
-        raise _unreadable(name, "there is no such file", "check the path; `lagrangian new NAME` writes one") from None
+        raise _unreadable(name, "there is no such file", "check the path; `lagrangian new NAME` prints one") from None
     except IsADirectoryError:
         raise _unreadable(name, "this is a folder, not a file", "name the model file in it") from None
     except PermissionError:

@@ -55,7 +55,7 @@ def _number(value: object, what: str, dim: Dim | None) -> float:
         if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
             raise RunError(
                 f"{what} = {value!r} has the unit {_unit(found)}, but {_unit(dim)} is needed",
-                fix="check that it is the intended quantity, or give a number in SI units without a unit",
+                fix="check the name and the unit, or give a number in SI units without a unit",
                 code="E408",
             )
         return quantity.value

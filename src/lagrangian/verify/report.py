@@ -11,7 +11,7 @@ from lagrangian.page.report import Part, Report
 from lagrangian.verify.foreign.checks import RUNNERS
 
 NEVER = (
-    "Pages in HTML, pictures, animations, worksheets and stores of sweeps: the tests of this package hold them, "
+    "Pages in HTML, pictures, animations, worksheets and stores of sweeps: the tests of this package check them, "
     "with other systems than this."
 )
 """What no check is made of."""

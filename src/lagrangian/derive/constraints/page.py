@@ -139,7 +139,7 @@ def constraints(model: Model, readable: Callable[[sp.Expr], Left]) -> Constraint
             f"it contradicts {_names(row.repeats)}" if row.repeats else "no position satisfies it",
             element=f"constraint '{row.name}'",
             place=element.place,
-            fix="leave one of them out, or make their right-hand sides agree",
+            fix="leave one of them out, or change one so that both can hold",
             code="E302",
         )
     ways = proposals(found.integrals, coordinates, time)
