@@ -118,6 +118,7 @@ def test_statistics_by_mistake_step_and_element() -> None:
     first = found.statistics[0]
     assert first.count == 2 and first.sentence.startswith("2 of 5") and first.sentence.endswith("(step 2).")
     assert first.sentence in str(found)
+    assert f"wrong: {first.name.replace('_', ' ')}" in str(found) and "_" not in str(found)
 
 
 def test_feedback_tells_no_more_than_its_level(tmp_path: Path) -> None:

@@ -115,7 +115,7 @@ def test_the_door_is_the_only_way_out() -> None:
 MISTAKES = {
     "an option": (["derive", "--breif"], "no such option: --breif"),
     "a verb": (["derve"], "Did you mean 'derive'"),
-    "a value": (["derive", "x.toml", "--width", "3"], "--width"),
+    "a value": (["derive", "x.toml", "--width", "3"], "'--width': it should be greater than or equal to 40"),
     "nothing to work on": (["derive"], "--example NAME"),
     "two things to work on": (["derive", "x.toml", "-e", "pendulum"], "both a file and --example were given"),
     "a file": (["derive", "nowhere.toml"], "nowhere.toml"),

@@ -88,7 +88,7 @@ def _said(wrong: Exception) -> Error:
     what, context = str(getattr(wrong, "message", wrong)), getattr(wrong, "ctx", None)
     if isinstance(wrong, typer.BadParameter):
         what = wrong.format_message()
-    what = " ".join(what.replace("Value error, ", "").split())
+    what = " ".join(what.replace("Value error, ", "").replace("Input should be", "it should be").split())
     near = getattr(wrong, "possibilities", None) or _near_choice(what)
     verb = context.command_path if context is not None else NAME
     fix = f"Did you mean {' or '.join(near)}?" if near else f"`{verb} --help` shows what it takes, with examples"

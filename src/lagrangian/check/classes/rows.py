@@ -103,7 +103,7 @@ class ClassRow:
         """What is said after the verdict: the trouble, the mistakes, what is missing."""
         if self.trouble:
             return self.trouble
-        named = [m for m in self.mistakes if m not in ("incomplete", "wrong", "other_coordinates")]
+        named = [m.replace("_", " ") for m in self.mistakes if m not in ("incomplete", "wrong", "other_coordinates")]
         moved = ["not the coordinates asked for"] if self.record["moved"] else []
         return ", ".join([*named, *moved, *(f"lacks {x}" for x in self.lacks)])
 
