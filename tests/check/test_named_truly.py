@@ -266,3 +266,16 @@ def test_parts_of_a_velocity_along_axes_that_turn(energy: str, said: str) -> Non
     s.particle(s.parameter("m"), at=s.point("P", (x, y), frame=s.frame(omega * time)), name="m")
     (mistake,) = s.derive().check(f"T = {energy}").mistakes
     assert said in str(mistake.what), str(mistake.what)
+
+
+def test_a_spring_linearized_alone_is_one_mistake_and_gravity_is_not_blamed() -> None:
+    s = lg.System("two pendula")
+    p, q = s.coordinate("p"), s.coordinate("q")
+    m, l, a, k = (s.parameter(x) for x in ("m", "l", "a", "k"))
+    for name, angle in (("left", p), ("right", q)):
+        s.particle(m, at=s.point(name, (l * sp.sin(angle), -l * sp.cos(angle))), name=name)
+    s.gravity((0, -1), s.parameter("g"))
+    s.spring(k, deflection=a * (sp.sin(q) - sp.sin(p)), name="k")
+    rows = "m*l^2*p'' + m*g*l*sin(p) - k*a^2*(q - p) = 0\nm*l^2*q'' + m*g*l*sin(q) + k*a^2*(q - p) = 0"
+    (mistake,) = s.derive().check(rows).mistakes
+    assert mistake.element == "spring 'k'" and "sin θ was replaced by θ" in str(mistake.what)

@@ -271,7 +271,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
     more = distinct(_once([*elsewhere, *listed], told), told)
     single = len(chosen) == 1 and (chosen[0][0].mistake.wrong is not None or chosen[0][0].cost <= LIKELY)
-    far = any(t.cost > FAR for t, _ in chosen) or sum(t.cost for t, _ in chosen) > FAR_TOGETHER * len(chosen)
+    costs = [t.cost for t, _ in chosen]
+    far = max(costs) > FAR or (len(costs) > 1 and sum(costs) > FAR_TOGETHER * len(costs))
     return NamedMistakes(told, more[:5], single, not far)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 import sympy as sp
 
@@ -25,6 +25,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             some = {f: x for f, x in table.items() if isinstance(f, kind)}
             if 0 < len(some) < len(table):
                 yield Variant(what=what, V=put(s.V, some) - s.V)
+        yield from _of_one(s, table)
     rows = [s.expand(e.lhs) - s.expand(e.rhs) for e in s.derivation.equations]
     replaced = {f: small(f) for row in rows for f in row.atoms(sp.sin, sp.cos) if s.moves(f)}
     if not replaced:
@@ -33,6 +34,17 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(changed, rows, strict=True))})
     linear = [first_order(c, (*s.q, *s.v, *s.a)) for c in changed]
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(linear, rows, strict=True))})
+
+
+def _of_one(s: Ingredients, table: Mapping[sp.Expr, sp.Expr]) -> Iterator[Variant]:
+    """In the energy of one spring alone, if others hold angles, too."""
+    held = [(spring, V) for spring, _, V in s.springs() if V.has(*table)]
+    for spring, V in held if len(held) + len(list(s.weights())) > 1 else ():
+        what = text(f"In the energy of {spring.title}, sin θ was replaced by θ, as if the motion were small.")
+        yield Variant(what=what, V=put(V, table) - V, element=spring)
+        sines = {f: x for f, x in table.items() if isinstance(f, sp.sin)}
+        if V.has(*sines) and len(sines) < len(table):
+            yield Variant(what=what, V=put(V, sines) - V, element=spring)
 
 
 def small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
