@@ -222,4 +222,8 @@ def test_a_limb_in_a_ball_joint_is_not_called_hinged() -> None:
     system.rigid_body(m, (J, J, J), at=boom.point((L, 0, 1)), frame=boom, name="boom")
     limb = system.ball_frame("limb", parent=boom, origin=boom.point((2 * L, 0, 1)))
     system.rigid_body(m, (J, J, J), at=limb.point((0, 0, -L)), frame=limb, name="arm")
-    assert "a boom hinged on the ground; an arm on a ball joint on the boom" in system.look().description.lower()
+    tip = limb.point((0, 0, -2 * L))
+    system.rigid_body(m, (J, J, J), at=tip, frame=limb, name="foot")
+    words = system.look().description.lower()
+    assert words.startswith("a boom hinged on the ground; an arm on a ball joint on the boom; a foot ")
+    assert words.count("hinged") == 1

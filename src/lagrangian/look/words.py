@@ -154,13 +154,26 @@ class _Sentences:
 
     def _jointed(self, part: Player, joint: int) -> str:
         """How a body with a joint besides its centre is held there."""
-        on, turns = self.owner(joint, part), self.motions.turns(part.frame)
+        on, turns = self._beyond(part, joint) or self.owner(joint, part), self.motions.turns(part.frame)
         if on.startswith("point ") and self.motions.holds[joint].how is HoldKind.FREE:
             return self._free
         if on == GROUND and len(turns) > 1 and self.space:
             return "turning about a fixed point"
-        ball = part.body.axes is not None and part.body.axes.floating is not None
-        return f"{'on a ball joint on' if ball else 'hinged on' if turns else 'fixed to'} {on}"
+        welded = next((x for x in self.parts if x.frame == part.frame and self.body(x) == on), None)
+        if not turns or (welded is not None and self.parts.index(welded) < self.parts.index(part)):
+            return f"fixed to {on}"
+        axes = part.body.axes
+        if welded is not None:  # that one is fixed to this one, which turns on what carries the joint
+            on = (self.of_axes(axes.parent) if axes is not None and axes.parent is not None else None) or "what moves"
+        ball = axes is not None and axes.floating is not None and self.stage.index(axes.origin) == joint
+        return f"{'on a ball joint on' if ball else 'hinged on'} {on}"
+
+    def _beyond(self, part: Player, joint: int) -> str:
+        """A body at a moving joint that does not turn with this one, as what is welded to it does."""
+        if self.motions.still(joint):
+            return ""
+        others = [x for x in self.parts if x.frame != part.frame and joint in (x.point, *x.points)]
+        return self.body(next((x for x in others if x.point == joint), others[-1])) if others else ""
 
     @property
     def _free(self) -> str:
