@@ -97,7 +97,7 @@ def test_slopes_are_those_of_assembled_neighbours() -> None:
 
 def test_a_point_must_satisfy_the_constraints() -> None:
     system = rod()
-    with pytest.raises(RunError, match="does not satisfy the constraints: near it y is") as error:
+    with pytest.raises(RunError, match="does not satisfy the constraints: the nearest point that does has") as error:
         system.linearize({"x": 0.1, "y": -1.4})
     assert error.value.code == "E521" and "assemble" in error.value.fix
     assert system.linearize({"y": -1.4}, fixed="x").at["y"] == pytest.approx(-1.5, rel=1e-15)

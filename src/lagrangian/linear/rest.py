@@ -125,11 +125,12 @@ def _allowed(manifold: Manifold, here: OperatingPoint, t: float, fixed: Sequence
     name = here.names[worst]
     if fixed is None and _largest(change / (1 + np.abs(here.x))) > NEAR:
         raise RunError(
-            f"{here.shown} does not satisfy the constraints: near it {name} is {x[worst]:.6g}",
+            f"{here.shown} does not satisfy the constraints: the nearest point that does has {name} = {x[worst]:.6g}",
             fix=Advice(
                 "give ",
                 Argument("fixed", repr(here.names[0])),
-                " with the coordinates that stay, to have the point moved onto the constraints",
+                " with the coordinates that stay, and the others are moved onto the constraints; or "
+                "take the point that compile().assemble(q, v) returns",
             ),
             code="E521",
         )

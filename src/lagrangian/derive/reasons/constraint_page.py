@@ -77,7 +77,7 @@ def constraint_work(why: Reasoning) -> Part:
     so = "it is zero" if not why.derived.shares.rows else "both sides agree"
     items.append(
         text(
-            f"That {so} is nothing but the equation of motion: Lagrange's equation for ",
+            f"That {so} is the equation of motion itself: Lagrange's equation for ",
             Name("xi", "j"),
             " is F = ma along the wiggle of ",
             Name("xi", "j"),
@@ -126,7 +126,7 @@ def _held(why: Reasoning, hold: Holding) -> tuple[Text, Text]:
     if hold.kind == "rod":
         by = text("a constant distance from ", *hold.on, ": a rod, a string or a round track")
         if hold.carrier is None and len(why.holds) == 1:
-            return by, text("it pulls along itself, and a wiggle moves its end across it")
+            return by, text("it pulls along its line, and a wiggle moves its end across this line")
         return by, text("the forces at its two ends are opposite, along a line whose length a wiggle does not change")
     if hold.kind == "pin":
         return text("a pin at ", *hold.on), text(
