@@ -101,3 +101,76 @@ def test_states_may_alternate_with_their_rates() -> None:
     written = "dx = [x(2); (F + k*(x(3) - x(1)))/m1; x(4); k*(x(1) - x(3))/m2];"
     assert accepted(carts(), written)
     assert not accepted(carts(), written.replace("k*(x(1)", "2*k*(x(1)"))
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "# i is the rate of phi, w = dphi/dt\nw_dot = (tau + m*g*R - k*R**2*phi - d*w)/(J + m*R**2)",
+        "% p, w = phi, dphi/dt\nddt = 0;\ndw = (tau + m*g*R - k*R^2*p - d*w)/(J + m*R^2);",
+        "dw_dt = (tau + m*g*R - k*R**2*phi - d*w)/(J + m*R**2)  # w = phi'",
+        "t, m, r, J = symbols('t m R J')\np = Function('phi')(t)\n"
+        "e = Eq((J + m*r**2)*p.diff(t, 2) + d*p.diff(t),\n       tau + m*g*r - k*r**2*p)",
+    ],
+)
+def test_comments_and_declarations_of_programs_say_what_names_are(written: str) -> None:
+    assert accepted(drum(), written)
+    assert not accepted(drum(), written.replace("m*g", "2*m*g"))
+
+
+@pytest.mark.parametrize("counted", [" for i = 1, 2", ""])
+def test_definitions_with_an_index_are_written_out(counted: str) -> None:
+    first = rf"$\kappa_i = \frac{{k}}{{m_i}}${counted.replace('i = 1, 2', '$i = 1, 2$')}"
+    rows = r"$\ddot x_1 + \kappa_1 (x_1 - x_2) = F/m_1$" + "\n" + r"$\ddot x_2 + \kappa_2 (x_2 - x_1) = 0$"
+    assert accepted(carts(), f"{first}\n{rows}")
+    assert not accepted(carts(), f"{first.replace('{k}', '{2 k}')}\n{rows}")
+    plain = f"kappa_i = k/m_i{counted}\nx1'' + kappa_1 (x1 - x2) = F/m1\nx2'' + kappa_2 (x2 - x1) = 0"
+    assert accepted(carts(), plain)
+
+
+def test_values_of_products_are_no_equations() -> None:
+    valued = System("oscillator")
+    x = valued.coordinate("x")
+    m, k, c = valued.parameters("m k c", m=0.5, k=8, c=0.3)
+    valued.particle(m, at=valued.point("A", (x, 0)))
+    valued.spring(k, deflection=x)
+    valued.damper(c, deflection=x)
+    derived = valued.derive()
+    assert accepted(derived, "k m = 4, c m = 0.15\n0.5 x'' + 0.3 x' + 8 x = 0")
+    assert not accepted(derived, "k m = 5, c m = 0.15\n0.5 x'' + 0.3 x' + 8 x = 0")
+
+
+def test_an_energy_may_have_the_constraint_put_in() -> None:
+    sys = System("yo-yo")
+    y, phi = sys.coordinates("y phi")
+    m, J, r, g = sys.parameters("m J r g")
+    sys.particle(m, at=sys.point("centre", (0, -y)))
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(phi))
+    sys.gravity((0, -1), g=g)
+    sys.constraint(y - r * phi, name="string")
+    derived = sys.derive()
+    written = "y = r phi\nT = 1/2 (m r^2 + J) phi'^2\nV = -m g r phi\n(J + m r^2) phi'' = m g r"
+    assert accepted(derived, written)
+    assert not accepted(derived, written.replace("r^2 + J) phi'^2", "r + J) phi'^2"))
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "[M]{q''} + [K]{q} = {f}\n[M] = [m1, 0; 0, m2]\n[K] = [k, -k; -k, k]\n{f} = {F; 0}, {q} = {x1; x2}",
+        "M = [m1 0\n     0  m2]\nK = [k  -k\n     -k  k]\nf = [F\n     0]\nM*q'' + K*q = f,  q = (x1 x2)^T",
+        "q = [x1; x2], u = F\n[m1 0; 0 m2] q'' + [k -k; -k k] q = [1; 0] u",
+        r"\[ \begin{pmatrix} m_1 & 0\\ 0 & m_2\end{pmatrix}\ddot{\mathbf q}"
+        r" + \begin{pmatrix} k & -k\\ -k & k\end{pmatrix}\mathbf q = \begin{pmatrix}F\\ 0\end{pmatrix},"
+        r"\qquad \mathbf q = (x_1\; x_2)^T \]",
+        "I) m1 x1'' + k (x1 - x2) = F\nII) m2 x2'' + k (x2 - x1) = 0\nI+II) m1 x1'' + m2 x2'' = F",
+        "Equation of motion for x1 =\nm1 x1'' + k (x1 - x2) = F\nand for mass two =\nm2 x2'' + k (x2 - x1) = 0",
+        "m1 x1'' = F - S\nm2 x2'' = S\nwhere S = k (x1 - x2) is the spring force and k its stiffness.",
+    ],
+)
+def test_matrices_labels_and_words_of_other_hands(written: str) -> None:
+    assert accepted(carts(), written)
+    twin = written.replace("f = [F", "f = [2*F").replace("= {F;", "= {2 F;").replace("= [1; 0]", "= [2; 0]")
+    twin = twin.replace(r"{pmatrix}F", r"{pmatrix}2F").replace("= F", "= 2 F").replace("u = 2 F", "u = F")
+    assert twin != written
+    assert not accepted(carts(), twin)

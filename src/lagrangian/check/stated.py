@@ -10,6 +10,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.difference import differences
+from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -93,6 +94,10 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
         return Finding(line, Status.RIGHT, None, coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
+    if line.kind in ("T", "V", "L", "D") and (on := _on_constraints(truth)) is not None:
+        left = on.put_in(rest)
+        if zero_everywhere(truth, left) or harmless(truth, line, left) is not None:
+            return Finding(line, Status.EQUIVALENT, text("with the constraint put in"), coordinate)
     if line.kind == "Xi" and i is not None and _damped_elsewhere(truth, line, i, lines):
         note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
@@ -100,6 +105,11 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
+
+
+def _on_constraints(truth: Reference) -> OnConstraints | None:
+    """The reference at states on the constraints; None for a system without any."""
+    return held(truth) if truth.derivation.multipliers else None
 
 
 def _damped_elsewhere(truth: Reference, line: AnsweredLine, i: int, lines: Sequence[AnsweredLine]) -> bool:

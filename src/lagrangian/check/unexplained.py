@@ -6,7 +6,7 @@ the error asks what the name is. A line that is wrong with known names alone is 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from difflib import get_close_matches
 from typing import Any, cast
 
@@ -39,7 +39,7 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
         return ()
     lines = lines_of(answer)
     asked = [u for u in answer.unknown if not _is_known(u, derivation.model, lines)]
-    asked = [] if _is_last(derivation.model, lines, asked) else asked
+    asked = [] if _are_last(derivation.model, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]
     if derivation.multipliers or len(equations) >= len(derivation.model.coordinates) + len(asked):
         return ()  # forces of constraints
@@ -88,12 +88,20 @@ def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> 
     return sum(_resembles(plain(symbol), x) for x in names) == 1
 
 
-def _is_last(model: Model, lines: Sequence[AnsweredLine], asked: Sequence[Unknown]) -> bool:
-    """Whether one name is asked about, and it can only be the one quantity of the system that the answer lacks: the
-    units of its terms agree then."""
+def _are_last(
+    model: Model, lines: Sequence[AnsweredLine], asked: Sequence[Unknown], described: Collection[str]
+) -> bool:
+    """Whether the names can only be the quantities of the system that the answer lacks.
+
+    There are as many, and words say what each is, or there is one, with which the units of the terms agree.
+    """
     used = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
     free = [x.symbol for x in (*model.parameters, *model.inputs) if x.symbol not in used]
-    dims = check_dimensions(model) if len(asked) == len(free) == 1 else None
+    if not asked or len(asked) != len(free):
+        return False
+    if all(u.name in described for u in asked):
+        return True
+    dims = check_dimensions(model) if len(asked) == 1 else None
     if dims is None:
         return False
     put = {asked[0].symbol: free[0]}

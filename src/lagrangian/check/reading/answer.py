@@ -74,6 +74,8 @@ class Answer:
     notation: Literal["text", "latex"]
     unknown: tuple[Unknown, ...] = ()
     notes: tuple[str, ...] = ()
+    described: frozenset[str] = frozenset()
+    """The names of which words say what they are."""
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
 
     @property

@@ -31,6 +31,11 @@ _CALLED = re.compile(
 )
 _STEP_NUMBER = re.compile(rf"\s*(?P<words>[^\W\d_]{{3,14}}\.?\s+){_SHORT}\s?[.:)]{{1,2}}{_NEXT}")
 """A word with a number: Step 2. T = …, Paso 5. …"""
+_COMBINED = re.compile(
+    r"\s*+[(\[]?\s?+(?:\d?[·*]?[IVX]{1,4}|\d{1,2})(?:\s?+[-+−–]\s?+(?:\d?[·*]?[IVX]{1,4}|\d{1,2})){1,6}+\s?+[)\].:]{1,2}"
+    r"(?=\s+(?:=+>|[^\s*/^=+]))"
+)
+"""Which equations were added: II-III) …"""
 _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
 """A name with a bracket that nothing opens: x), θ)."""
 _LEFT = re.compile(r"\s*+:(?=\s)")
@@ -131,6 +136,7 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             _BULLET,
             _SUM_OF_NUMBERS,
             _NUMBERED,
+            _COMBINED,
             _SPOKEN,
             _CALLED,
             _STEP_NUMBER,

@@ -20,6 +20,7 @@ _VALUE = re.compile(
     r"(?![ \t]*[*^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:[ \t]?[/·* ]?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
+_FACTOR = re.compile(rf"(?<![\w.])(?P<name>{_NAME})(?:\^\d|[²³])?[ \t]*[*·]?[ \t]*\Z")
 _PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
 
 _RATE = re.compile(r"\w['’′″]++(?!s\b)|\bd\d?\w*+/d|[\u0307\u0308]|[ẋẍẏÿżṙṁ]|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
@@ -47,12 +48,23 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         for match in found:
             read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
             end = match.end() if read else match.end("number")
-            kept[match.start() : end] = line[match.start() : end].replace(",", ".")
+            start = _start(line, match, values)
+            kept[start:end] = line[start:end].replace(",", ".")
             if end < len(line):
                 kept[end] = ";"
         lines[k] = "".join(kept)
         notes.setdefault(f"Line {k + 1} was read as a list of values.")
     return "\n".join(lines)
+
+
+def _start(line: str, match: re.Match[str], values: Callable[[str], float | None]) -> int:
+    """Where the product begins whose value is given: n K = 2."""
+    start = match.start()
+    while (factor := _FACTOR.search(line, max(0, start - 60), start)) is not None and values(
+        factor["name"]
+    ) is not None:
+        start = factor.start()
+    return start
 
 
 def _moves(words: str) -> bool:

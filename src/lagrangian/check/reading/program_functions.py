@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import islice
 
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -46,6 +47,8 @@ _RATES = re.compile(
     re.MULTILINE,
 )
 """What the rates of a state are called: dz, dzdt, dz_dt, zdot, and one of them, dz(1)."""
+MOST = 60
+"""The most rates among which that of a state is sought."""
 _COMMENT = re.compile(r"(?:(?<!\\)[#%]|//)(?P<said>[^\n]*)")
 _STATE = rf"(?P<name>{_NAME}['’′]{{0,2}})"
 _ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}"
@@ -116,7 +119,7 @@ def _place(match: re.Match[str]) -> int:
 
 def _without_header(text: str) -> _Function | None:
     """The state and the name of its rates where both are used with an index and no function begins; None if not."""
-    for match in _RATES.finditer(text):
+    for match in islice(_RATES.finditer(text), MOST):
         state = match["of"] or match["dotted"]
         if re.search(rf"(?<!\w){state}{_INDEX}", text):
             found = _Function(state, match["out"])

@@ -12,6 +12,7 @@ from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
+from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
@@ -24,6 +25,7 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
+from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.remarks import is_remark
@@ -61,6 +63,16 @@ _UNIT_VECTOR = re.compile(
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
+
+
+_BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
+_BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
+_EXPLAINED = re.compile(
+    r"(?<![\w\\])\$?\\?(?P<name>[^\W\d]\w{0,23}+)\$?\)?"
+    r"(?:[ \t]{0,9}+(?::|=|\bis\b|\bdenotes\b|\bmeans\b|\bfor\b|\.{2,9}|[…–—|-])[ \t]{0,9}+|[ \t]{2,20}+)"
+    r"(?:(?:the|an?)[ \t])?(?P<word>[^\W\d_]{4,})"
+)
+"""A name with words that say what it is: rho: radius of the drum."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +138,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
         rows = [row for row in (without_sums(x, lines.names) for x in rows) if row.text.strip()] or rows[:1]
         outside = _beside(written, words)
         rows = sorted([*rows, *outside], key=lambda row: row.start)
+    rows = without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0]))
     if not rows:
         raise source.error(
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
@@ -150,7 +163,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     made = lines.read(statements, errors)
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes)
     notation = "latex" if latex else "text"
-    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, tuple(again))
+    said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
+    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, said, tuple(again))
 
 
 def _without_notations(text: str, lines: Lines) -> TracedText:
@@ -161,11 +175,16 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     tagless = solved_matrices(without_tags(TracedText(text)))
+    if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
+        tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
+    if not _LATEX.search(said.text):
+        own = {key(name) for name in lines.model.symbols}
+        said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
     return on_one_line(plain)
@@ -205,6 +224,7 @@ def _words(lines: Lines, text: str) -> Words:
         long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
         if word.lower() in LINKING or (long and not lines.names.known(word)):
             own.setdefault(match[2])
+    own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
     lines.names.scope.taken = frozenset(key(name) for name in own)
     return Words(lines.names, own, alone, used)

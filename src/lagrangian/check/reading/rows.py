@@ -17,6 +17,7 @@ from lagrangian.check.reading.prose import (
     moves,
     says_nothing,
     stated_remarks,
+    without_headings,
     without_lead,
     without_remarks,
     without_tail,
@@ -84,7 +85,7 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = _STARRED.sub("T* ", text)
+    text = without_headings(_STARRED.sub("T* ", text))
     text = without_remarks(stated_remarks(without_units(text, words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)

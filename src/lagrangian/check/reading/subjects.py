@@ -150,6 +150,8 @@ class Subjects:
         """
         assert subject.token is not None
         if subject.order:
+            if self.names.occurs(subject.token) > 1 and not value.atoms(AppliedUndef):
+                return False  # a motion that is prescribed: y_p'' = -a w^2 cos(w t)
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
             return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
         if subject.square or not accelerates(value):
@@ -214,7 +216,10 @@ class Subjects:
         if side.data == "rate" and side.children[1] == 1:
             inner = self._derivative_of_energy(inside(side.children[0]))
             return Subject("p-rate", inner.name) if inner is not None and inner.kind == "p" else None
-        if side.data != "partial" or side.children[0] not in ("L", "ℒ"):
+        if side.data != "partial" or side.children[0] not in ("L", "ℒ", "T"):
+            return None
+        of_kinetic = side.children[0] == "T"
+        if of_kinetic and ("T" in self.names.stating or self.names.energy("T") is not None):
             return None
         found = only_name(side.children[1])
         if found is None:
@@ -224,4 +229,6 @@ class Subjects:
         coordinates = {c.name for c in self.model.coordinates}
         if len(names) != 1 or names[0] not in coordinates or primes + dots > 1:
             return None
-        return Subject("p" if primes + dots else "slope", names[0])
+        if of_kinetic and not primes + dots:
+            return None
+        return Subject("p" if primes + dots else "slope", names[0])  # ∂T*/∂ξ̇ = ∂L/∂ξ̇: V has no rates

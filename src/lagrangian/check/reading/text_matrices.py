@@ -4,6 +4,7 @@
     [ m cos α    m    ] [s̈] = [ −k s   ]      [M+m, m cos α; m cos α, m] [ẍ; s̈] = [F; −k s]
 
     [m 0; 0 m]*[x''; y'']                     [m, 0; 0, m]*[x''; y'']
+    [M]{q''} = {0; F}    (x1 x2)^T            [M]q'' = [0; F]    [x1; x2]
 
     [x1 x2]'                                  [x1, x2]'
     ((m, 0), (0, m))                          [m, 0; 0, m]
@@ -37,6 +38,9 @@ _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
 _NAMED_ROW = re.compile(r"\s*+[^\W\d]\w*+\s*+=\s*+\[[^\[\]=;,]++(?P<close>\])\s*\Z")
 _ROW_ALONE = re.compile(r"\s*+(?P<open>\[)[^\[\]=;,]++(?P<close>\])\s*\Z")
+_ATOM = r"[^\W\d]\w{0,15}['’′]{0,2}"
+_BRACED_NAME = re.compile(rf"(?<![_^\w{{,])\{{[ \t]*+(?P<name>{_ATOM}|0)[ \t]*+\}}")
+_BRACED_COLUMN = re.compile(r"(?<![_^\w{,])\{(?P<entries>[^{}=;]{0,200}(?:;[^{}=;]{0,200}){1,20})\}")
 _MAX = 200
 """The largest number of matrices whose entries are looked at."""
 
@@ -55,6 +59,8 @@ def on_one_line(written: TracedText) -> TracedText:
     drawn = [line.lstrip()[0] for line in written.text.split("\n") if _TALL.search(line)]
     if drawn and all(_TALL.match(first) for first in drawn):  # products of matrices, which have no name
         written = TracedText(written.text.translate(_PLAIN), written.origins)
+    if "\\" not in written.text:
+        written = written.sub(_BRACED_NAME, lambda m: m["name"]).sub(_BRACED_COLUMN, lambda m: f"[{m['entries']}]")
     written = _blocks(_named_rows(written)).sub(_AT, lambda match: " * ")
     written = written.edited(tuples(written.text))
     written = written.edited(tuple_sides(written.text))
@@ -240,8 +246,9 @@ def _entry_gaps(text: str) -> Iterator[Edit]:
         behind = _TIMES.match(text, matrix.end)
         factor = found.get(behind.end()) if behind is not None else None
         height = len(matrix.rows)
-        for wide in (True, False):
-            gaps = [_gaps(text, a, b, wide=wide) for a, b in matrix.rows]
+        for wide in (True, False, None):
+            gaps = [_gaps(text, a, b, wide=bool(wide)) for a, b in matrix.rows]
+            gaps = [[gap for gap in row if _beside_zero(text, gap)] for row in gaps] if wide is None else gaps
             width = len(gaps[0]) + 1 if gaps else 1
             if width == 1 or any(len(x) + 1 != width for x in gaps):
                 continue
@@ -249,7 +256,7 @@ def _entry_gaps(text: str) -> Iterator[Edit]:
             if (
                 fits
                 or (height == 1 and TRANSPOSED.match(text, matrix.end))
-                or (factor is None and height == width and listed)
+                or (factor is None and height == width and (wide or listed))
             ):
                 yield from ((start, end, ", ") for row in gaps for start, end in row)
                 break
@@ -265,6 +272,13 @@ def _shows_list(text: str, matrix: _Matrix) -> bool:
         if all(len(x) + 1 == height for x in gaps):
             return _is_listed(text, matrix, gaps)
     return False
+
+
+def _beside_zero(text: str, gap: tuple[int, int]) -> bool:
+    """Whether an entry that is 0 stands on a side of a gap."""
+    return re.search(r"(?:^|[\s\[;])0\Z", text[max(0, gap[0] - 3) : gap[0]]) is not None or (
+        re.match(r"0(?:[\s\];]|$)", text[gap[1] : gap[1] + 2]) is not None
+    )
 
 
 def _is_listed(text: str, matrix: _Matrix, gaps: Sequence[Sequence[tuple[int, int]]]) -> bool:
