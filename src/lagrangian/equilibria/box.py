@@ -66,7 +66,7 @@ class Box:
             return q, "negative"
         return q, None if (inside | ~self.given).all() else "outside"
 
-    def words(self, why: LeftOut, count: int) -> str:
+    def words(self, why: str, count: int) -> str:
         """How many roots are left out for a reason."""
         one = count == 1
         if why == "outside":

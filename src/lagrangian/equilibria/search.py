@@ -302,7 +302,7 @@ def _corners(task: _Task) -> Array:
 
 
 def _notes(
-    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], unlisted: Counter[LeftOut]
+    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], unlisted: Counter[str]
 ) -> tuple[str, ...]:
     """Notes that a reader should know besides the list."""
     listed = []
