@@ -19,6 +19,8 @@ PARALLEL = 1e-9
 LARGEST_DENOMINATOR = 24
 PLAIN = (Fraction(-1), Fraction(-2), Fraction(1), Fraction(-1, 2), Fraction(-3, 4), Fraction(3))
 """Left out, other sign, twice, half, a quarter and four times (m L²/12 for m L²/3): what is tried in pairs."""
+BLOCK = 200_000
+"""The largest number of multiplications in one product of matrices."""
 EXOTIC = 4.6
 """A single mistake that costs more may be less likely than two plain ones."""
 MOST_FOR_PAIRS = 6
@@ -67,7 +69,7 @@ def _singles(
     with np.errstate(all="ignore"):
         norms = np.sqrt(squares)
         unit = r / np.linalg.norm(r, axis=(1, 2), keepdims=True)
-        along = sum(e @ unit[:, j].T for j, e in enumerate(E)) / norms[:, None]
+        along = sum(_product(e, unit[:, j].T) for j, e in enumerate(E)) / norms[:, None]
     parallel = (np.abs(along) > 1 - PARALLEL) & (norms > 0)[:, None]
     return [_multiples(pool, E, x, map(int, np.flatnonzero(parallel[:, a])), under[a], norms) for a, x in enumerate(r)]
 
@@ -90,6 +92,12 @@ def _multiples(
         cost = float(pool.cost[k]) + _oddness(number, pool.all[k])
         found.append(Explanation((Told(pool.all[k], number, cost),), cost + doubt, under))
     return sorted(found, key=lambda e: e.cost)
+
+
+def _product(effects: Array, units: Array) -> Array:
+    """Effects (C, S) times units (S, A), in blocks: BLAS gives larger ones threads, which mostly wait."""
+    step = max(1, BLOCK // units.size)
+    return np.concatenate([effects[i : i + step] @ units for i in range(0, max(len(effects), 1), step)])
 
 
 def squared(effects: Array) -> Array:
