@@ -56,6 +56,12 @@ def test_a_name_that_nothing_explains_is_asked_about_and_not_guessed() -> None:
     assert caught.value.place is not None and caught.value.place.column == written.index("B") + 1
 
 
+@pytest.mark.parametrize("named", ["J_A: moment of inertia about A", "J_A = moment of inertia", ""])
+def test_what_may_be_a_sum_is_not_taken_for_one_summand(named: str) -> None:
+    with pytest.raises(ParseError, match="what is 'J_A'"):
+        drum().check(f"J_A phi'' + d phi' + k R^2 phi - m g R = tau\n{named}")
+
+
 def test_what_is_wrong_without_the_unknown_name_is_wrong() -> None:
     rows = "m1 x1'' + k (x1 - x2) = F\nm2 x2'' + k (x1 - x2) = rho m1"
     assert not carts().check(rows.replace("rho m1", "0").replace("F", "2 F")).right
@@ -163,6 +169,7 @@ def test_an_energy_may_have_the_constraint_put_in() -> None:
         r"\[ \begin{pmatrix} m_1 & 0\\ 0 & m_2\end{pmatrix}\ddot{\mathbf q}"
         r" + \begin{pmatrix} k & -k\\ -k & k\end{pmatrix}\mathbf q = \begin{pmatrix}F\\ 0\end{pmatrix},"
         r"\qquad \mathbf q = (x_1\; x_2)^T \]",
+        "[m1 0; 0 2 m2] q'' + [k, -k; -2*k, 2*k] q = [F; 0], q = [x1; x2]",
         "I) m1 x1'' + k (x1 - x2) = F\nII) m2 x2'' + k (x2 - x1) = 0\nI+II) m1 x1'' + m2 x2'' = F",
         "Equation of motion for x1 =\nm1 x1'' + k (x1 - x2) = F\nand for mass two =\nm2 x2'' + k (x2 - x1) = 0",
         "m1 x1'' = F - S\nm2 x2'' = S\nwhere S = k (x1 - x2) is the spring force and k its stiffness.",
@@ -170,7 +177,12 @@ def test_an_energy_may_have_the_constraint_put_in() -> None:
 )
 def test_matrices_labels_and_words_of_other_hands(written: str) -> None:
     assert accepted(carts(), written)
-    twin = written.replace("f = [F", "f = [2*F").replace("= {F;", "= {2 F;").replace("= [1; 0]", "= [2; 0]")
+    twin = (
+        written.replace("f = [F", "f = [2*F")
+        .replace("= {F;", "= {2 F;")
+        .replace("= [1; 0]", "= [2; 0]")
+        .replace("= [F; 0]", "= [2*F; 0]")
+    )
     twin = twin.replace(r"{pmatrix}F", r"{pmatrix}2F").replace("= F", "= 2 F").replace("u = 2 F", "u = F")
     assert twin != written
     assert not accepted(carts(), twin)

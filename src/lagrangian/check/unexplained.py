@@ -10,13 +10,16 @@ from collections.abc import Collection, Sequence
 from difflib import get_close_matches
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check.lines import lines_of
+from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.reading import Answer, Unknown
+from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
+from lagrangian.derive.sampling import SETS, CompiledExpressions
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
@@ -24,6 +27,9 @@ from lagrangian.values.dimensions import Mismatch, check_dimensions
 
 MOST_ASKED = 3
 """The largest number of names that are asked about at once."""
+
+FITS, TINY = 1e-7, 1e-300
+"""The relative size of what is left where a value fits, and of what is no slope."""
 
 SHORTEST, LONG, NEAR = 2, 4, 0.8
 """The letters of a name that shortens another, and of one that may have a wrong letter, and how similar it must be."""
@@ -39,7 +45,7 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
         return ()
     lines = lines_of(answer)
     asked = [u for u in answer.unknown if not _is_known(u, derivation.model, lines)]
-    asked = [] if _are_last(derivation.model, lines, asked, answer.described) else asked
+    asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]
     if derivation.multipliers or len(equations) >= len(derivation.model.coordinates) + len(asked):
         return ()  # forces of constraints
@@ -88,20 +94,20 @@ def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> 
     return sum(_resembles(plain(symbol), x) for x in names) == 1
 
 
-def _are_last(
-    model: Model, lines: Sequence[AnsweredLine], asked: Sequence[Unknown], described: Collection[str]
+def _is_last(
+    derivation: Derived, lines: Sequence[AnsweredLine], asked: Sequence[Unknown], described: Collection[str]
 ) -> bool:
-    """Whether the names can only be the quantities of the system that the answer lacks.
+    """Whether one name is asked about, and it can only be the one quantity of the system that the answer lacks.
 
-    There are as many, and words say what each is, or there is one, with which the units of the terms agree.
+    Words say what it is, or the units of the terms agree, and no other value of it would make the answer right.
     """
     used = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
-    free = [x.symbol for x in (*model.parameters, *model.inputs) if x.symbol not in used]
-    if not asked or len(asked) != len(free):
+    free = [x.symbol for x in (*derivation.model.parameters, *derivation.model.inputs) if x.symbol not in used]
+    if not len(asked) == len(free) == 1 or _some_value_fits(truth_of(derivation), lines, asked[0].symbol):
         return False
-    if all(u.name in described for u in asked):
+    if asked[0].name in described:
         return True
-    dims = check_dimensions(model) if len(asked) == 1 else None
+    dims = check_dimensions(derivation.model)
     if dims is None:
         return False
     put = {asked[0].symbol: free[0]}
@@ -109,6 +115,25 @@ def _are_last(
         return all(dims.of(cast("sp.Expr", line.expr.xreplace(put))) for line in lines if line.kind == "equation")
     except Mismatch:
         return False
+
+
+def _some_value_fits(truth: Reference, lines: Sequence[AnsweredLine], symbol: sp.Expr) -> bool:
+    """Whether an equation may be right with a constant in the place of a name: J_A may be J + m l^2."""
+    for line in filled(truth, lines):
+        if line.kind != "equation" or not line.expr.has(symbol):
+            continue
+        exprs = [cast("sp.Expr", line.expr.xreplace({symbol: sp.Integer(k)})) for k in range(3)]
+        zero, one, two = (CompiledExpressions([x]).at(truth.states, truth.accelerations)[0] for x in exprs)
+        slope = one - zero
+        scale = np.abs(zero).max() + np.abs(slope).max()
+        if not np.isfinite([zero, one, two]).all() or np.abs(two - one - slope).max() > FITS * scale:
+            return True  # not linear in the name
+        sets = [x.reshape(SETS, -1) for x in (zero, slope)]
+        values = [np.sum(a * b) / max(np.sum(a * a), TINY) for b, a in zip(*sets, strict=True)]
+        left = [np.abs(b - v * a).max() for b, a, v in zip(*sets, values, strict=True)]
+        if max(left) <= FITS * scale:
+            return True
+    return False
 
 
 def _resembles(written: str, name: str) -> bool:

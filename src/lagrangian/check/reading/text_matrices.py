@@ -256,7 +256,7 @@ def _entry_gaps(text: str) -> Iterator[Edit]:
             if (
                 fits
                 or (height == 1 and TRANSPOSED.match(text, matrix.end))
-                or (factor is None and height == width and (wide or listed))
+                or (factor is None and height == width and (wide is not False or listed))
             ):
                 yield from ((start, end, ", ") for row in gaps for start, end in row)
                 break
