@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 import sympy as sp
 
@@ -36,7 +37,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(linear, rows, strict=True))})
 
 
-def _of_one(s: Ingredients, table: Mapping[sp.Expr, sp.Expr]) -> Iterator[Variant]:
+def _of_one(s: Ingredients, table: Mapping[Any, sp.Expr]) -> Iterator[Variant]:
     """In the energy of one spring alone, if others hold angles, too."""
     held = [(spring, V) for spring, _, V in s.springs() if V.has(*table)]
     for spring, V in held if len(held) + len(list(s.weights())) > 1 else ():
