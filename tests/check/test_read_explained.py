@@ -115,6 +115,7 @@ def test_states_may_alternate_with_their_rates() -> None:
         "# i is the rate of phi, w = dphi/dt\nw_dot = (tau + m*g*R - k*R**2*phi - d*w)/(J + m*R**2)",
         "% p, w = phi, dphi/dt\nddt = 0;\ndw = (tau + m*g*R - k*R^2*p - d*w)/(J + m*R^2);",
         "dw_dt = (tau + m*g*R - k*R**2*phi - d*w)/(J + m*R**2)  # w = phi'",
+        "u[t_] := tau + m*g*R;\n(J + m*R^2)*phi''[t] + d*phi'[t] + k*R^2*phi[t] == u[t]",
         "t, m, r, J = symbols('t m R J')\np = Function('phi')(t)\n"
         "e = Eq((J + m*r**2)*p.diff(t, 2) + d*p.diff(t),\n       tau + m*g*r - k*r**2*p)",
     ],

@@ -31,6 +31,8 @@ _FUNCTION = re.compile(
     r"\([ \t]*+['\"](?P<called>\w{1,24})['\"][ \t]*+\)(?:\(t\))?",
     re.MULTILINE,
 )
+_OF_TIME = re.compile(rf"(?<!\w)(?P<name>{_NAME})\[t_\][ \t]*+:?=(?!=)")
+"""A function of Mathematica: y[t_] := Y Sin[w t]."""
 _CALL = re.compile(r"(?<!\w)Eq\w{0,6}\(")
 _RATE_OF = re.compile(r"(?<!\w)d(?P<two>2|\^2|²)?_?(?P<of>[^\W\d_]\w{0,20}?)_?dt(?(two)_?\^?2)(?=[ \t]*+=(?!=))")
 _RATE = re.compile(r"^[ \t]*+(?P<rate>d_?(?P<of>[^\W\d_]\w{0,20}))(?=[ \t]*+=(?!=)[ \t]*+[^ \t\[])", re.MULTILINE)
@@ -57,6 +59,7 @@ def with_program_names(written: TracedText, moves: Callable[[str], bool], taken:
     """
     text = written.text
     edits = [*_declared(text, taken), *_commented(text, taken)]
+    edits += [(*m.span(), f"{m['name']} = ") for m in _OF_TIME.finditer(text)]
     edits += _joined(text)
     rates = [m for m in _RATE_OF.finditer(text) if not taken(m.group())]
     edits += [(*m.span(), m["of"] + ("''" if m["two"] else "'")) for m in rates]
