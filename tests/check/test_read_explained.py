@@ -94,6 +94,7 @@ def test_letters_of_energies_and_remarks_are_what_the_answer_makes_of_them(writt
         "% y(1) = phi, y(2) = phi_dot\ndydt = zeros(2,1);\ndydt(1) = y(2);\n"
         "dydt(2) = (tau + m*g*R - k*R^2*y(1) - d*y(2))/(J + m*R^2);",
         "% s = [phi; w]\na = (tau + m*g*R - k*R^2*s(1) - d*s(2))/(J + m*R^2);\nds = [s(2); a];",
+        "dz = [w; (tau + m*g*R - k*R^2*phi - d*w)/(J + m*R^2)];  % z = [phi; w]",
         "dz = [z(2); (tau + m*g*R - k*R^2*z(1) - d*z(2))/(J + m*R^2)];",
         "# y = (phi, w)\ndydt[0] = y[1]\ndydt[1] = (tau + m*g*R - k*R**2*y[0] - d*y[1])/(J + m*R**2)",
     ],

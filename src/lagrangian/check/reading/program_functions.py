@@ -121,7 +121,10 @@ def _without_header(text: str) -> _Function | None:
     """The state and the name of its rates where both are used with an index and no function begins; None if not."""
     for match in islice(_RATES.finditer(text), MOST):
         state = match["of"] or match["dotted"]
-        if re.search(rf"(?<!\w){state}{_INDEX}", text):
+        listed = re.compile(_LISTED_STATES.replace("STATE", state))
+        if re.search(rf"(?<!\w){state}{_INDEX}", text) or any(
+            listed.search(m["said"]) for m in _COMMENT.finditer(text)
+        ):
             found = _Function(state, match["out"])
             for named in _INDEXED.finditer(text):
                 if named["of"] == state:
