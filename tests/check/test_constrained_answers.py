@@ -48,6 +48,18 @@ def test_the_reading_of_a_multiplier_is_told(pendulum: lg.Derivation) -> None:
     assert any("'S' was read as -lambda_rod" in n for n in notes)
 
 
+@pytest.mark.parametrize("name", ["lambda", "S", "lambda_rod"])
+@pytest.mark.parametrize("scale", ["", "-", "2*"])
+def test_a_force_that_is_only_a_result_is_judged(pendulum: lg.Derivation, name: str, scale: str) -> None:
+    equations = "m*x'' = S*x/l\nm*y'' + m*g = S*y/l\n".replace("S", "S" if name != "S" else "T")
+    force = f"{name} = {scale}(m*g*y - m*(x'^2 + y'^2))/l"  # of the equations times x and y, added
+    judged = name.startswith("lambda")  # what another letter may be is not known
+    assert pendulum.check(equations + force).status is Status.RIGHT
+    wrong = pendulum.check(equations + force.replace("g*y -", "g*y +"))
+    assert wrong.status is (Status.WRONG if judged else Status.RIGHT)
+    assert ("is not the force of a constraint" if judged else "was not judged") in wrong.to_text()
+
+
 WRONG = (
     "m*x'' = S*x/l\nm*y'' + m*g = -S*y/l",
     "m*x'' = S*x/l\nm*y'' - m*g = S*y/l",

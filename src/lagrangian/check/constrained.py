@@ -23,6 +23,7 @@ from lagrangian.check.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.own_constraints import with_rates
 from lagrangian.check.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.reference import Reference
+from lagrangian.check.results import FORCE, results_in
 from lagrangian.check.spelling import not_there
 from lagrangian.check.stated import judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
@@ -176,10 +177,16 @@ def _left(line: AnsweredLine) -> str:
 def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:
     """The verdict on an answer by its values at random states; with ``given`` parameters keep their values."""
     equations = [line for line in lines if line.kind == "equation"]
+    results = results_in(truth.model, truth.known, equations)
+    equations = [line for line in equations if line not in results.values()]
     unknown = _unknown(truth, equations)
     found: dict[int, Finding] = {}
     notes: list[Text] = []
     status: Status | None = None
+    for s, line in results.items():
+        right = _are_forces(truth, [line], [s], given=given)
+        found[id(line)] = Finding(line, Status.RIGHT if right else Status.WRONG, FORCE if right else None)
+        notes += [] if right else [text(f"'{plain(s)}' is not the force of a constraint, in no scale.")]
     if equations and len(unknown) > len(truth.derivation.multipliers):
         notes += [not_there(truth.model, s) for s in unknown]
         found = {id(line): Finding(line, Status.WRONG) for line in equations}
@@ -210,7 +217,7 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
     for k, line in enumerate(lines):
         if line.kind not in ("definition", "statement"):
             findings.append(found[id(line)] if line.kind == "equation" else truth.judge(lines, k))
-    others = [f.status for f in findings if f.line.kind != "equation"]
+    others = [f.status for f in findings if f.line.kind != "equation" or f.line in results.values()]
     return Verdict(
         _worst([*others, *([status] if status is not None else [])]), tuple(findings), notes=tuple(notes), hint=hint
     )

@@ -51,6 +51,9 @@ _INSIDE = "JIΘΩ"
 _FORCES = "FMNQRS"
 """The letters with which names of forces and moments begin."""
 
+MULTIPLIERS = ("lambda", "lam", "lmbda")
+"""How names of multipliers begin."""
+
 MAX_ERRORS = 5
 """The largest number of errors that are reported at once."""
 
@@ -264,7 +267,7 @@ class Lines:
                 self.names.define(subject.token, value)  # K, P are energies only if a line says so
         elif kind == "definition":
             assert subject.token is not None
-            if self.subjects.equates(subject, value, self._equal):
+            if self.subjects.equates(subject, value, self._equal) or self._is_force_found(subject):
                 left = reader.value(sides[0])
                 left = sp.S.Zero if is_label_of_equation(subject) else left
                 return made_line("equation", left, value, None, sides[0], side, reader)
@@ -285,6 +288,13 @@ class Lines:
             self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
         else:
             self.names.define(subject.token, sp.sqrt(value) if subject.square else value)
+
+    def _is_force_found(self, subject: Subject) -> bool:
+        """Whether a name is a multiplier whose value is a result: λ = m g cos θ, which no other line uses."""
+        token = subject.token
+        if token is None or subject.order or not self.model.constraints or self.names.occurs(token) > 1:
+            return False
+        return key(token).startswith(MULTIPLIERS)
 
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
