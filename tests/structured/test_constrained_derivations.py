@@ -134,7 +134,7 @@ def test_an_empty_motion_without_bodies_is_refused() -> None:
 def test_the_bicycle_is_derived_and_proved() -> None:
     d = built_in.system("whipple-bicycle").derive()
     assert d.form == "structured" and all(c.holds for c in d.verified)
-    assert [str(e.rhs) for e in d.equations[:2]] == ["R_xrear_contact_out", "R_yrear_contact_out"]
+    assert [str(e.rhs) for e in d.equations[:2]] == ["R_x_rear_contact_out", "R_y_rear_contact_out"]
     assert d.steps[0].expressions["DDOF"] == 3 and "front wheel rolls" in d.to_text()
 
 

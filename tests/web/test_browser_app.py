@@ -347,3 +347,6 @@ def test_a_run_says_how_long_friction_sticks(page: Any) -> None:
     expect(page.locator("#motion p[role=status]").last).to_have_text(
         re.compile(r"Friction floor sticks once, 0\.6(00)? s in all\.$")
     )
+    told = page.locator("#motion .trouble").first
+    expect(told).to_contain_text("no page integrates that")
+    expect(told).not_to_contain_text("Python.")  # alone: the app itself computes the run

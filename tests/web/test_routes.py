@@ -264,11 +264,11 @@ def test_a_page_that_moves_has_an_address_that_nobody_guesses_and_a_policy_of_it
 
 
 def test_a_motion_that_no_browser_can_integrate_is_refused(kind_app: Served) -> None:
-    friction = '[[friction]]\nname = "f"\ncoefficient = 0.3\nnormal = "m*9.81"\nalong = "x"\n'
+    friction = '[[friction]]\nname = "f"\nmu = 0.3\nnormal = "m*9.81"\ndeflection = "x"\n'
     unknown = CART.replace('k = "8 N/m"', 'k = { unit = "N/m" }')
-    for model in (CART + "\n" + friction, unknown):
+    for model, what in ((CART + "\n" + friction, "no page integrates that"), (unknown, "Missing: k")):
         error = kind_app.ask("page", {"model": model}).json()["error"]
-        assert error["what"] and error["code"]
+        assert error["what"].endswith(what) and error["fix"], error
 
 
 # -- the bad models of the reader's tests: each is one error with its line, and never a failure of the app -----------

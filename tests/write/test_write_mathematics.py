@@ -83,7 +83,7 @@ TEXTBOOK = [
     (
         S["theta_dot_ref"] * d(th1),
         "θ_dot_ref θ̇₁",
-        r"\theta_{\mathrm{dot},\mathrm{ref}} \dot{\theta}_{1}",
+        r"\theta_{\text{dot ref}} \dot{\theta}_{1}",
     ),
     (x ** sp.Rational(3, 2), "x^(3/2)", r"x^{\tfrac{3}{2}}"),
     (sp.cos(th1) / L, "cos(θ₁)/L", r"\frac{\cos \theta_{1}}{L}"),
@@ -333,6 +333,14 @@ def test_numbers_are_small_subscripts_and_letters_never_are() -> None:
     assert PAGE.latex(Letter("p", ("phi1",))) == r"p_{\phi_{1}}" and PAGE.latex(Letter("V", ("k2",))) == "V_{k_{2}}"
     assert "<msub><mi>φ</mi><mn>1</mn></msub>" in mathml(Letter("p", ("phi1",)))
     assert "<msub><mi>k</mi><mn>2</mn></msub>" in mathml(Letter("V", ("k2",)))
+
+
+def test_words_of_a_subscript_are_one_part() -> None:
+    """λ of a constraint named "front wheel rolls", row 2; a Greek letter and a single letter are no words."""
+    row = Letter("lambda", ("front", "wheel", "rolls", "2"))
+    assert PAGE.latex(row) == r"\lambda_{\text{front wheel rolls},2}" and unicode(row) == "λ_front_wheel_rolls_2"
+    assert "<mtext>front wheel rolls</mtext>" in mathml(row)
+    assert PAGE.latex(Letter("R", ("x", "theta", "f", "tip"))) == r"R_{x,\theta,f,\mathrm{tip}}"
 
 
 def test_a_fraction_too_long_for_a_line_lets_what_follows_be_cut() -> None:

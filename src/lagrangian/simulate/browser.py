@@ -224,8 +224,9 @@ def _check(model: Model, method: str, drive: InputSignals) -> None:
     drift.check_method(model, method)
     if model.frictions:
         raise RunError(
-            f"{model.frictions[0].title} sticks and slips, so that the equations change during a run",
-            fix="simulate the system in Python",
+            f"{model.frictions[0].title} sticks and slips, so that the equations change during a run: no page "
+            "integrates that",
+            fix="see its run as curves: with simulate in Python, with the command or in the app",
             code="E501",
         )
     called = [u.name for u, source in zip(drive.free, drive.sources, strict=True) if callable(source)]

@@ -21,7 +21,7 @@ from lagrangian.graph import Graph, backwards, gradient, reached
 from lagrangian.model import Gravity, Model
 from lagrangian.records import dataclass, field
 from lagrangian.structured.held_rows import ListedRow, pushes, slips, ties
-from lagrangian.structured.names import COMPONENTS, Indices
+from lagrangian.structured.names import Indices, component
 from lagrangian.structured.quantities import BodyMotion, Candidate, body_motions
 from lagrangian.structured.slopes import CoordinateSlopes
 
@@ -169,7 +169,7 @@ class _Moving:
 
     def _v(self, v: Vector, place: str, axes: str) -> Iterator[Named]:
         for k, node in enumerate(v):
-            yield node, "v", (f"{COMPONENTS[k]}{place}", axes), _point(place, axes)
+            yield node, "v", (*component(k, place), axes), _point(place, axes)
 
     def _turned(self) -> Iterator[tuple[PlaceMotion, Axes]]:
         """Places that carry others in axes of their own, with these axes."""
@@ -192,7 +192,7 @@ class _Moving:
             named.append((turned, self.indices.places[place], self.indices.axes[axes]))
         for vector, index, axes in named:
             for k, node in enumerate(vector):
-                at = (f"{COMPONENTS[k]}{index}", axes)
+                at = (*component(k, index), axes)
                 found.append(Candidate(node, "acceleration", "a", at, _point(index, axes)))
         return sorted(found, key=lambda c: c.node)
 
@@ -229,7 +229,7 @@ def _point(index: str, axes: str) -> str:
 
 def _components(vector: Iterable[int], letter: str, index: str, words: str, flat: bool) -> Iterator[Named]:
     for k, node in enumerate(vector):
-        yield node, letter, (index if flat else f"{COMPONENTS[k]}{index}",), words
+        yield node, letter, (index,) if flat else component(k, index), words
 
 
 def _own(bodies: Sequence[BodyMotion], kind: QuantityKind) -> list[Candidate]:

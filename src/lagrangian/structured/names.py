@@ -24,6 +24,11 @@ def number_of(name: str) -> str:
     return found.group(1) if found else name
 
 
+def component(k: int, index: str) -> tuple[str, ...]:
+    """The parts of the index of a component: of x in v_x3, and of x and phi in v_x,phi."""
+    return (f"{COMPONENTS[k]}{index}",) if index[:1].isdigit() else (COMPONENTS[k], index)
+
+
 class Indices:
     """What the quantities of a description belong to: an index for all axes and places."""
 

@@ -28,6 +28,7 @@ from lagrangian.write.expression_tree import (
     tokens,
 )
 from lagrangian.write.lines import Line, lines
+from lagrangian.write.names import phrases
 from lagrangian.write.unicode_math import bold
 
 _DOTS = ("", "˙", "¨", "⃛")
@@ -195,7 +196,7 @@ def _base(math: Letter) -> str:
 
 
 def _sub(math: Letter) -> str:
-    parts = [_part(part) for part in math.sub]
+    parts = [_part(part) for part in phrases(math.sub)]
     comma = '<mo separator="true">,</mo>'
     return parts[0] if len(parts) == 1 else f"<mrow>{comma.join(parts)}</mrow>"
 

@@ -55,6 +55,21 @@ def letters(names: Iterable[str]) -> Mapping[str, Letter]:
     return table
 
 
+def phrases(parts: Iterable[str]) -> tuple[str, ...]:
+    """The parts of a subscript as they are set, words that follow each other as one: ("front wheel", "2")."""
+    found = list[str]()
+    for part in parts:
+        if found and _is_word(part) and _is_word(found[-1].replace(" ", "")):
+            found[-1] += f" {part}"
+        else:
+            found.append(part)
+    return tuple(found)
+
+
+def _is_word(part: str) -> bool:
+    return len(part) > 1 and part.isalpha() and part not in GREEK
+
+
 def natural(name: str) -> tuple[tuple[int, str, int], ...]:
     """A sort key for the order in which people list names: m2 before m10, a before B, M before m."""
     pieces = re.findall(r"\d+|\D+", name)

@@ -27,6 +27,7 @@ from lagrangian.write.expression_tree import (
     numbered,
     tokens,
 )
+from lagrangian.write.names import phrases
 from lagrangian.write.tex_words import escape, web
 
 _COMMANDS = {
@@ -159,7 +160,7 @@ class Tex:
                 )
         if math.dots:
             base = rf"{_DOTS[math.dots]}{{{base}}}"
-        sub = r",".join(self._sub(part) for part in math.sub)
+        sub = r",".join(self._sub(part) for part in phrases(math.sub))
         return base + (f"^{{{math.mark}}}" if math.mark else "") + (f"_{{{sub}}}" if sub else "")
 
     def base(self, base: str) -> str:

@@ -60,7 +60,7 @@ function build(lose, reason) {
     ...fields.map((f) => f.made), make("button", { type: "submit", class: "primary" }, "Run"));
   const why = make("div", { class: "trouble" });
   tell(why, reason);
-  byId("motion").replaceChildren(why, make("p", { class: "small" }, "So the app computes the run, and shows it as curves."), make("div", { class: "panes narrow" },
+  byId("motion").replaceChildren(why, make("p", { class: "small" }, "Here the app computes the run and shows it as curves."), make("div", { class: "panes narrow" },
     make("div", { class: "pane" }, make("h2", {}, "Values"), make("p", { class: "small" }, "SI units, or with a unit: 30 deg, 12 mm. What is left empty is taken from the model."), form),
     make("div", { class: "pane" }, trouble, place, said)));
   act();
