@@ -62,6 +62,8 @@ FIRST: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a parameter of a sweep": (lambda k: k["s"].sweep(1, m=[1, 2]), "params={'m': …}"),
     "a point's name for a point": (lambda k: k["s"].point("A", k["s"]["P"]), "relative_to=P"),
     "a file's name for its text": (lambda k: lg.loads("arm.toml"), "load('arm.toml')"),
+    "a slice of a system": (lambda k: k["s"][1:2], '[E402] system[…] takes a name (got slice)\nFix: system["theta"]'),
+    "a number in brackets": (lambda k: k["s"][0], "system[…] takes a name (got int)"),
     "a typed expression": (lambda k: k["run"]["x + thet"], "[E402] quantity asked of the run, column 5: unknown"),
     "a typed value": (lambda k: k["s"].simulate("10 ss"), "[E408] duration, column 4: unknown unit"),
     "a typed answer": (lambda k: k["d"].check("V = 0\nT = )"), "[E701] the answer, line 2, column 5: this ')' has no"),

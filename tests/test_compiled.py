@@ -152,7 +152,7 @@ CALLS = {
     "energy": (3, lambda c, p: c.energy(Q, V)),
     "rhs": (3, lambda c, p: c.rhs(0.25, X, U, P)),
     "many, new parameters": (15, lambda c, p: c.forward(*MANY, p=p)),
-    "many, a set for each": (20, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
+    "many, a set for each": (18, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
     "a few, new parameters": (16, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
 }
 
@@ -165,6 +165,31 @@ def test_a_call_is_little_work_for_python(most: int, call: Callable[..., Any]) -
         call(c, P * (1 + 1e-3 * k))
     with at_most(most + 3):  # and three that the test makes
         call(c, P * 1.5)
+
+
+@pytest.mark.parametrize("packed", [True, False])
+@pytest.mark.parametrize("count", [1, 3, 37])
+def test_a_set_of_parameters_is_refused_wherever_it_is_among_those_of_all_states(count: int, packed: bool) -> None:
+    """Machine code looks at all of them at once: neither the first nor the last number may escape it."""
+    c = system("cart-pole").compile(threads=1)
+    sets = np.tile(P, (count, 1 if packed else 2))[:, : len(P)]
+    states = COLUMN[:count] * Q, COLUMN[:count] * V
+    for _ in range(2):
+        c.forward(COLUMN[:37] * Q, COLUMN[:37] * V, p=np.tile(P, (37, 1)))
+    c.forward(*states, p=sets)
+    for k in {0, count // 2, count - 1}:
+        place = f"at state {k}" if count > 1 else ""
+        for j, name in enumerate(c.parameters):
+            for wrong, code in ((np.nan, "E502"), (-np.inf, "E502"), (2e150, "E101"), (-2e150, "E101")):
+                kept, sets[k, j] = sets[k, j], wrong
+                with pytest.raises(lg.Error, match=rf"\[{code}\] parameter '{name}' is .*{place}"):
+                    c.forward(*states, p=sets)
+                sets[k, j] = kept
+        sets[k, 0], kept = -sets[k, 0], sets[k, 0]
+        with pytest.raises(lg.Error, match="mass"):
+            c.forward(*states, p=sets)
+        sets[k, 0] = kept
+    assert np.isfinite(c.forward(*states, p=sets)).all()
 
 
 def test_no_states_with_a_parameter_set_for_each_are_no_accelerations() -> None:

@@ -26,6 +26,18 @@ def quadrotor() -> lg.System:
 HOVER = {f"F{k}": MASS * G / 4 for k in range(1, 5)}
 
 
+def test_a_body_that_falls_is_told_what_holds_it_and_no_verb_that_refuses() -> None:
+    """A drone in flight has no equilibrium for `equilibria` to find; each piece of the advice works."""
+    falling = quadrotor()
+    with pytest.raises(lg.Error, match=r"body_vz' = -9\.81 there") as caught:
+        falling.linearize()
+    advice = str(caught.value).partition("Fix: ")[2]
+    assert advice.startswith("give the inputs that hold it still; operating_point=True") and "equilibria" not in advice
+    assert falling.linearize(inputs=HOVER).kind == "rest"
+    drift = falling.linearize(operating_point=True).drift
+    assert drift is not None and drift[8] == pytest.approx(-G)
+
+
 def test_a_quadrotor_hovers_in_twelve_states() -> None:
     """R. Mahony, V. Kumar, P. Corke, Multirotor Aerial Vehicles, IEEE Robotics & Automation Magazine 19 (2012):
     ẍ = g θ, ÿ = −g φ, z̈ = ΣF/m, I ω̇ = arms × forces."""

@@ -6,7 +6,7 @@ import ctypes
 import struct
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from operator import itemgetter
+from operator import itemgetter, setitem
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -41,54 +41,64 @@ class Look:
     """A function ``i64 look(ptr rows, i64 count)`` in machine code that returns 0, or `DOUBTFUL` if values need a
     closer look.
 
-    ``owner`` keeps the code in memory.
+    ``owner`` keeps the code in memory; ``call`` takes an address and a number of rows.
     """
 
     def __init__(self, address: int, owner: object) -> None:
-        self.address, self._owner, self._call = address, owner, _LOOK(address)
+        self.address, self._owner = address, owner
+        self.call: Callable[[int, int], int] = _LOOK(address)
 
     def __call__(self, rows: NDArray[np.float64]) -> int:
         """Call it with rows (..., n) in C order, of which there is at least one."""
-        return self._call(address(rows), rows.size // rows.shape[-1])
+        return self.call(address(rows), rows.size // rows.shape[-1])
 
 
 class Slot:
     """The position of a group of inputs in a call, and the values that are accepted there."""
 
-    __slots__ = ("address", "default", "pack", "pick", "place", "places", "put", "scalar", "shape", "size", "values")
+    __slots__ = (
+        "address", "default", "only", "pack", "pick", "place", "places", "put", "scalar", "shape", "size", "values"
+    )  # fmt: skip
 
     def __init__(self, place: int, group: InputGroup) -> None:
         self.place, self.size, self.scalar, self.values = place, len(group.entries), group.scalar, group.defaults
         self.shape = (self.size,)
         self.places = {name: k for k, name in enumerate(group.entries)}
         self.pick = _picking(group.entries)
+        self.only = group.entries[0] if self.size == 1 else None
         numbers = struct.Struct(f"{self.size}d")
-        self.pack, self.put = numbers.pack, numbers.pack_into
+        self.pack = numbers.pack
+        self.put: Callable[..., None] = setitem if self.size == 1 else numbers.pack_into
         self.default: NDArray[np.float64] | None = None if None in group.defaults else np.array(group.defaults, float)
         self.address = None if self.default is None else address(self.default)
+
+    def one(self, given: Any) -> Sequence[float] | None:
+        """`plain`, sooner if the group has one entry, a float by its name."""
+        if type(given) is dict and len(given) == 1 and type(number := given.get(self.only)) is float:
+            return (number,)
+        return self.plain(given)
 
     def plain(self, given: Any) -> Sequence[float] | None:
         """The numbers in a list or a mapping, one for each entry; None if they need a closer look."""
         kind = type(given)
-        if kind is dict and len(given) == self.size:
-            try:
-                given = self.pick(given)
-            except KeyError:  # there is an unknown entry instead of this one
-                return None
-        elif kind is dict:
-            filled: list[Any] = list(self.values)
-            for name, value in given.items():
-                place = self.places.get(name)
-                if place is None:
+        if kind is dict:
+            if len(given) == self.size:
+                try:
+                    given = self.pick(given)
+                except KeyError:  # there is an unknown entry instead of this one
                     return None
-                filled[place] = value
-            given = filled
-        elif kind is not list and kind is not tuple:
-            return None
-        if len(given) != self.size:
+            else:
+                filled: list[Any] = list(self.values)
+                for name, value in given.items():
+                    place = self.places.get(name)
+                    if place is None:
+                        return None
+                    filled[place] = value
+                given = filled
+        elif (kind is not list and kind is not tuple) or len(given) != self.size:
             return None
         for number in given:
-            if type(number) not in PLAIN:
+            if type(number) is not float and type(number) not in PLAIN:  # the first is quicker
                 return None
         return given
 
@@ -96,8 +106,7 @@ class Slot:
 def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:
     """A function that takes the values of all names out of a mapping, in order."""
     if len(names) == 1:
-        (only,) = names
-        return lambda given: (given[only],)
+        return lambda given, only=names[0]: (given[only],)
     return itemgetter(*names) if names else tuple
 
 
@@ -113,8 +122,8 @@ class Stage:
     """The blocks for one call with one state, and the table of their addresses that is passed to machine code.
 
     ``own`` is a shared block for parameters that are passed with a state: those with the bytes ``key``. ``parts`` are
-    written before a call. ``reads`` are the outputs: names, and functions that return
-    new copies.
+    written before a call. ``reads`` are the outputs: names, and functions that return new copies; ``first`` is that of
+    the first.
     """
 
     def __init__(self, sizes: Sizes, slots: Sequence[Slot], shapes: Mapping[str, tuple[int, ...]]) -> None:
@@ -132,7 +141,8 @@ class Stage:
         for slot in slots:
             part = block[start : start + slot.size]
             self.rows.append((slot, part, self.table[0] + 8 * start))
-            default, plain = (slot.values[0], None) if slot.scalar else (slot.default, slot.plain)
+            plain = None if slot.scalar else slot.plain if slot.only is None else slot.one
+            default = slot.values[0] if slot.scalar else slot.default
             self.parts.append((slot.place, part.data, default, plain, slot.put))
             start += slot.size
         self.reads: list[tuple[str, Callable[[], Any]]] = []
@@ -141,6 +151,7 @@ class Stage:
             result = self.out[start : start + size].reshape(shape)
             self.reads.append((name, result.copy if shape else partial(result.__getitem__, ())))
             start += size
+        self.first: Callable[[], Any] = self.reads[0][1] if self.reads else dict
 
     def share(self, shared: NDArray[np.float64]) -> None:
         """Set the address of the shared block in the table."""

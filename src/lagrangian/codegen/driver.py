@@ -53,8 +53,7 @@ def emit_single(module: Module, sizes: Sizes) -> None:
 
 def emit_parameters(module: Module, sizes: Sizes) -> None:
     """Print ``parameters`` around the scalar prologue."""
-    module.declare("llvm.umax.i64", "i64", ["i64", "i64"])
-    module.define("greatest", _GREATEST)
+    _declare_greatest(module)
     lines = [
         *_entries({3: "scratch", 4: "hoisted", 5: "own", 6: "look"}),
         "  call void @prologue_1(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
@@ -77,10 +76,15 @@ def emit_parameters(module: Module, sizes: Sizes) -> None:
 def emit_signs(module: Module, sizes: Sizes, above: int) -> None:
     """Print ``i64 signs(ptr rows, i64 count)`` around the scalar body.
 
-    It returns 0 if, for each of at least one row, the first ``above`` outputs are positive, the others are not
-    negative, and all are finite; otherwise it returns `DOUBTFUL`.
+    It returns 0 if no entry of the rows, of which there is at least one, is too large or not finite, and if, for each
+    row, the first ``above`` outputs are positive, the others are not negative, and all are finite; otherwise it returns
+    `DOUBTFUL`.
     """
-    count = sum(sizes.outputs)
+    _declare_greatest(module)
+    module.declare("llvm.vector.reduce.or.v8i64", "i64", ["<8 x i64>"])
+    module.declare("llvm.smin.i64", "i64", ["i64", "i64"])
+    module.define("moderate", _MODERATE)
+    count, width = sum(sizes.outputs), sum(sizes.groups)
     lines = [
         "define i64 @signs(ptr %rows, i64 %count) nounwind {",
         "entry:",
@@ -89,7 +93,7 @@ def emit_signs(module: Module, sizes: Sizes, above: int) -> None:
         "  br label %loop",
         "loop:",
         "  %row = phi i64 [0, %entry], [%next, %loop]",
-        f"  %start = mul i64 %row, {sum(sizes.groups)}",
+        f"  %start = mul i64 %row, {width}",
         "  %in = getelementptr double, ptr %rows, i64 %start",
         "  call void @body_1(ptr %in, ptr null, ptr %out, ptr %scratch)",
     ]
@@ -110,11 +114,19 @@ def emit_signs(module: Module, sizes: Sizes, above: int) -> None:
         f"  %on = and i1 %more, {known}",
         "  br i1 %on, label %loop, label %end",
         "end:",
-        f"  %answer = select i1 {known}, i64 0, i64 {DOUBTFUL}",
+        f"  %entries = mul i64 %count, {width}",
+        "  %small = call i1 @moderate(ptr %rows, i64 %entries)",
+        f"  %good = and i1 %small, {known}",
+        f"  %answer = select i1 %good, i64 0, i64 {DOUBTFUL}",
         "  ret i64 %answer",
         "}",
     ]
     module.define("signs", "\n".join(lines))
+
+
+def _declare_greatest(module: Module) -> None:
+    module.declare("llvm.umax.i64", "i64", ["i64", "i64"])
+    module.define("greatest", _GREATEST)
 
 
 def _entries(names: Mapping[int, str]) -> list[str]:
@@ -151,6 +163,38 @@ loop:
 end:
   %answer = phi i64 [0, %entry], [%higher, %loop]
   ret i64 %answer
+}}"""
+
+_EIGHT_BOUNDS = ", ".join([f"i64 {BOUND}"] * 8)
+_EIGHT_MAGNITUDES = ", ".join([f"i64 {MAGNITUDE}"] * 8)
+
+# Whether no magnitude among n numbers is above the bound, eight at a time, the last eight again: where one is, the
+# bound minus its bits is negative.
+_MODERATE = f"""define internal i1 @moderate(ptr %x, i64 %n) noinline nounwind {{
+entry:
+  %last = sub i64 %n, 8
+  %many = icmp sge i64 %last, 0
+  br i1 %many, label %loop, label %few
+loop:
+  %k = phi i64 [0, %entry], [%next, %loop]
+  %known = phi <8 x i64> [zeroinitializer, %entry], [%all, %loop]
+  %start = call i64 @llvm.smin.i64(i64 %k, i64 %last)
+  %at = getelementptr i64, ptr %x, i64 %start
+  %bits = load <8 x i64>, ptr %at, align 8
+  %size = and <8 x i64> %bits, <{_EIGHT_MAGNITUDES}>
+  %room = sub <8 x i64> <{_EIGHT_BOUNDS}>, %size
+  %all = or <8 x i64> %known, %room
+  %next = add i64 %k, 8
+  %more = icmp slt i64 %next, %n
+  br i1 %more, label %loop, label %end
+end:
+  %any = call i64 @llvm.vector.reduce.or.v8i64(<8 x i64> %all)
+  %inside = icmp sge i64 %any, 0
+  ret i1 %inside
+few:
+  %top = call i64 @greatest(ptr %x, i64 %n)
+  %small = icmp ule i64 %top, {BOUND}
+  ret i1 %small
 }}"""
 
 

@@ -293,8 +293,8 @@ class Kernel:
         return RawFunction(code.address(name), lanes, sum(s.groups), s.shared, sum(s.outputs), s.scratch, code)
 
     def signs(self, above: int) -> Look:
-        """A check of the only group of a program: are its first ``above`` outputs positive and the others not
-        negative?
+        """A check of the only group of a program: is every number small enough, are its first ``above`` outputs
+        positive, and the others not negative?
         """
 
         def printer(module: Module, build: Build) -> None:

@@ -80,8 +80,7 @@ class Quick:
             stage = self.stage()
         bad = 1
         try:
-            first = None if self._lead_at is None else given[self._lead_at]
-            if type(first) is ndarray and first.ndim > 1:
+            if self._lead_at is not None and type(first := given[self._lead_at]) is ndarray and first.ndim > 1:
                 answer = self._many(stage, given, first.shape[:-1])
                 self.stages.append(stage)
                 return answer
@@ -110,7 +109,7 @@ class Quick:
                     bad = self.single(stage.where)
         except (ValueError, struct.error):  # or an integer larger than all floats
             bad = 1
-        answer = None if bad else stage.reads[0][1]() if self._alone else {name: read() for name, read in stage.reads}
+        answer = None if bad else stage.first() if self._alone else {name: read() for name, read in stage.reads}
         self.stages.append(stage)
         return answer
 
@@ -159,7 +158,7 @@ class Quick:
 
     def answer(self, stage: Stage) -> Any:
         """The outputs of a stage, copied."""
-        return stage.reads[0][1]() if self._alone else {name: read() for name, read in stage.reads}
+        return stage.first() if self._alone else {name: read() for name, read in stage.reads}
 
     def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
         """Evaluate many states in arrays of one leading shape; an argument may have one row for all states, held in the
@@ -177,10 +176,14 @@ class Quick:
         elif type(early) is ndarray and early.ndim > 1:
             if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
                 return None
-            if not np.vdot(early, early) <= _SQUARE:
-                return None  # a parameter is too large or not finite
-            self._admit_each(stage, early)
-            rows, engine = [*rows, (slot, stage.hoisted, 0)], self.engines.get("sweep")
+            flags, engine, place = early.flags, self.engines.get("sweep"), 0
+            if flags.c_contiguous and flags.aligned:
+                place = address(early)
+            if not self._fit(stage, early, place, count):
+                return None
+            if place and engine is not None and count >= engine.lanes:
+                return self._computed(stage, engine, rows, given, lead, count, (place, _WORD * slot.size, _WORD))
+            rows = [*rows, (slot, stage.hoisted, 0)]
         elif self._own(stage, early, _made, self.parameters) != 0:
             return None
         if engine is None:
@@ -195,13 +198,21 @@ class Quick:
             return {name: array[:count].reshape(lead + array.shape[1:]) for name, array in answer.items()}
         return None if answer is None else answer[:count].reshape(lead + answer.shape[1:])
 
-    def _admit_each(self, stage: Stage, early: Array) -> None:
-        """Have many rows of hoisted values checked: by machine code, once there is some."""
-        if self.admit is None or (stage.look is not None and early.flags.c_contiguous and stage.look(early) == 0):
-            return
-        look = self.admit(early)
-        if look is not None:
-            stage.ask(look)
+    def _fit(self, stage: Stage, early: Array, place: int, count: int) -> bool:
+        """Whether no number in many rows of hoisted values is too large or not finite.
+
+        They are checked for admission, too: all by machine code, once there is some, if the rows are packed at an
+        address ``place``.
+        """
+        if place and stage.look is not None and stage.look.call(place, count) == 0:
+            return True
+        if not np.vdot(early, early) <= _SQUARE:
+            return False
+        if self.admit is not None:
+            look = self.admit(early)
+            if look is not None:
+                stage.ask(look)
+        return True
 
     def _computed(
         self,
@@ -211,8 +222,10 @@ class Quick:
         given: Sequence[Any],
         lead: tuple[int, ...],
         count: int,
+        last: tuple[int, ...] = (),
     ) -> Any:
-        """Evaluate at least as many states as lanes."""
+        """Evaluate at least as many states as lanes; ``last`` is what the table has of a group that follows the
+        others."""
         entries: list[int] = []
         try:
             for slot, part, place in rows:
@@ -220,6 +233,7 @@ class Quick:
                     return None
         except OverflowError:  # an integer larger than all floats
             return None
+        entries += last
         results = []
         for shape, size in self._sizes:
             made = np.empty(lead + shape)
