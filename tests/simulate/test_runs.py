@@ -145,6 +145,16 @@ def test_a_symplectic_run_keeps_its_energy_where_a_fixed_step_run_loses_it() -> 
     assert abs(drift["rk4"][-1]) > 10 * late
 
 
+@pytest.mark.parametrize("turns", [0.5, 2.0])
+def test_a_pendulum_that_rounding_alone_moves_is_not_called_wrong(turns: float) -> None:
+    """sin(2π) is 2.4e-16 in floating point: it creeps off with energies of 1e-29 J, beside 5 J of V."""
+    run = lg.example("pendulum").simulate(1.0, theta=2 * np.pi * turns, initial={"theta'": 0.0})
+    assert 0 < np.max(np.abs(run["theta'"])) < 1e-13 and np.ptp(run.energy) < 1e-14
+    assert run.success and run.message == "the end of the interval was reached, t = 1 s"
+    faint = lg.example("pendulum").simulate(1.0, theta=1e-9, initial={"theta'": 0.0})  # it does move, by 1e-18 J
+    assert np.max(np.abs(faint["theta'"])) > 1e-9 and faint.message == run.message
+
+
 def test_energy_is_what_the_derivation_says() -> None:
     s = example("elastic-pendulum")
     run = s.simulate(1.0, samples=5)

@@ -41,12 +41,17 @@ ROUNDING = 1e-13
 """If the supplied energy is below this fraction of the energy that moves, it counts as zero."""
 
 
+SEEN = 16 * float(np.finfo(float).eps) / TRUSTED
+"""The energy, relative to V, whose balance can be judged to `TRUSTED` beside the rounding of V."""
+
+
 @dataclass(frozen=True)
 class Audit(Brief):
     """How well a run satisfies its energy balance h(t) = h(0) + supplied energy, h = q̇·∂L/∂q̇ − L.
 
     ``figure`` is the largest difference, relative to the energy that moves in the run (the largest of T*, the change of
-    V, and the supplied energy); ``time`` is where it is largest. float(audit) is the figure.
+    V, and the supplied energy), or to the least that rounding lets be seen beside V if that is more. It is 0 at rest,
+    where no rate exceeds the absolute tolerance. ``time`` is where it is largest. float(audit) is the figure.
     """
 
     figure: float
@@ -243,9 +248,10 @@ class Recorded(Guided):
             return Audit(0.0, 0.0, True)
         T, V, W = self.kinetic, self.potential, self.supplied
         given = float(np.max(np.abs(W)))
-        scale = max(float(np.max(np.abs(T))), float(np.ptp(V)), given)
+        scale = max(float(np.max(np.abs(T))), float(np.ptp(V)), given, SEEN * float(np.max(np.abs(V))))
         worst = int(np.argmax(np.abs(self.imbalance)))
-        largest = abs(float(self.imbalance[worst]))
+        at_rest = np.all(np.abs(self.y[-len(self.model.velocities) :]) <= self.settings["atol"])
+        largest = 0.0 if at_rest else abs(float(self.imbalance[worst]))
         return Audit(largest / scale if largest else 0.0, float(self.t[worst]), given <= ROUNDING * scale)
 
     @cached_property
