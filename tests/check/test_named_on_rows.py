@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from sympy import cos, sin
 
 import lagrangian as lg
 
@@ -51,3 +52,32 @@ def test_two_mistakes_beside_a_multiplier_are_two() -> None:
     assert len(told) == 2, told
     assert any("S has the wrong sign in the equation of y" in x for x in told), told
     assert any("counts half" in x for x in told), told
+
+
+def test_a_term_that_the_constraint_hides_is_named_as_what_it_is() -> None:
+    """On a ball r = R, so that r″ = 0: what lacks r θ′² lacks all that a particle adds there, but r″ was written."""
+    s = lg.System("particle on a ball")
+    r, theta = s.coordinates("r theta", positive=True)
+    m, R = s.parameters("m R")
+    s.particle(m, at=s.point("P", (r * sin(theta), r * cos(theta))), name="bead")
+    s.gravity((0, -1), s.parameter("g"))
+    s.constraint(r - R, name="contact")
+    derived = s.derive()
+    second = "\nm r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
+    (mistake,) = derived.check("m r'' + m g cos(theta) = lambda" + second).mistakes
+    assert "∂L/∂r" in str(mistake.what), str(mistake.what)
+    assert "is not the force of a constraint" in str(derived.check("m g cos(theta) = lambda" + second))
+
+
+def test_two_strands_of_a_belt_go_together() -> None:
+    s = lg.System("belt")
+    phi1, phi2 = s.coordinates("phi1 phi2")
+    J1, J2, r1, r2, k, c = s.parameters("J1 J2 r1 r2 k c")
+    for n, (J, phi) in enumerate(((J1, phi1), (J2, phi2)), 1):
+        s.rigid_body(1, J, at=s.origin, frame=s.frame(phi, name=f"p{n}"), name=f"pulley {n}")
+    s.spring(k, deflection=r1 * phi1 - r2 * phi2, name="tight")
+    s.spring(k, deflection=r2 * phi2 - r1 * phi1, name="slack")
+    s.spring(c, deflection=phi2, name="shaft")
+    answer = "J1 phi1'' + 2 k r1 (r1 phi1 - r2 phi2) = 0\nJ2 phi2'' + 2 k r2 (r1 phi1 - r2 phi2) + c phi2 = 0"
+    (mistake,) = s.derive().check(answer).mistakes
+    assert "spring 'tight' and spring 'slack' add to the equation of phi2 has the wrong sign" in str(mistake.what)

@@ -180,7 +180,7 @@ def test_a_wrong_parameter_is_named() -> None:
 def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["conserved", "-e", "spherical-pendulum"]) == 0
     out = capsys.readouterr().out
-    assert "Momentum of phi" in out and "✓ along a run" in out
+    assert "Momentum of phi" in out and "✓ it stays constant along a run" in out
     assert main(["conserved", "-e", "two-carts", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [c["kind"] for c in found["conserved"]] == ["momentum", "energy"]

@@ -16,9 +16,9 @@ from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, 
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
-from lagrangian.check.held import held
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
+from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
@@ -93,7 +93,7 @@ def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], ver
     if read is None:
         return verdict
     judged = _judged(truth, read.lines)
-    named = mistakes(held(truth) or truth, read.lines, judged.findings)
+    named = mistakes_beside_multipliers(truth, read.lines, judged.findings)
     of_constraints = wrong_constraints(truth, verdict.findings)
     told = (*named.told, *read.mistakes, *of_constraints)
     if not told:

@@ -10,6 +10,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian.check.changes import alike
 from lagrangian.check.changes.change import Site, Words
 from lagrangian.check.changes.ring import Monomial, Sum, SumRing, add, plus, scaled, times
 from lagrangian.check.misconceptions.base import Ingredients
@@ -185,7 +186,8 @@ class Sites:
         Xi = {i: plus(*[s[i] for s in self.shares.values() if i in s]) for i in range(self.n)}
         if len(self.translations) + len(self.rotations) + len(self.others) > 1:
             yield Site(words=(Name("T*"),), brief=(Name("T*"),), step=2, T=T, surcharge=0.1)
-        yield from self._of_alike_bodies()
+        yield from alike.bodies(self)
+        yield from alike.energies(self)
         if len(self.weights) > 1:
             gravity = next(iter(self.weights.values()))[0]
             words: Words = ("the weights",)
@@ -207,21 +209,6 @@ class Sites:
         yield Site(
             words=words, brief=words, step=1, T=T, V=V, Xi={i: x for i, x in Xi.items() if x}, surcharge=0.2, whole=True
         )
-
-    def _of_alike_bodies(self) -> Iterator[Site]:
-        """Several bodies of the same mass together, if there are others."""
-        groups: dict[Any, list[Any]] = {}
-        for b in self.of.bodies:
-            groups.setdefault(b.mass, []).append(b)
-        for group in groups.values():
-            if 1 < len(group) < len(self.of.bodies):
-                names = " and ".join(b.title for b in group)
-                words: Words = (f"the kinetic energy of {names}",)
-                T = plus(*[self.kinetic[b] for b in group])
-                yield Site(words=words, brief=words, step=2, element=group[0], T=T, surcharge=0.1, sign_cost=0.9)
-                V = plus(*[self.weights[b][1] for b in group if b in self.weights])
-                words = (f"the weights of {names}",)
-                yield Site(words=words, brief=words, step=3, element=group[0], V=V, surcharge=0.1)
 
     def terms(self) -> Iterator[Site]:
         """Single terms of every part."""
@@ -280,6 +267,7 @@ class Sites:
                     rows={i: x},
                     surcharge=0.4,
                 )
+        yield from alike.in_rows(self)
         for i, row in enumerate(self.rows):
             yield from self._of_row(i, row)
             yield from self._derivatives(i)
