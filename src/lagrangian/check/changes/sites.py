@@ -186,8 +186,8 @@ class Sites:
         Xi = {i: plus(*[s[i] for s in self.shares.values() if i in s]) for i in range(self.n)}
         if len(self.translations) + len(self.rotations) + len(self.others) > 1:
             yield Site(words=(Name("T*"),), brief=(Name("T*"),), step=2, T=T, surcharge=0.1)
-        yield from alike.bodies(self)
-        yield from alike.energies(self)
+        yield from alike.bodies(self.of.bodies, self.kinetic, self.weights)
+        yield from alike.springs(self.energies)
         if len(self.weights) > 1:
             gravity = next(iter(self.weights.values()))[0]
             words: Words = ("the weights",)
@@ -267,7 +267,7 @@ class Sites:
                     rows={i: x},
                     surcharge=0.4,
                 )
-        yield from alike.in_rows(self)
+        yield from alike.in_rows(self.energies, self.element_rows, self.of.q)
         for i, row in enumerate(self.rows):
             yield from self._of_row(i, row)
             yield from self._derivatives(i)
