@@ -20,6 +20,34 @@ def pendulum() -> lg.Derivation:
     return s.derive()
 
 
+IN_AN_ANGLE = {
+    "l*theta'' + g*sin(theta) = 0": "x = l sin θ, y = −l cos θ",
+    "x = l*sin(theta)\ny = -l*cos(theta)\nm*l^2*theta'' = -m*g*l*sin(theta)": "x = l sin θ, y = −l cos θ",
+    "l*phi'' = -g*cos(phi)": "x = l cos φ, y = l sin φ",
+    "l*theta'' = g*sin(theta)": "x = −l sin θ, y = l cos θ",
+}
+"""Equations in an angle of the rod, by how it is measured: from below, from the side, from above (x may be −x)."""
+
+
+@pytest.mark.parametrize("answer", IN_AN_ANGLE)
+def test_an_answer_may_use_an_angle_of_the_circle(pendulum: lg.Derivation, answer: str) -> None:
+    found = pendulum.check(answer)
+    assert found.right and f"Read with {IN_AN_ANGLE[answer]}." in str(found)
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "l*theta'' = -g*theta",
+        "2*l*theta'' + g*sin(theta) = 0",
+        "x = l*sin(theta)\ny = -l*cos(theta)\nl*theta'' = g*sin(theta)",  # right in another angle than it says
+    ],
+)
+def test_a_wrong_equation_in_an_angle_is_wrong(pendulum: lg.Derivation, answer: str) -> None:
+    found = pendulum.check(answer)
+    assert found.status is Status.WRONG and "Read with x = l sin θ, y = −l cos θ." in str(found)
+
+
 @pytest.fixture(scope="module")
 def sleigh() -> lg.Derivation:
     s = lg.System("Chaplygin sleigh")

@@ -11,7 +11,6 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.beside import beside
 from lagrangian.check.candidates import too_long
-from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
@@ -20,6 +19,7 @@ from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
 from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
+from lagrangian.check.new_angles import check_in_any_angle
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
@@ -72,7 +72,7 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
     written = filled(truth, lines)
     if truth.derivation.multipliers:
         read = unfolded(truth, written)
-        verdict = read.judged(lambda said: check_constrained(truth, said, hint))
+        verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
         return _named_with_multipliers(truth, read.lines, verdict) if explain else verdict
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
