@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from lagrangian.derivation import Derivation
 t = dynamicsymbols._t
 
 
+@cache
 def sleigh() -> lg.System:
     """Chaplygin's sleigh: a knife edge at (x, y), the centre of mass at a distance a from it."""
     s = lg.System("Chaplygin sleigh")
@@ -27,6 +29,7 @@ def sleigh() -> lg.System:
     return s
 
 
+@cache
 def disc() -> lg.System:
     """A disc that rolls on a plane: contact at (x, y), heading psi, lean theta, spin phi."""
     s = lg.System("rolling disc")
@@ -42,14 +45,17 @@ def disc() -> lg.System:
     return s
 
 
+@cache
 def pendulum() -> lg.System:
     return constrained_systems.pendulum_in_plane(weight=True)
 
 
+@cache
 def four_bar() -> lg.System:
     return constrained_systems.four_bar(weight=True)
 
 
+@cache
 def axle() -> lg.System:
     """Two wheels on one axle, with a motor and a damper: forces along the speeds too."""
     s = lg.System("two wheels on one axle")
@@ -70,6 +76,11 @@ def axle() -> lg.System:
 SYSTEMS: list[Callable[[], lg.System]] = [sleigh, disc, pendulum, four_bar, axle]
 
 
+@cache
+def derived(make: Callable[[], lg.System]) -> Derivation:
+    return make().derive()
+
+
 def residuals(d: Derivation) -> list[sp.Expr]:
     assert d.minimal is not None
     return [sp.expand(e.lhs - e.rhs) for e in d.minimal.equations]
@@ -84,7 +95,7 @@ def test_the_sleigh_without_multipliers() -> None:
     s = sleigh()
     x, y, theta = s["x"], s["y"], s["theta"]
     m, J, a = (s[k] for k in ("m", "J", "a"))
-    d = s.derive()
+    d = derived(sleigh)
     assert d.minimal is not None
     v = dynamicsymbols("v")
     assert d.minimal.speeds == (theta.diff(t), v)
@@ -99,7 +110,7 @@ def test_the_sleigh_without_multipliers() -> None:
 def test_the_force_on_the_knife_edge() -> None:
     """λ = m (v θ̇ + a θ̈) is the force on the body along the normal of the edge, by a free body."""
     s = sleigh()
-    d = s.derive()
+    d = derived(sleigh)
     theta, v = s["theta"], dynamicsymbols("v")
     m, a = s["m"], s["a"]
     (known,) = d.multipliers.values()
@@ -116,7 +127,7 @@ def test_the_rolling_disc_without_multipliers() -> None:
     s = disc()
     m, r, I, K, g = (s[k] for k in ("m", "r", "I", "K", "g"))
     phi, theta, psi = (s[k] for k in ("phi", "theta", "psi"))
-    d = s.derive()
+    d = derived(disc)
     sin, cos = sp.sin(theta), sp.cos(theta)
     spin, lean, turn = phi.diff(t), theta.diff(t), psi.diff(t)
     assert d.minimal is not None
@@ -138,7 +149,7 @@ def test_the_rolling_disc_without_multipliers() -> None:
 @pytest.mark.slow
 def test_the_disc_solved_for_its_accelerations() -> None:
     """Cramer's rule on request: the solution satisfies the equations, at a random state."""
-    d = disc().derive()
+    d = derived(disc)
     assert d.minimal is not None
     solved = d.minimal.accelerations()
     assert list(solved) == [u.diff(t) for u in d.minimal.speeds]
@@ -154,7 +165,7 @@ def test_the_disc_solved_for_its_accelerations() -> None:
 def test_the_tension_of_the_pendulum() -> None:
     """λ = −(m g cos θ + m l θ̇²): the rod pulls, so λ, which pushes the ends apart, is negative."""
     s = pendulum()
-    d = s.derive()
+    d = derived(pendulum)
     known = d.multipliers["rod"]
     assert known.unit == "N"
     assert "tension" in str(known.words)
@@ -173,7 +184,7 @@ def test_the_tension_of_the_pendulum() -> None:
 
 def test_no_fewer_speeds_for_the_pendulum() -> None:
     """Only x or y could be divided by, and both vanish somewhere: said, with the place where it fails."""
-    d = pendulum().derive()
+    d = derived(pendulum)
     assert d.minimal is None
     assert d.no_minimal is not None
     assert "x = 0" in str(d.no_minimal)
@@ -183,8 +194,7 @@ def test_no_fewer_speeds_for_the_pendulum() -> None:
 @pytest.mark.slow
 def test_multipliers_are_those_of_lagranges_method() -> None:
     """The four-bar against SymPy's `LagrangesMethod`: the same equations, its λ being ours with the other sign."""
-    s = four_bar()
-    d = s.derive()
+    d = derived(four_bar)
     rows = sp.Matrix([x.rate for x in d.multipliers.values()])
     ours = list(d.multipliers.values())
     method = LagrangesMethod(d.L, list(d.coordinates), nonhol_coneqs=list(rows))
@@ -250,7 +260,7 @@ def accelerations(equations: sp.Matrix, u: Sequence[sp.Expr], speeds: Sequence[f
 def test_two_wheels_on_one_axle() -> None:
     """Turns and numbers first: only parameters are divided by, and the force on the left wheel's spin is shared."""
     s = axle()
-    d = s.derive()
+    d = derived(axle)
     assert d.minimal is not None
     theta, left, right = (s[k] for k in ("theta", "phi_l", "phi_r"))
     w, r, m, wheel, b = (s[k] for k in ("w", "r", "m", "I_w", "b"))
@@ -265,7 +275,7 @@ def test_two_wheels_on_one_axle() -> None:
 
 def test_every_term_is_known_by_its_constraint() -> None:
     """Terms with a multiplier have their kind and element, and `where` finds them."""
-    d = four_bar().derive()
+    d = derived(four_bar)
     terms = [x for row in d.terms for x in row if x.kind == "constraint"]
     assert len(terms) == 6
     assert {x.elements for x in terms} == {("pin 'loop'",)}
@@ -278,7 +288,7 @@ def test_every_term_is_known_by_its_constraint() -> None:
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
     """The equations, the rows, the multipliers and the equations without them, against what is compiled."""
-    d = make().derive()
+    d = derived(make)
     found = d.verify(states=4)
     assert all(x.holds is not False for x in found), [x for x in found if x.holds is False]
     words = [str(x.what) for x in found]
@@ -291,7 +301,7 @@ def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
 @pytest.mark.parametrize("notation", ["lecture", "physics", "robotics"])
 def test_every_format_shows_it(notation: Any) -> None:
     """The rows, the multiplier's meaning and the equations without it, in all formats and notations."""
-    d = sleigh().derive()
+    d = derived(sleigh)
     for page in (d.to_text(notation=notation), d.to_markdown(notation=notation), d.to_html(notation=notation)):
         assert "knife edge" in page
         assert "Equations without multipliers" in page
@@ -305,9 +315,9 @@ def test_every_format_shows_it(notation: Any) -> None:
 
 def test_a_velocity_constraint_stays_out_of_the_lagrangian() -> None:
     """The derivation says why."""
-    page = " ".join(sleigh().derive().to_text().split())
+    page = " ".join(derived(sleigh).to_text().split())
     assert "is never put into" in page
-    assert "is never put into" not in " ".join(pendulum().derive().to_text().split())
+    assert "is never put into" not in " ".join(derived(pendulum).to_text().split())
 
 
 def test_rows_of_a_file() -> None:
