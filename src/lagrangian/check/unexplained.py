@@ -21,8 +21,9 @@ from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.derive.sampling import SETS, CompiledExpressions
 from lagrangian.errors import ParseError
-from lagrangian.model import Model
+from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
+from lagrangian.read.letters import key
 from lagrangian.values.dimensions import Mismatch, check_dimensions
 
 MOST_ASKED = 3
@@ -39,12 +40,14 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     """The names that decide whether a wrong answer is wrong, and that nothing explains; none if a line is wrong without
     them.
 
-    A misspelled name of the system, a coordinate of another name, and a force that the equations determine are known.
+    A misspelled name of the system, a name that was read as a coordinate, and a force that the equations determine are
+    known.
     """
     if verdict.status is not Status.WRONG or not answer.unknown:
         return ()
     lines = lines_of(answer)
-    asked = [u for u in answer.unknown if not _is_known(u, derivation.model, lines)]
+    asked = [u for u in answer.unknown if u.symbol not in verdict.change]
+    asked = [u for u in asked if not _is_known(u, derivation.model, lines, answer.unread)]
     asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]
     if derivation.multipliers or len(equations) >= len(derivation.model.coordinates) + len(asked):
@@ -79,14 +82,16 @@ def _asked(unknown: Unknown) -> ParseError:
     return ParseError(what, element="the answer", place=unknown.place, fix=fix, code="E402")
 
 
-def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> bool:
+def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine], unread: Collection[str]) -> bool:
     """Whether it is certain what a name of the answer means.
 
-    It moves, it is a name of the system that is misspelled, or a line without motion says it: 2*zeta*wn = c/m.
+    It accelerates, which coordinates do, and nothing ``unread`` may say more; it is a name of the system that is
+    misspelled; or a line without motion says it: 2*zeta*wn = c/m.
     """
     symbol: Any = unknown.symbol
-    if isinstance(symbol, AppliedUndef):
-        return True  # coordinates of the answer's own are sought by themselves
+    accelerates = any(line.expr.has(sp.Derivative(symbol, (time, 2))) for line in lines)
+    if isinstance(symbol, AppliedUndef) and accelerates and key(unknown.name) not in unread:
+        return True
     related = (x.expr for x in lines if x.kind == "equation" and not x.expr.atoms(AppliedUndef))
     if any(expr.has(symbol) for expr in related):
         return True

@@ -76,6 +76,8 @@ class Answer:
     notes: tuple[str, ...] = ()
     described: frozenset[str] = frozenset()
     """The names of which words say what they are."""
+    unread: frozenset[str] = frozenset()
+    """The names, in the form of `lagrangian.read.letters.key`, in parts that were not read and may explain them."""
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
 
     @property

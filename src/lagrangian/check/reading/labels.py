@@ -40,6 +40,8 @@ _OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\
 """A name with a bracket that nothing opens: x), θ)."""
 _LEFT = re.compile(r"\s*+:(?=\s)")
 """The colon of a label whose words are blank already: Eq. 1 (cart): …"""
+_DASH = re.compile(r"^[ \t]*+(?P<dash>[-–—])[ \t]++(?P<rest>[^\n]++)", re.MULTILINE)
+"""A dash at the beginning of a line: that of a list if a label is behind it."""
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
@@ -157,6 +159,17 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             break
     left = _LEFT.match(line)
     return line if left is None else blank(line, 0, left.end())
+
+
+def without_dashes(text: str, words: Words) -> str:
+    """Blank out dashes in front of labels: - moment of inertia: J_0 = m L^2/3."""
+
+    def bare(match: re.Match[str]) -> str:
+        rest = match["rest"]
+        labelled = ":" in rest and (_LABEL.match(rest) or _label(rest, words)) is not None
+        return match.group().replace(match["dash"], " ", 1) if labelled else match.group()
+
+    return _DASH.sub(bare, text)
 
 
 def _is_energy(match: re.Match[str], line: str, words: Words) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.quantities.units import lookup
 
 _COVERS = "underbrace overbrace underbracket overbracket underset overset stackrel cancel bcancel xcancel"
@@ -14,7 +15,24 @@ _COLOURED = re.compile(
     r"\\(?:textcolor|colorbox|mathcolor)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}\s*(?=\{)|\\color\s*\{[^{}]*\}"
 )
 _UNITS = re.compile(r"(?<=\d)(?:\s|~|\\[,;:! ])*\\(?:mathrm|text|textrm|si|unit)\s*\{(?P<unit>[^{}]{0,60})\}")
+_ENVIRONMENT = re.compile(r"\\begin\{(?P<kind>(?:align|gather|flalign|alignat)\*?)\}(?:\{\d\})?")
+_BETWEEN = re.compile(r"\\(?:short)?intertext\s*\{")
 _MAX = 200
+
+
+def with_open_text(written: TracedText) -> TracedText:
+    r"""Return an answer in which words with mathematics between rows, \\intertext{with $a = b$}, stand outside the
+    environment, which ends before them and begins again behind them."""
+    text = written.text
+    edits: list[Edit] = []
+    for match in list(_BETWEEN.finditer(text))[:_MAX]:
+        opened = list(_ENVIRONMENT.finditer(text, 0, match.start()))
+        end = closing(text, match.end())
+        if opened and "$" in text[match.end() : end]:
+            last = opened[-1]
+            edits.append((*match.span(), f"\\end{{{last['kind']}}}\n"))
+            edits.append((end - 1, end, f"\n{last.group()}"))
+    return written.edited(edits)
 
 
 def without_braces(text: str) -> str:

@@ -74,6 +74,8 @@ class Lines:
         self._matrices: set[str] = set()
         self.remarks: list[ParseError] = []
         """The errors of lines of words, which matter only if the equations beside them are not complete."""
+        self.unread: set[str] = set()
+        """The names in parts of the answer that were not read."""
 
     def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
         """Return the lines of the statements, in their order.

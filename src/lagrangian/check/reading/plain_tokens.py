@@ -49,7 +49,7 @@ TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for k
 """The regular expression of one token, with the groups of_1, of_2, what, by and dots."""
 
 _ONE = re.compile(
-    r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
+    r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_⁰¹²³⁴-⁹]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
 )
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])

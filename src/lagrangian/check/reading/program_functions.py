@@ -33,6 +33,12 @@ _UNPACKED = re.compile(
 )
 _INDEX = r"(?:\[(?P<zero>\d)\]|\((?P<one>\d)\))"
 _INDEXED = re.compile(rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME}){_INDEX}{_END}", re.MULTILINE)
+_SLICES = re.compile(
+    rf"^[ \t]*+(?P<out>{_NAME})(?:\((?P<one>\d):\d\)|\[(?P<zero>\d?):\d?\])[ \t]*+=[ \t]*+"
+    rf"(?P<of>{_NAME})(?:\((?P<one_of>\d):(?P<last>\d|end)\)|\[(?P<zero_of>\d?):(?P<stop>\d?)\]){_END}",
+    re.MULTILINE,
+)
+"""The rates of positions, which are the velocities: dx(1:2) = x(3:4)."""
 _LIST = r"(?:(?:np|numpy|jnp)\.(?:array|asarray|hstack)[ \t]*\([ \t]*)?[\[(]"
 _RETURNED = re.compile(rf"^[ \t]*+return[ \t]++(?P<list>{_LIST})", re.MULTILINE)
 _NOTHING = re.compile(
@@ -83,7 +89,7 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         default = [name + prime for name in coordinates for prime in ("", "'")]
     states = [name or default[i] for i, name in enumerate(names)]
     if function.state is not None:
-        edits += _indices(text, function.state, states)
+        edits += [*_indices(text, function.state, states), *_slices(text, function, states)]
     if function.out is not None:
         rates = [(m, _place(m)) for m in re.finditer(rf"(?<!\w){function.out}{_INDEX}(?=[ \t]*=)", text)]
         edits += [(*m.span(), f"{states[at]}'") for m, at in rates if 0 <= at < len(states)]
@@ -169,6 +175,19 @@ def _indices(text: str, state: str, states: Sequence[str]) -> Iterator[Edit]:
         at = _place(match)
         if 0 <= at < len(states):
             yield match.start(), match.end(), states[at]
+
+
+def _slices(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
+    """The equations in the place of slices of states: the rate of a state is another one, which has its own name."""
+    for match in _SLICES.finditer(text):
+        if (match["out"], match["of"]) != (function.out, function.state):
+            continue
+        pairs = (("one", "zero"), ("one_of", "zero_of"))
+        first, of = (int(match[x]) - 1 if match[x] else int(match[y] or 0) for x, y in pairs)
+        end = match["last"] if match["last"] != "end" else None
+        rest = states[of : int(end or match["stop"] or len(states))]
+        said = [f"{a}' = {b}" for a, b in zip(states[first:], rest, strict=False) if b != f"{a}'"]
+        yield *match.span(), "\n".join(said)
 
 
 def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:

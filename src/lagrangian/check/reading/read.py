@@ -14,6 +14,7 @@ from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex import LatexParser
+from lagrangian.check.reading.latex_layout import with_open_text
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.line_forms import Statement
@@ -25,12 +26,18 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
+from lagrangian.check.reading.program_marks import without_program_marks
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.remarks import is_remark
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
-from lagrangian.check.reading.stands_for import with_stated_letters, with_variations
+from lagrangian.check.reading.stands_for import (
+    with_stated_letters,
+    with_stated_rates,
+    with_stated_values,
+    with_variations,
+)
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.words import Words
@@ -78,12 +85,14 @@ _EXPLAINED = re.compile(
 @dataclass(frozen=True)
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
-    after numbers as units, sums of angles without brackets as arguments."""
+    after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
+    accelerations as the rates of coordinates."""
 
     flipped: bool = False
     listed: bool | None = None
     units: bool = False
     summed: bool = False
+    rated: bool = False
 
 
 LIKELIEST = Choices()
@@ -119,6 +128,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     lines = Lines(model)
     typed = Source(plainer(text), "the answer", place)
     plain = _without_notations(typed.text, lines)
+    called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
+    rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
@@ -155,6 +166,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     less_likely = [
         (Choices(units=True), words.doubtful),
         (Choices(summed=True), words.summed_asked),
+        (Choices(rated=True), rated and not latex),
         (Choices(flipped=True), words.asked),
         (Choices(listed=not listed), choice),
     ]
@@ -164,7 +176,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes)
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
-    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, said, tuple(again))
+    unknown, unread = tuple(lines.names.unknown.values()), frozenset(lines.unread)
+    return Answer(made, notation, unknown, notes, said, unread, tuple(again))
 
 
 def _without_notations(text: str, lines: Lines) -> TracedText:
@@ -178,11 +191,15 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
+        tagless = without_program_marks(tagless, taken)
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
-    if not _LATEX.search(said.text):
+    if _LATEX.search(said.text):
+        said = with_open_text(said)
+    else:
+        said = with_stated_values(said, taken)
         own = {key(name) for name in lines.model.symbols}
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
@@ -211,6 +228,8 @@ def _chosen(reading: Choices) -> Iterator[str]:
         yield "Denominators without brackets, as in a/b c, were read in the other way that is possible."
     if reading.summed:
         yield "Arguments without brackets, as in cosθ1-θ2, were read as sums: cos(θ1-θ2)."
+    if reading.rated:
+        yield "Names that words call velocities or accelerations were read as the rates of the coordinates."
     if reading.listed is not None:
         of = "that of a list" if reading.listed else "a minus"
         yield f"The sign at the beginning of a line was read as {of}."
@@ -252,6 +271,7 @@ def _parsed(
         try:
             found.append(replace(_statement(own, parser, lines), remark=remark))
         except ParseError as error:
+            lines.unread.update(key(x) for x in re.findall(_NAME, whole))
             stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
             if stated and error.code != "E703" and remark():
                 lines.remarks.append(error)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
 
-from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_units
+from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_dashes, without_units
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose import (
@@ -77,7 +77,10 @@ _RATES = re.compile(
 """A rate behind its name, where the name of another follows: xd = x' xdd = x''."""
 _NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\w{0,8}['′*]?[ \t]*=(?!=))"
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
-_STOP = r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:[A-ZÄÖÜÉ][a-zäöüéè]{2}|[^\W\d]\w{0,8}+[ \t]*+=(?!=)))"
+_STOP = (
+    r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
+    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+=(?!=)))"
+)
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
@@ -86,7 +89,7 @@ _BETWEEN = re.compile(
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_headings(_STARRED.sub("T* ", text))
-    text = without_remarks(stated_remarks(without_units(text, words)), words)
+    text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
     labelled = partial(is_label, words=words, numbers=numbers)

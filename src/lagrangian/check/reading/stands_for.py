@@ -3,14 +3,18 @@
 % q1 = phi, q2 = s             q1 = phi, q2 = s           a comment of a program
 $\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
 I use u for x and w for x'.     I ; u = x; w = x'.        another
+with μ the reduced mass m M/(m + M), …    ; μ = m M/(m + M); …      a name, what it is, and its value
+w: speed of the drum (phi')               ; w = phi';
+(a1, a2: accelerations of the carts)      (; a1 = x1''; a2 = x2'')
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.words import function_of
 from lagrangian.read.letters import SPELLED, key
 
 _NAME = r"[^\W\d]\w{0,15}+"
@@ -62,6 +66,67 @@ def with_stated_letters(
         if all(says(new, own) for new, own, _ in pairs):
             edits.append((*match.span(), "; " + "; ".join(f"{new} = {own}{primes}" for new, own, primes in pairs)))
     return written.edited(sorted(edits))
+
+
+_WORD = r"[^\W\d_]{2,20}+"
+_VALUED = re.compile(
+    rf"(?<!\w)(?:with|where|let|and|mit|wobei|und|sei)[ \t]++(?P<new>{_NAME})[ \t]++"
+    r"(?:(?:is|be|being|denotes|ist)[ \t]++)?(?:the|an?|its|das|die|der|dem)[ \t]++"
+    rf"(?P<words>(?:{_WORD}[ \t]++){{1,4}}?)"
+    r"(?P<value>[^\s,;=]{0,60}[-+*/^·²³(][^,;=\n]{0,200}?)(?P<end>[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+_IN_BRACKETS = re.compile(
+    rf"(?<![\w.*/^+])(?P<new>{_NAME})[ \t]*(?::|=|,|\bis\b|\bdenotes\b)?[ \t]+(?P<words>(?:{_WORD}[ \t]+){{1,6}})"
+    rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
+)
+"""A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
+_RATES = re.compile(
+    rf"(?<![\w.*/^+])(?P<names>{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}})[ \t]*"
+    r"(?::|=|\bis\b|\bare\b|\bdenotes?\b)[ \t]*(?:the[ \t]+)?(?:(?:angular|linear|their|its)[ \t]+)?"
+    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?)\b[^=+*/^()\n;]{0,60}",
+    re.IGNORECASE,
+)
+
+
+def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which a value behind the words for a new name is a statement, or a
+    rate in brackets behind them."""
+    edits: list[Edit] = []
+    for match in _VALUED.finditer(written.text):
+        names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
+        if names and all(map(taken, names)) and not any(map(taken, [match["new"], *match["words"].split()])):
+            edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
+            edits.append((*match.span("end"), ";"))
+    for match in _IN_BRACKETS.finditer(written.text):
+        new, own = match["new"], match["value"].rstrip("'’′")
+        if taken(own) and not any(map(taken, [new, *match["words"].split()])):
+            edits.append((*match.span(), f"; {new} = {match['value']};"))
+    return written.edited(edits)
+
+
+def with_stated_rates(written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which names that words call velocities or accelerations are rates.
+
+    They are those of the coordinates with the same number, a2 of x2, or of all of them in their order.
+    """
+    edits: list[Edit] = []
+    for match in _RATES.finditer(written.text):
+        names = [x for x in re.findall(_NAME, match["names"]) if x not in ("and", "und")]
+        primes = "''" if match["rate"].lower().startswith("acc") else "'"
+        numbered = any(map(_number, coordinates)) and all(map(_number, names))
+        of = [[c for c in coordinates if _number(c) == _number(x)] for x in names]
+        own = [x[0] for x in of if len(x) == 1] if numbered else coordinates
+        if len(own) == len(names) and not any(map(taken, names)):
+            edits.append(
+                (*match.span(), "; " + "; ".join(f"{a} = {b}{primes}" for a, b in zip(names, own, strict=True)))
+            )
+    return written.edited(edits)
+
+
+def _number(name: str) -> str:
+    """The number at the end of a name."""
+    return re.search(r"\d*\Z", name)[0]  # type: ignore[index]  # it always matches
 
 
 _VARIATION = re.compile(r"(?<![\w\\])delta[ \t_]?+(?=[^\W\d])")

@@ -21,7 +21,7 @@ from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
-_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|eq?uation)_?\d*", re.IGNORECASE)
+_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)_?\d*", re.IGNORECASE)
 """What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""
 
 
@@ -227,6 +227,10 @@ class Subjects:
         token, primes = found
         names, dots = self.names.scope.meanings(token)
         coordinates = {c.name for c in self.model.coordinates}
+        if not names:  # xdot
+            names, dots = next(
+                ([x], k) for k, x in [*((k, x) for k, x in spelled_rates(token) if x in coordinates), (0, "")]
+            )
         if len(names) != 1 or names[0] not in coordinates or primes + dots > 1:
             return None
         if of_kinetic and not primes + dots:

@@ -181,7 +181,7 @@ def _block(text: str, run: Sequence[tuple[int, int, _Row]]) -> Iterator[tuple[in
 
 
 def _row_ends(text: str) -> Iterator[Edit]:
-    """Semicolons for the ends of lines inside square brackets, unless a line ends in the middle of an entry."""
+    """Semicolons for the ends of lines inside square brackets; blanks behind a semicolon and inside an entry."""
     depth, opened, ends = 0, 0, list[int]()
     for at, c in enumerate(text):
         if c == "[":
@@ -192,7 +192,8 @@ def _row_ends(text: str) -> Iterator[Edit]:
             depth -= 1
             inside = text[opened + 1 : at]
             if depth == 0 and "=" not in inside and "[" not in inside:
-                yield from ((x, x + 1, "; ") for x in ends if _ends_row(text[opened + 1 : x], text[x:at]))
+                row_ends = (_ends_row(text[opened + 1 : x], text[x:at]) for x in ends)
+                yield from ((x, x + 1, "; " if new else " ") for x, new in zip(ends, row_ends, strict=True))
         elif c == "\n" and depth:
             ends.append(at)
             if text[at : at + 2] == "\n\n":

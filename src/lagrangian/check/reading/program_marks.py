@@ -1,0 +1,107 @@
+"""Takes off what programs set around equations: comments in brackets, prompts, names of lists, fields of parameters.
+
+(* ks is k_s *)                 # ks is k_s                   a comment of Mathematica or Maple
+>> EL = simplify(…)             EL = m*x'' + …                a command of MATLAB and the result that it shows
+EL =⏎⏎ m*x'' + …
+sys = {a == b,⏎ c == d}         {a == b,⏎ c == d}             a list of equations
+p.m*p.g                         m*g                           the fields of a structure
+A = diag([m J]);                A = diag(m, J)                a diagonal
+% A*qdd = f                       A*qdd = f                   an equation of matrices that stands in a comment alone
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from lagrangian.check.reading.traced_text import Edit, TracedText
+
+_NAME = r"[^\W\d]\w{0,23}+"
+_WORD = r"[^\W\d]\w*"
+MOST, LONGEST = 200, 2_000
+"""The most marks of one kind that are looked at, and the most characters of a comment in brackets."""
+
+_COMMENT = re.compile(rf"\(\*(?!\))(?P<said>(?:(?!\*\)|\(\*).){{1,{LONGEST}}}?)\*\)", re.DOTALL)
+_LIST = re.compile(rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
+_COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)
+_SHOWN = re.compile(
+    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
+)
+_DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
+_MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\()", re.MULTILINE)
+_LINE_COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
+_FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
+
+
+def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
+    written = written.edited(_comments(written.text))
+    shown = {m["name"] for m in _SHOWN.finditer(written.text)}
+    if shown and ">>" in written.text:
+        written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
+        written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
+    written = written.edited(_list_names(written.text))
+    written = written.edited(_diagonals(written.text))
+    written = written.edited(_equations_in_comments(written.text))
+    return written.edited(_fields(written.text, taken))
+
+
+def _comments(text: str) -> Iterator[Edit]:
+    """The marks of comments that end with their line, in the place of those in brackets; nothing where one is inside a
+    line."""
+    for match in islice(_COMMENT.finditer(text), MOST):
+        first, end = text.rfind("\n", 0, match.start()) + 1, text.find("\n", match.end())
+        above, below = text[first : match.start()].strip(), text[match.end() : end if end >= 0 else len(text)].strip()
+        if above and below:
+            yield *match.span(), " "
+            continue
+        yield match.start(), match.start() + 2, "\n# " if above else "# "
+        yield from ((k, k + 1, "\n# ") for k in range(*match.span("said")) if text[k] == "\n")
+        yield match.end() - 2, match.end(), "\n" if below else " "
+
+
+def _diagonals(text: str) -> Iterator[Edit]:
+    """The entries alone, with commas, of a diagonal that is given as a list: diag([a b]) as diag(a, b)."""
+    for match in _DIAGONAL.finditer(text):
+        listed = match["entries"]
+        by = "," if "," in listed else ";" if ";" in listed else None
+        entries = [x.strip() for x in listed.split(by)]
+        if all(x and x[-1] not in "+-*/" and x.strip("+-*/") for x in entries):
+            yield *match.span(), f"diag({', '.join(entries)})"
+
+
+def _equations_in_comments(text: str) -> Iterator[Edit]:
+    """Blanks for the marks of comments that say the equation of matrices that nothing else uses."""
+    code = _LINE_COMMENT.sub(" ", text)
+    counts = Counter(re.findall(_WORD, code))
+    unused = {name for name in _MATRIX.findall(code) if counts[name] == 1}
+    for match in islice(_LINE_COMMENT.finditer(text), MOST):
+        names = re.findall(_WORD, match["said"])
+        used = unused & set(names)
+        if used and "=" in match["said"] and not any(re.fullmatch(rf"\s*+{x}\s*+=.*", match["said"]) for x in used):
+            yield *match.span("mark"), " "
+
+
+def _list_names(text: str) -> Iterator[Edit]:
+    """Nothing in the place of the name of a list whose entries are equations."""
+    for match in islice(_LIST.finditer(text), MOST):
+        depth = 0
+        for at in range(match.end(), min(len(text), match.end() + 2 * LONGEST)):
+            depth += (text[at] in "([{") - (text[at] in ")]}")
+            if depth == 0:
+                inside = text[match.end() : at]
+                if "==" in inside or re.search(r"\bEq\(", inside):
+                    yield *match.span(), ""
+                break
+
+
+def _fields(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
+    """The names of fields alone, p.m as m, where every field of the structure is a name of the system."""
+    found: dict[str, list[re.Match[str]]] = {}
+    for match in _FIELD.finditer(text):
+        found.setdefault(match["of"], []).append(match)
+    for of, fields in found.items():
+        if not taken(of) and all(taken(m["name"]) for m in fields):
+            yield from ((m.start(), m.start("name"), "") for m in fields)
