@@ -112,6 +112,13 @@ def test_a_constraint_without_a_value_at_the_guess_is_named() -> None:
     assert s.simulate(0.1, x=0.5)["x"][-1] == pytest.approx(1.0, abs=1e-12)
 
 
+def test_where_no_single_coordinate_keeps_a_loop_open_fewer_are_to_be_held() -> None:
+    """Three angles far from any loop: one alone does not close it, all of them do."""
+    with pytest.raises(RunError) as caught:
+        four_bar().compile().assemble({"a": 1.0, "b": 2.5, "c": -2.5}, fixed=["a", "b", "c"])
+    assert caught.value.code == "E304" and "hold fewer coordinates fixed" in str(caught.value)
+
+
 def test_the_coordinate_that_keeps_a_loop_open_is_named() -> None:
     dyn = four_bar().compile()
     b, c = by_triangles(1.0)[0]

@@ -135,9 +135,11 @@ class Assembler:
                 )
         worst = sorted(named.items(), key=lambda item: -item[1])
         shown = ", ".join(f"'{name}' by {gap:.3g}" for name, gap in worst[:4] if gap > 0)
-        freed = [name for name in self.fixed if self._closes_without(name, guess, p, t)]
+        freed = [name for name in self.fixed if self._closes_with([n for n in self.fixed if n != name], guess, p, t)]
         if freed:
             fix = f"do not hold {' or '.join(freed[:4])} fixed: without that, the loop closes"
+        elif len(self.fixed) > 1 and self._closes_with((), guess, p, t):
+            fix = "hold fewer coordinates fixed: with none of them, the loop closes"
         elif self.fixed:
             fix = "no position closes, whichever one of the fixed coordinates is freed: check the lengths"
         else:
@@ -148,8 +150,8 @@ class Assembler:
             code="E304",
         )
 
-    def _closes_without(self, name: str, guess: Array, p: Array, t: float) -> bool:
-        other = assembler_of(self.model, (n for n in self.fixed if n != name))
+    def _closes_with(self, fixed: Sequence[str], guess: Array, p: Array, t: float) -> bool:
+        other = assembler_of(self.model, fixed)
         return bool(len(other.positions(guess, p, t, spread=SPREAD, count=NEAR)))
 
     # -- velocities ---------------------------------------------------------------------------------------------

@@ -94,7 +94,7 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 "event where it has none any more"
             )
         case RunStatus.BROKEN:
-            return said, "a reset that leaves rates with which the constraints hold"
+            return said, "a reset that leaves positions and rates with which the constraints hold"
         case RunStatus.APART:
             return said, (
                 "look at what these constraints say from there on; a run that starts there says whether they "
