@@ -112,6 +112,26 @@ def test_a_name_with_its_rate_in_brackets(said: str) -> None:
     twins(f"{said}\nm*L^2*w' + b*w + m*g*L*sin(theta) = 0", "theta')", "theta'')", "pendulum")
 
 
+@pytest.mark.parametrize(
+    ("said", "new"), [("The rod's speed w is theta'.", "theta''"), ("w = theta', the angular velocity.", "theta''")]
+)
+def test_a_sentence_that_says_what_a_rate_is_called(said: str, new: str) -> None:
+    twins(f"{said}\nm*L^2*w' + b*w + m*g*L*sin(theta) = 0", "theta'", new, "pendulum")
+    assert right("The speed is theta'.\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
+
+
+def test_a_value_that_is_denoted_by_a_name() -> None:
+    twins("Denote m L^2 by A.\nA theta'' + b theta' + m g L sin theta = 0", "m L^2", "m L", "pendulum")
+
+
+def test_two_names_that_a_sentence_calls_rates() -> None:
+    said = "where omega is the angular velocity and alpha is the angular acceleration"
+    row = "m*L^2*alpha + b*omega + m*g*L*sin(theta) = 0"
+    assert right(f"{row}\n{said}", "pendulum")
+    with pytest.raises(ParseError, match="what is 'alpha'"):
+        right(f"{row.replace('+ m*g', '- m*g')}\n{said}", "pendulum")
+
+
 def test_names_that_words_call_accelerations_are_rates_where_that_is_right() -> None:
     rows = "(M + m)*a1 + m*l*a2*cos(theta) - m*l*theta'^2*sin(theta) + b*x' = F\n"
     rows += "(J + m*l^2)*a2 + m*l*a1*cos(theta) - m*g*l*sin(theta) = 0\n(a1, a2: accelerations of cart and pole)"

@@ -17,7 +17,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.names import spelled_rates
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass, field
 
 _NAME = r"[^\W\d]\w*"
@@ -94,11 +94,7 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         rates = [(m, _place(m)) for m in re.finditer(rf"(?<!\w){function.out}{_INDEX}(?=[ \t]*=)", text)]
         edits += [(*m.span(), f"{states[at]}'") for m, at in rates if 0 <= at < len(states)]
     edits += _returned(text, function, states)
-    kept: list[Edit] = []
-    for edit in sorted(edits):
-        if not kept or edit[0] >= kept[-1][1]:
-            kept.append(edit)
-    return written.edited(kept)
+    return written.edited(apart(edits))
 
 
 def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:

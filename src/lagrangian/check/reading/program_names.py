@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice
 
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.check.reading.words import function_of
 
 _NAME = r"[^\W\d]\w{0,23}+"
@@ -64,11 +64,7 @@ def with_program_names(written: TracedText, moves: Callable[[str], bool], taken:
     rates = [m for m in _RATE_OF.finditer(text) if not taken(m.group())]
     edits += [(*m.span(), m["of"] + ("''" if m["two"] else "'")) for m in rates]
     edits += _rates(text, moves, taken)
-    kept: list[Edit] = []
-    for edit in sorted(edits):
-        if not kept or edit[0] >= kept[-1][1]:
-            kept.append(edit)
-    return written.edited(kept)
+    return written.edited(apart(edits))
 
 
 def _declared(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:

@@ -4,7 +4,9 @@
 $\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
 I use u for x and w for x'.     I ; u = x; w = x'.        another
 with μ the reduced mass m M/(m + M), …    ; μ = m M/(m + M); …      a name, what it is, and its value
-w: speed of the drum (phi')               ; w = phi';
+w: speed of the drum (phi')               ; w = phi';       a rate
+The cart's speed v is x'.                 … ; v = x';.      another
+Denote J + m l^2 by A.                    ; A = J + m l^2;.
 (a1, a2: accelerations of the carts)      (; a1 = x1''; a2 = x2'')
 """
 
@@ -13,7 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.check.reading.words import function_of
 from lagrangian.read.letters import SPELLED, key
 
@@ -81,10 +83,21 @@ _IN_BRACKETS = re.compile(
     rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
 )
 """A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
+_IS_RATE = re.compile(
+    rf"(?<![\w.*/^+=])(?P<new>{_NAME})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
+    rf"(?P<value>{_NAME}['’′]{{1,2}})(?=[ \t]*(?:[.,;:)]|$|and\b|und\b))",
+    re.MULTILINE,
+)
+_BY = re.compile(
+    r"(?<!\w)(?:denot(?:e|ing)|abbreviat(?:e|ing)|call(?:ing)?|writ(?:e|ing))[ \t]++(?P<value>[^,;:=\n]{3,80}?)"
+    rf"[ \t]++(?:by|as)[ \t]++(?P<new>{_NAME})(?![\w'’′(])",
+    re.IGNORECASE,
+)
 _RATES = re.compile(
     rf"(?<![\w.*/^+])(?P<names>{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}})[ \t]*"
     r"(?::|=|\bis\b|\bare\b|\bdenotes?\b)[ \t]*(?:the[ \t]+)?(?:(?:angular|linear|their|its)[ \t]+)?"
-    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?)\b[^=+*/^()\n;]{0,60}",
+    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?)\b"
+    r"(?:(?![ \t]*(?:,|and\b|und\b)[ \t]*\w+[ \t]*(?::|=|is\b|are\b|denotes?\b))[^=+*/^()\n;.]){0,60}",
     re.IGNORECASE,
 )
 
@@ -98,11 +111,13 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
         if names and all(map(taken, names)) and not any(map(taken, [match["new"], *match["words"].split()])):
             edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
             edits.append((*match.span("end"), ";"))
-    for match in _IN_BRACKETS.finditer(written.text):
-        new, own = match["new"], match["value"].rstrip("'’′")
-        if taken(own) and not any(map(taken, [new, *match["words"].split()])):
-            edits.append((*match.span(), f"; {new} = {match['value']};"))
-    return written.edited(edits)
+    for form in (_IN_BRACKETS, _IS_RATE, _BY):
+        for match in form.finditer(written.text):
+            spoken = match.groupdict().get("words") or ""
+            names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
+            if names and all(map(taken, names)) and not any(map(taken, [match["new"], *spoken.split()])):
+                edits.append((*match.span(), f"; {match['new']} = {match['value']};"))
+    return written.edited(apart(edits))
 
 
 def with_stated_rates(written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool]) -> TracedText:

@@ -66,3 +66,12 @@ class TracedText:
             return written.at(origins[at])
 
         return Source(text, written.what, written.place, locate)
+
+
+def apart(edits: Iterable[Edit]) -> list[Edit]:
+    """Edits in their order, without those that overlap an earlier one."""
+    kept: list[Edit] = []
+    for edit in sorted(edits):
+        if not kept or edit[0] >= kept[-1][1]:
+            kept.append(edit)
+    return kept
