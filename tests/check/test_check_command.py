@@ -57,7 +57,7 @@ def test_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     data = json.loads(run(capsys, "-e", "lecture-3b", str(answer), "--json")[1])
     assert data["right"] is False and data["verdict"] == "wrong"
     assert [line["right"] for line in data["lines"]] == [True, False]
-    assert data["mistakes"][0]["name"] == "plus_potential"
+    assert data["mistakes"][0]["name"] == "spring_sign"
     (difference,) = data["lines"][1]["differences"]
     assert difference["origins"] == [{"element": "spring 'k'", "step": 3}]
     low = json.loads(run(capsys, "-e", "lecture-3b", str(answer), "--json", "--hint", "0")[1])
@@ -78,13 +78,13 @@ def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert "2 of 6 right" in out and "eve.txt  cannot be read" in out
     rows = list(csv.DictReader(table.read_text().splitlines()))
     assert [(r["name"], r["answers"]) for r in rows if r["kind"] == "mistake"] == [
-        ("plus_potential", "2"),
+        ("spring_sign", "2"),
         ("unreadable", "2"),
     ]
     assert rows[0]["files"] == "cid.txt dan.txt"
-    assert rows[2]["sentence"] == "2 of 6 went wrong in step 4, Lagrangian."
+    assert rows[2]["sentence"] == "2 of 6 went wrong in step 3, potential energy."
     data = json.loads(run(capsys, "-e", "lecture-3b", str(answers), "--json")[1])
-    assert data["counts"] == {"plus_potential": 2, "unreadable": 2}
+    assert data["counts"] == {"spring_sign": 2, "unreadable": 2}
     (answers / "cid.txt").unlink()
     assert run(capsys, "-e", "lecture-3b", str(tmp_path / "nowhere"))[0] == 2
 
@@ -114,7 +114,7 @@ def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[st
         assert rows[4][:2] == ["eve.txt", "cannot be read"] and rows[4][8]
         return [row[1:6] for row in rows[1:4]]
 
-    full = [["right", "2", "2", "", ""], ["wrong", "1", "2", "2", "plus_potential"]]
+    full = [["right", "2", "2", "", ""], ["wrong", "1", "2", "2", "spring_sign"]]
     assert cells("3") == [*full, ["incomplete", "1", "1", "", "incomplete"]]
     assert cells("1")[1] == ["wrong", "1", "2", "2", "wrong"]
     assert cells("0")[1] == ["wrong", "", "", "", "wrong"]
@@ -128,7 +128,7 @@ def test_a_folder_gives_no_more_away_than_the_hint(tmp_path: Path, capsys: pytes
     for hint, given in (("0", False), ("1", False), ("2", True)):
         arguments = ("-e", "lecture-3b", str(tmp_path), "--hint", hint)
         for more in ((), ("--json",)):
-            assert ("plus_potential" in run(capsys, *arguments, *more)[1]) is given
+            assert ("spring_sign" in run(capsys, *arguments, *more)[1].replace("spring sign", "spring_sign")) is given
 
 
 def test_what_can_be_read_is_never_called_unreadable(

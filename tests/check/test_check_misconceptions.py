@@ -86,10 +86,10 @@ BY_HAND = [
     ("lecture-3b", [PARENT.replace("= 0", "= -F"), CHILD], "torque_on_parent"),
     ("lecture-3b", [PARENT.replace("(m1 + m2)", "m1"), CHILD], "child_mass_forgotten"),
     ("lecture-3b", [PARENT.replace(" = 0", " - k*x2r = 0"), CHILD], "spring_on_parent"),
-    ("lecture-3b", [PARENT, CHILD.replace("+ k", "- k")], "plus_potential"),
+    ("lecture-3b", [PARENT, CHILD.replace("+ k", "- k")], "spring_sign"),
     ("lecture-3b", ["T = m1*x1'^2/2 + m2*x2r'^2/2"], "relative_speed"),
     ("lecture-3b", ["T = m1*x1'^2/2 + m2*(x1'^2 + x2r'^2)/2"], "cross_term_forgotten"),
-    ("lecture-3b", ["L = m1*x1'^2/2 + m2*(x1' + x2r')^2/2 + k*x2r^2/2"], "plus_potential"),
+    ("lecture-3b", ["L = m1*x1'^2/2 + m2*(x1' + x2r')^2/2 + k*x2r^2/2"], "spring_sign"),
     ("two-disk-shaft", ["D = b*(phi1' - phi2')^2/2"], "element_forgotten"),
 ]
 

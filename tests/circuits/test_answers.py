@@ -52,7 +52,7 @@ def test_right_answers_are_right() -> None:
             "The co-energy of inductor 'coil' is taken as ½ψi",
         ),
         ("dc-motor", MOTOR.format("-", "K*q'"), "The reaction of transducer K on its current has the wrong sign."),
-        ("capacitive-actuator", PLATE.format(""), "The force of capacitor 'plates' on x is missing."),
+        ("capacitive-actuator", PLATE.format(""), "Capacitor 'plates' is missing in the equation of x."),
     ],
 )
 def test_mistakes_with_circuits_are_named(name: str, answer: str, mistake: str) -> None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 import scipy.linalg
@@ -240,6 +241,17 @@ def test_poles_that_differ_stay_apart() -> None:
 
     apart = [-1e-7, -2e-7, -1.0, -1.0001, -1.0002, -500.0]
     assert np.allclose(spectrum(np.diag(apart)).poles, apart, rtol=1e-14)
+
+
+def test_poles_of_a_system_in_unlike_units_are_found() -> None:
+    """A charge of 1 C on a plate of a microscope: entries of A from 1 to 1e28. Oracle: its poles in 60 digits."""
+    linear = built_in("capacitive-actuator").linearize({"q": 1.0, "x": 0.3}, operating_point=True)
+    assert np.abs(linear.A).max() > 1e25
+    with mpmath.workdps(60):
+        exact = [complex(x) for x in mpmath.eig(mpmath.matrix(linear.A.tolist()))[0]]
+    for pole in linear.poles:
+        assert min(abs(pole - x) for x in exact) < 1e-9 * abs(pole)
+    assert len(set(np.round(linear.poles / np.abs(linear.poles).max(), 6))) == 4
 
 
 @pytest.mark.slow

@@ -35,7 +35,7 @@ def test_the_python_runs_and_says_what_stands_there(
 
 @pytest.mark.slow
 def test_the_commands_run(tmp_path: pathlib.Path) -> None:
-    for line in blocks("")[0].strip().splitlines():
+    for line in blocks("")[0].replace("\\\n", " ").strip().splitlines():
         command, _, target = line.partition(" > ")
         argv = [sys.executable, "-m", *shlex.split(command)]
         done = subprocess.run(argv, cwd=tmp_path, capture_output=True, check=False)

@@ -141,7 +141,7 @@ class Assembler:
         elif len(self.fixed) > 1 and self._closes_with((), guess, p, t):
             fix = "hold fewer coordinates fixed: with none of them, the loop closes"
         elif self.fixed:
-            fix = "no position closes, whichever one of the fixed coordinates is freed: check the lengths"
+            fix = f"look at the lengths: no position closes, even with {' or '.join(self.fixed[:4])} free"
         else:
             fix = "look at the lengths: no position with them closes the loop"
         return RunError(

@@ -65,7 +65,7 @@ class LinearModel(Brief):
     free: tuple[str, ...] = ()
     changing: bool = False
     minimum: bool = False
-    noise: tuple[float, float] = (0.0, 0.0)
+    noise: tuple[Array | float, float] = (0.0, 0.0)
     basis: Array | None = None
     multipliers: Mapping[str, float] = field(default_factory=dict[str, float])
     back: Array | None = None

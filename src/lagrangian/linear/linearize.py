@@ -163,6 +163,7 @@ class Linearizer:
         if tangent is None and self.model.floating:
             floats = FloatingStates.at(self.model, here.x, found["xdot"])
             found, seen = floats.reduced(found), {**seen, "C": seen["C"] @ floats.basis}
+            noise = (np.abs(floats.back) @ noise[0] @ np.abs(floats.basis), noise[1])
         minimal = tangent if floats is None else floats
         return Linearization(
             model=self.model,
@@ -289,14 +290,15 @@ class Linearizer:
 
     def _noise(
         self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None, tangent: Tangent | None
-    ) -> tuple[tuple[float, float], float, dict[str, NDArray[np.bool_]]]:
-        """The rounding errors in A and M⁻¹K, and in K: their change when all digits after the twelfth change.
+    ) -> tuple[tuple[Array, float], float, dict[str, NDArray[np.bool_]]]:
+        """The rounding errors in the entries of A, in M⁻¹K, and in K: their change when their thirteenth digits change.
 
         If terms cancel, as at a bifurcation, the errors are much larger than ε times the result. The last result says
         which entries of A and B keep most of their digits then; the others are what rounding leaves of 0.
         """
-        dA = dK = dMK = 0.0
+        dK = dMK = 0.0
         mine = found if tangent is None else tangent.reduced(found)
+        dA = np.zeros_like(mine["A"])
         changes = {name: np.zeros_like(mine[name]) for name in ("A", "B")}
         for x, p in _neighbours(here):
             moved = replace(here, x=x, p=p)
@@ -305,7 +307,7 @@ class Linearizer:
                 there = self.manifold.tangent(x, p, t, tangent.kept)
                 near = there.reduced(near)
                 changes = {k: np.maximum(np.abs(near[k] - mine[k]), d) for k, d in changes.items()}
-            dA = max(dA, _largest(near["A"] - mine["A"]))
+            dA = np.maximum(dA, np.abs(near["A"] - mine["A"]))
             if second is not None and (other := self._second_order(moved, t, there)) is not None:
                 dK = max(dK, _largest(other["K"] - second["K"]))
                 n = len(second["K"])

@@ -73,11 +73,11 @@ class Spectrum(Brief):
 
 
 def spectrum(
-    A: Array, second_order: tuple[Array, Array, Array] | None = None, noise: tuple[float, float] = (0.0, 0.0)
+    A: Array, second_order: tuple[Array, Array, Array] | None = None, noise: tuple[Array | float, float] = (0.0, 0.0)
 ) -> Spectrum:
     """The spectrum of A (n×n); ``second_order`` is (M, D, K) if A is made of these.
 
-    ``noise`` are the errors in the entries of A and of M⁻¹K if they are known to be larger than ε.
+    ``noise`` are the errors in the entries of A, each, and in those of M⁻¹K if they are known to be larger than ε.
     """
     if A.shape[0] == 0:
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
@@ -86,7 +86,8 @@ def spectrum(
     import scipy.linalg
 
     balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
-    spaces = eigenspaces(balanced, noise[0])
+    sizes = np.diag(scaling)
+    spaces = eigenspaces(balanced, float(np.max(noise[0] * sizes / sizes[:, None])))
     poles: NDArray[np.complex128] = np.array([s.pole for s in spaces for _ in range(s.times)], np.complex128)
     errors = np.array([s.error for s in spaces for _ in range(s.times)])
     vectors = [scaling @ _columns(plain_basis(s.basis), s.times) for s in spaces]
