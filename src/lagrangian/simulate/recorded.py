@@ -26,6 +26,7 @@ from lagrangian.simulate.integrating import Task, remembered
 from lagrangian.simulate.joint_forces import joint_force, part_of
 from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.reaction import Reaction, worked_out
+from lagrangian.simulate.settings import ATOL
 from lagrangian.viewed import Brief, Entries
 
 if TYPE_CHECKING:
@@ -51,7 +52,8 @@ class Audit(Brief):
 
     ``figure`` is the largest difference, relative to the energy that moves in the run (the largest of T*, the change of
     V, and the supplied energy), or to the least that rounding lets be seen beside V if that is more. It is 0 at rest,
-    where no rate exceeds the absolute tolerance. ``time`` is where it is largest. float(audit) is the figure.
+    where no rate exceeds the absolute tolerance and its default. ``time`` is where it is largest. float(audit) is the
+    figure.
     """
 
     figure: float
@@ -250,7 +252,7 @@ class Recorded(Guided):
         given = float(np.max(np.abs(W)))
         scale = max(float(np.max(np.abs(T))), float(np.ptp(V)), given, SEEN * float(np.max(np.abs(V))))
         worst = int(np.argmax(np.abs(self.imbalance)))
-        at_rest = np.all(np.abs(self.y[-len(self.model.velocities) :]) <= self.settings["atol"])
+        at_rest = np.all(np.abs(self.y[-len(self.model.velocities) :]) <= min(self.settings["atol"], ATOL))
         largest = 0.0 if at_rest else abs(float(self.imbalance[worst]))
         return Audit(largest / scale if largest else 0.0, float(self.t[worst]), given <= ROUNDING * scale)
 
