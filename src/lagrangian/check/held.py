@@ -5,7 +5,6 @@ An answer may write y″ or r φ″ for the same thing, and may have put one int
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Mapping
 from typing import Any, cast
 
@@ -21,10 +20,15 @@ from lagrangian.model.rows import rows_of
 class OnConstraints(Reference):
     """A reference whose states satisfy the constraints; ``table`` has the coordinates that follow from the others.
 
-    It holds their rates and accelerations, too.
+    It holds their rates and accelerations, too. Everything but the states is that of another reference.
     """
 
-    table: Mapping[sp.Expr, sp.Expr]
+    def __init__(self, truth: Reference, table: Mapping[sp.Expr, sp.Expr]) -> None:
+        vars(self).update({k: x for k, x in vars(truth).items() if k not in ("W", "accelerations")})
+        self.table, self.others = table, {}
+        self.states = States(truth.model, truth.states.motions, sides=truth.sides)
+        for x, values in zip(table, CompiledExpressions(list(table.values())).at(self.states), strict=True):
+            self.states.fix(x, values)
 
     def put_in(self, expr: sp.Expr) -> sp.Expr:
         """An expression in the other coordinates alone."""
@@ -49,15 +53,7 @@ def _held(truth: Reference) -> OnConstraints | None:
             value = truth.put(solved[c.symbol])
             rate = bounded.diff(value, time)
             table |= {c.symbol: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)}
-    other = cast("OnConstraints", copy.copy(truth))
-    other.__class__ = OnConstraints
-    for name in ("W", "accelerations"):
-        other.__dict__.pop(name, None)
-    other.table, other.others = table, {}
-    other.states = States(truth.model, truth.states.motions, sides=truth.sides)
-    for x, values in zip(table, CompiledExpressions(list(table.values())).at(other.states), strict=True):
-        other.states.fix(x, values)
-    return other
+    return OnConstraints(truth, table)
 
 
 def _solved(model: Model) -> dict[Any, sp.Expr] | None:
