@@ -122,7 +122,7 @@ def test_a_wrong_law_does_not_pass(monkeypatch):
 @pytest.mark.slow
 def test_all_that_is_made_of_a_floating_system_is_verified():
     checks = two_bodies().verify(states=2)
-    assert len(checks) == 32  # seven of the written lines, seven of the programs, eighteen of what is made of them
+    assert len(checks) == 33  # seven of the written lines, seven of the programs, nineteen of what is made of them
     assert not [str(c.what) for c in checks if c.holds is False]
 
 
@@ -365,7 +365,7 @@ def test_the_command_verifies_and_derives_given_energies_beside_floating_frames(
 
     verified = run("verify", str(file), "--states", "5")
     assert verified.returncode == 0, verified.stderr
-    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 32
+    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 33
     derived = run("derive", str(file))
     assert derived.returncode == 0, derived.stderr
     assert "quasi-velocities" in derived.stdout and "✗" not in derived.stdout
