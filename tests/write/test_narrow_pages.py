@@ -18,7 +18,7 @@ WIDER = """() => [...document.querySelectorAll('.formula, .result')].filter(e =>
 
 def test_a_long_term_can_break_before_a_function_but_not_before_its_parenthesis() -> None:
     page = derivation("double-pendulum").to_html()
-    parts = [re.sub(r"<[^>]*>", "", part) for part in re.findall(r'<span class="part">(.*?)</span>', page)]
+    parts = [re.sub(r"<[^>]*>", "", part) for part in re.findall(r'<span class="span">(.*?)</span>', page)]
     assert {"sin", "cos"} < {part[:3] for part in parts}
     assert not any(part.startswith(("(", "\u2009")) for part in parts)
 

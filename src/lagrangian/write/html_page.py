@@ -216,7 +216,7 @@ def _parts(sign: str, listed: list[Glyph], breaks: tuple[tuple[int, ...], ...]) 
         pieces = _pieces(listed, NARROW_COLUMNS, levels)
         if len(pieces) > 1:
             made = (_parts("" if i else sign, piece, breaks[k + 1 :]) for i, piece in enumerate(pieces))
-            return "".join(f'<span class="part">{part}</span>' for part in made)
+            return "".join(f'<span class="span">{part}</span>' for part in made)
     return f'<math displaystyle="true">{sign}{row(listed)}</math>'
 
 
