@@ -9,21 +9,18 @@ from one start. JavaScript makes the same steps, by the functions that `export -
 
 from __future__ import annotations
 
-import argparse
 import json
-import os
-import platform
 import shutil
 import subprocess
 import tempfile
 import time
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import engine_systems as systems
 import lagrangian as lg
 from lagrangian.simulate.browser import BrowserModule, browser_module
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 ROUNDS = 80
@@ -125,23 +122,18 @@ def adaptive(name: str, system: lg.System, end: float) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--append", action="store_true")
+    parser = command_line(__doc__)
     given = parser.parse_args()
     if shutil.which("node") is None:
         raise SystemExit("node is not installed")
     shown = subprocess.run(["node", "--version"], capture_output=True, text=True, check=True).stdout.strip()
     arm = systems.described(systems.arm_tree())
     cases = {"double pendulum": (lg.example("double-pendulum"), 30_000, 10.0), "7-joint arm": (arm, 2_000, 1.0)}
-    head = (
-        f"`python bench/browser.py`. {platform.machine()}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}; "
-        f"{platform.system()}; Node {shown}, llvmlite {version('llvmlite')}; {time.strftime('%Y-%m-%d')}."
-    )
+    head = f"`python bench/browser.py`. Node {shown}; {this_machine('llvmlite')}."
     text = "\n".join(["## Runs in WebAssembly", "", head, "", *table(cases), ""])
     print(text)
     if given.append:
-        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write("\n" + text)
+        append([text])
 
 
 if __name__ == "__main__":

@@ -10,14 +10,10 @@ table is what comes before the runs: a second ensemble of 16 runs of two steps, 
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import itertools
-import os
-import platform
 import time
 from collections.abc import Callable
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +21,7 @@ import numpy as np
 
 import lagrangian as lg
 from lagrangian import examples
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 STATES = 512
@@ -180,26 +177,16 @@ def before_runs() -> str:
     return "\n".join(["| repeated | ms |", "| --- | ---: |", *(f"| {n} | {x / 1e3:.2f} |" for n, x in found.items())])
 
 
-def machine() -> str:
-    load = f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    peers = ", ".join(f"{name} {version(name)}" for name in ("numpy", "llvmlite", "heyoka", "jax") if there(name))
-    return (
-        f"{platform.machine()}, {os.cpu_count()} cores, {load}; {platform.system()}; "
-        f"Python {platform.python_version()}, {peers}; {time.strftime('%Y-%m-%d')}"
-    )
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--append", action="store_true")
-    options = parser.parse_args()
+    parser = command_line(__doc__)
+    given = parser.parse_args()
     own = [forms(), before_runs()]  # before the peers are loaded, whose presence slows some of it
     tables = "\n\n".join([beside_peers(), *own])
-    text = f"## Calls\n\n`python bench/calls.py`, the least of {ROUNDS} rounds. {machine()}.\n\n{tables}\n"
+    where = this_machine("numpy", "llvmlite", "heyoka", "jax")
+    text = f"## Calls\n\n`python bench/calls.py`, the least of {ROUNDS} rounds. {where}.\n\n{tables}\n"
     print(text)
-    if options.append:
-        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write(f"\n{text}")
+    if given.append:
+        append([text])
 
 
 if __name__ == "__main__":

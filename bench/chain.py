@@ -17,7 +17,6 @@ state after the other, as ours are. A compiler is needed: $CC, or cc.
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import math
 import os
@@ -29,10 +28,11 @@ from pathlib import Path
 import numpy as np
 
 import engine_systems as systems
-from engine import HERE, NUMBERS, best, table, this_machine
+from engine import NUMBERS, best
 from engine_peers import Timed, address
 from engine_systems import Array
 from lagrangian import codegen as machine
+from record import append, command_line, one_core, table, this_machine
 
 LANES = (4, 8)
 """States side by side that are tried; the faster counts."""
@@ -191,24 +191,20 @@ def traffic_row(count: int, folder: Path) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     given = parser.parse_args()
-    if hasattr(os, "sched_setaffinity"):  # stay on one core
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    one_core()
     with tempfile.TemporaryDirectory() as folder:
         rows = [chain_row(n, Path(folder)) for n in SIZES]
         batches = [traffic_row(count, Path(folder)) for count in COUNTS]
-    lines = ["## Chains beside code by hand", "", f"`python bench/chain.py`. {this_machine()}.", ""]
+    lines = ["## Chains beside code by hand", "", f"`python bench/chain.py`. {this_machine('llvmlite')}.", ""]
     lines += ["In brackets how many times as long ours takes.", ""]
     lines += table(["a batch, ns a state", "ours", "by hand, in blocks", "by hand, as ours", "difference"], rows)
     lines += ["", "Double pendula: what a batch that leaves the caches costs; `forward` makes its result anew.", ""]
     lines += table(["ns a state", "ours", "`forward`", "by hand, in blocks", "by hand, as ours"], batches)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8")
-        results.write_text("\n".join([before.rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

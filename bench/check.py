@@ -10,11 +10,12 @@ that is kept for the others: the right equations in normal form, and all small c
 
 from __future__ import annotations
 
-import argparse
 import statistics
 import sys
 import time
 from pathlib import Path
+
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests"), str(HERE.parent / "tests" / "check")]
@@ -42,27 +43,24 @@ def row(name: str, count: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line(__doc__)
     parser.add_argument("systems", nargs="*", default=list(SYSTEMS))
     parser.add_argument("--count", type=int, default=500)
-    parser.add_argument("--append", action="store_true")
-    options = parser.parse_args()
-    from startup import machine
-
+    given = parser.parse_args()
     head = "| system | answers | a mistake is named | first [s] | median [s] | 90 % [s] | most [s] | all [s] |"
     lines = [
-        f"## Checking a class\n\n`python bench/check.py --count {options.count}`, CPU. {machine()}.\n",
+        "## Checking a class\n",
+        f"`python bench/check.py --count {given.count}`, CPU. {this_machine('sympy', 'numpy')}.\n",
         head,
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
     ]
     print("\n".join(lines), flush=True)
-    for name in options.systems:
-        lines.append(row(name, options.count))
+    for name in given.systems:
+        lines.append(row(name, given.count))
         print(lines[-1], flush=True)
     text = "\n".join(lines) + "\n"
-    if options.append:
-        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write(f"\n{text}")
+    if given.append:
+        append([text])
 
 
 if __name__ == "__main__":

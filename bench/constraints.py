@@ -10,10 +10,8 @@ are soft, so that it agrees to its own softness only. Neither of the two has con
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import importlib
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,11 +21,12 @@ import numpy as np
 import sympy as sp
 
 import lagrangian as lg
-from engine import HERE, best, found, one_call, table, this_machine
+from engine import best, found, one_call
 from engine_peers import Loop, MuJoCo, Pinocchio, Timed
 from engine_systems import GRAVITY, Array, Pins, described, quadruped_tree
 from lagrangian import codegen as machine
 from lagrangian.graph import Graph, Output, Program, count_operations, from_sympy
+from record import append, command_line, one_core, table, this_machine
 
 STATES = 512
 
@@ -351,7 +350,7 @@ def measured(name: str, rounds: int, seconds: float) -> list[str]:
 
 def report(quick: bool) -> list[str]:
     rounds, seconds = (2, 0.05) if quick else (6, 0.15)
-    lines = ["## Constraints", "", f"`python bench/constraints.py`. {this_machine()}.", ""]
+    lines = ["## Constraints", "", f"`python bench/constraints.py`. {this_machine('llvmlite', 'pin', 'mujoco')}.", ""]
     lines += ["Times in ns a state; in brackets how many times ours, one call and batch, and the greatest relative"]
     lines += ["difference. Pinocchio: `constraintDynamics`, a call from Python; MuJoCo: `mj_forward`, soft.", ""]
     rows = [measured(name, rounds, seconds) for name in (*LINKAGES, *EXAMPLES)]
@@ -360,17 +359,14 @@ def report(quick: bool) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--quick", action="store_true", help="fewer rounds")
     given = parser.parse_args()
-    if hasattr(os, "sched_setaffinity"):  # stay on one core
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    one_core()
     lines = report(given.quick)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        results.write_text("\n".join([results.read_text(encoding="utf-8").rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ short chunks, so ratios come from one run.
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import os
 import time
@@ -25,12 +24,13 @@ from pathlib import Path
 import numpy as np
 
 import engine_systems as systems
-from engine import best, one_call, table, this_machine
+from engine import best, one_call
 from engine_peers import CasADiDerivatives, MuJoCo, Pinocchio
 from engine_systems import Array, Body, Link, Tree, Z
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.graph import count_program
+from record import append, command_line, one_core, table, this_machine
 
 HERE = Path(__file__).parent
 TREES = {"arm": systems.arm_tree, "quadruped": systems.quadruped_tree, "humanoid": systems.humanoid_tree}
@@ -133,15 +133,18 @@ def other_peers(
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--quick", action="store_true", help="fewer rounds, without the humanoid")
     given = parser.parse_args()
     os.environ["LAGRANGIAN_CACHE_DIR"] = ""
-    if hasattr(os, "sched_setaffinity"):  # stay on one core
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    one_core()
     rounds, seconds = (2, 0.05) if given.quick else (6, 0.15)
-    lines = ["## Derivatives of the accelerations", "", f"`python bench/derivatives.py`. {this_machine()}.", ""]
+    lines = [
+        "## Derivatives of the accelerations",
+        "",
+        f"`python bench/derivatives.py`. {this_machine('llvmlite', 'pin', 'mujoco', 'casadi')}.",
+        "",
+    ]
     lines += [
         "a, ∂a/∂q, ∂a/∂v and M⁻¹ together. CPU seconds: the program, machine code for one state, for a batch. Times in",
         "ns a state. Pinocchio (the wheel's code, not built for this processor) is called from Python; the next column",
@@ -165,8 +168,7 @@ def main() -> None:
     lines += table(head, [row(name, rounds, seconds) for name in names])
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        results.write_text("\n".join([results.read_text(encoding="utf-8").rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

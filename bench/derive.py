@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
-import platform
 import subprocess
 import sys
 import time
 from pathlib import Path
+
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 SYSTEMS = {
@@ -110,20 +110,6 @@ def alone(contender: str, name: str, cap: float) -> tuple[float, tuple[int, int]
     return (taken, count) if taken <= cap else None
 
 
-def machine() -> str:
-    import sympy
-
-    info = Path("/proc/cpuinfo")
-    text = info.read_text() if info.exists() else ""
-    models = [line.split(":")[1].strip() for line in text.splitlines() if line.startswith("model name")]
-    processor = models[0] if models else platform.processor() or platform.machine()
-    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    return (
-        f"{processor}, {os.cpu_count()} cores{load}; {platform.system()}; "
-        f"Python {platform.python_version()}, SymPy {sympy.__version__}; {time.strftime('%Y-%m-%d')}"
-    )
-
-
 def row(name: str, cap: float, repeats: int) -> str:
     def best(contender: str) -> tuple[float, tuple[int, int]] | None:
         results = [alone(contender, name, cap)]
@@ -143,8 +129,7 @@ def row(name: str, cap: float, repeats: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--cap", type=float, default=120, help="seconds a contender may take")
     parser.add_argument("--repeats", type=int, default=3, help="runs of which the best counts, while they are short")
     parser.add_argument("--one", nargs=2, metavar=("CONTENDER", "SYSTEM"), help=argparse.SUPPRESS)
@@ -155,7 +140,7 @@ def main() -> None:
     lines = [
         "## Derivation of the equations of motion",
         "",
-        f"`python bench/derive.py`. {machine()}.",
+        f"`python bench/derive.py`. {this_machine('sympy')}.",
         "",
         "| pendulums of point masses | lagrangian | operations | aim | SymPy | operations | times as fast |",
         "|---|---:|---:|---:|---:|---:|---:|",
@@ -165,9 +150,7 @@ def main() -> None:
         lines.append(row(name, given.cap, given.repeats))
         print(lines[-1], flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
-        results.write_text("\n".join([before, *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -15,12 +15,10 @@ import argparse
 import importlib.util
 import json
 import os
-import platform
 import subprocess
 import sys
 import time
 from collections.abc import Callable
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +29,7 @@ from engine_systems import Array, Tree
 from lagrangian import codegen as machine
 from lagrangian.codegen import Kernel
 from lagrangian.graph import count_program
+from record import append, command_line, one_core, table, this_machine
 
 HERE = Path(__file__).parent
 CHECKED = 1000
@@ -60,11 +59,6 @@ TREES: dict[str, Callable[[], Tree]] = {
 
 
 # -- operations ---------------------------------------------------------------------------------------------------
-
-
-def table(head: list[str], rows: list[list[str]]) -> list[str]:
-    """A Markdown table, all columns but the first to the right."""
-    return ["| " + " | ".join(row) + " |" for row in (head, ["---", *["---:"] * (len(head) - 1)], *rows)]
 
 
 def operations(sizes: tuple[int, ...]) -> list[str]:
@@ -223,25 +217,14 @@ def python_overhead(rounds: int, seconds: float) -> str:
 # -- the report ---------------------------------------------------------------------------------------------------
 
 
-def this_machine() -> str:
-    info = Path("/proc/cpuinfo")
-    lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
-    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    wheels = {"Pinocchio": "pin", "MuJoCo": "mujoco", "CasADi": "casadi"}
-    engines = ", ".join(f"{name} {version(wheels[name])}" for name in found())
-    missing = [name for name in PEERS if name not in found()]
-    without = f"; not installed: {', '.join(missing)}" if missing else ""
-    return (
-        f"{models[0] if models else platform.processor() or platform.machine()}, {os.cpu_count()} cores{load}; "
-        f"{platform.system()}; Python {platform.python_version()}, llvmlite {version('llvmlite')}; {engines}{without}; "
-        f"{time.strftime('%Y-%m-%d %H:%M')}"
-    )
-
-
 def report(quick: bool) -> list[str]:
     rounds, seconds = (2, 0.05) if quick else (6, 0.15)
-    lines = ["## The engine", "", f"`python bench/engine.py`. {this_machine()}.", ""]
+    lines = [
+        "## The engine",
+        "",
+        f"`python bench/engine.py`. {this_machine('llvmlite', 'pin', 'mujoco', 'casadi')}.",
+        "",
+    ]
     lines += operations((8, 64, 256) if quick else (8, 64, 256, 1000))
     lines += ["", arm_operations(), ""]
     kernels = [kernel_row(name, 1 if quick else 3, 30 if quick else 120) for name in KERNELS]
@@ -256,22 +239,18 @@ def report(quick: bool) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--quick", action="store_true", help="fewer rounds, nothing that takes long")
     parser.add_argument("--one", metavar="SYSTEM", help=argparse.SUPPRESS)
     given = parser.parse_args()
     if given.one:
         print(json.dumps(one_kernel(given.one)))
         return
-    if hasattr(os, "sched_setaffinity"):  # stay on one core
-        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    one_core()
     lines = report(given.quick)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
-        results.write_text("\n".join([before.rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -11,16 +11,13 @@ the oracle of the standard deviations that single fits state.
 
 from __future__ import annotations
 
-import argparse
 import math
-import os
-import platform
 import time
-from pathlib import Path
 
 import numpy as np
 
 import lagrangian as lg
+from record import append, command_line, this_machine
 
 TRUTH = {"m2": 1.0, "L1": 1.0, "L2": 1.0, "theta1": 0.7, "theta2": 0.4}
 GUESS = {"m2": 1.2, "L1": 0.95, "L2": 1.05, "theta1": 0.65, "theta2": 0.45}
@@ -54,16 +51,14 @@ def row(noise: float, draws: int) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line(__doc__)
     parser.add_argument("--draws", type=int, default=1000)
-    parser.add_argument("--append", action="store_true")
     given = parser.parse_args()
     error = 100 * math.sqrt(0.95 * 0.05 / given.draws)
     lines = [
         "## Confidence of fits",
         "",
-        f"`python bench/fit.py --draws {given.draws}`. {platform.machine()}, {os.cpu_count()} cores, load "
-        f"{os.getloadavg()[0]:.1f}; {platform.system()}; {time.strftime('%Y-%m-%d')}.",
+        f"`python bench/fit.py --draws {given.draws}`. {this_machine('numpy', 'scipy')}.",
         "",
         f"A double pendulum, {given.draws} draws of the noise; the share of draws with the truth in the region of 95 %",
         f"has a standard error of {error:.1f} %.",
@@ -77,8 +72,7 @@ def main() -> None:
     text = "\n".join(lines) + "\n"
     print(text)
     if given.append:
-        with (Path(__file__).parent / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write("\n" + text)
+        append([text])
 
 
 if __name__ == "__main__":

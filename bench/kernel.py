@@ -11,11 +11,8 @@ before it is timed. Engines take turns; the figure is the median over the rounds
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import importlib.util
-import os
-import platform
 import re
 import shutil
 import statistics
@@ -32,6 +29,7 @@ from lagrangian import examples
 from lagrangian.codegen import compile as compile_program
 from lagrangian.codegen import to_c, to_numpy
 from lagrangian.graph import Program, evaluate
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 SYSTEMS = ("double-pendulum", "triple-pendulum-relative", "furuta-pendulum", "scara", "robot-arm", "planar-quadrotor")
@@ -183,17 +181,14 @@ def _once(run: Engine) -> float:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--append", action="store_true", help="append the table to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--rounds", type=int, default=21)
     given = parser.parse_args()
-    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    machine = f"{platform.machine()}, {os.cpu_count()} cores{load}; {platform.system()}; NumPy {np.__version__}"
     listed = list(engines())
     lines = [
         "## Forward dynamics of many states, one core",
         "",
-        f"`python bench/kernel.py`, {STATES} states a call, ns a state. {machine}; {time.strftime('%Y-%m-%d')}.",
+        f"`python bench/kernel.py`, {STATES} states a call, ns a state. {this_machine('numpy')}.",
         "",
         f"| example | operations | {' | '.join(listed)} | next best |",
         f"|---|---:|{'---:|' * len(listed)}---:|",
@@ -206,9 +201,7 @@ def main() -> None:
         lines.append(f"| {name} | {operations} | {cells} | {others / medians['lagrangian']:.1f} times |")
         print(lines[-1], flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
-        results.write_text("\n".join([before.rstrip("\n"), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

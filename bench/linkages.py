@@ -12,7 +12,6 @@ what takes longer than `LIMIT` is given up. Inputs are zero, and so are dampers.
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections.abc import Mapping
 from typing import Any
@@ -20,8 +19,8 @@ from typing import Any
 import numpy as np
 
 import lagrangian as lg
-from engine import HERE, table, this_machine
 from lagrangian.integrate.method_names import MACHINE, SCIPY
+from record import append, command_line, table, this_machine
 
 BOUND = 1e-8
 LIMIT = 600.0
@@ -71,7 +70,7 @@ def measured(name: str, method: str, seconds: float) -> tuple[str, float]:
 
 def report(names: list[str], methods: list[str], seconds: float) -> list[str]:
     lines = [f"## Energy and closure of linkages over {seconds:g} s", ""]
-    lines += [f"`python bench/linkages.py`. {this_machine()}.", ""]
+    lines += [f"`python bench/linkages.py`. {this_machine('llvmlite', 'scipy')}.", ""]
     rows, left = [], 0.0
     for name in names:
         row = [name]
@@ -86,8 +85,7 @@ def report(names: list[str], methods: list[str], seconds: float) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("-s", "--systems", default=",".join(SYSTEMS), help="names, with commas")
     parser.add_argument("-m", "--methods", default=",".join(METHODS), help="names, with commas")
     parser.add_argument("--seconds", type=float, default=100.0, help="the length of a motion")
@@ -95,8 +93,7 @@ def main() -> None:
     lines = report(given.systems.split(","), given.methods.split(","), given.seconds)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        results.write_text("\n".join([results.read_text(encoding="utf-8").rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ import numpy as np
 
 import lagrangian as lg
 from lagrangian import examples
-from lagrangian.view import Panel, Picture, Series, draw
+from lagrangian.view import Panel, Plotted, Series, draw
 
 PERIODS = 1_000_000
 STEPS = 40
@@ -53,7 +53,7 @@ def figure(periods: np.ndarray, errors: dict[str, np.ndarray]):
     """Relative energy errors over time, both on logarithmic axes."""
     curves = [Series(r"\mathrm{" + name + "}", name, values[1:]) for name, values in errors.items()]
     panel = Panel("relative energy error", "", tuple(curves))
-    made = draw(Picture("pendulum, 0.5 rad, 40 steps a period", periods[1:], (panel,)))
+    made = draw(Plotted("pendulum, 0.5 rad, 40 steps a period", periods[1:], (panel,)))
     axes = made.axes[0]
     axes.set_xscale("log")
     axes.set_yscale("log")

@@ -9,14 +9,11 @@ All start from the same states; contenders take turns, and a figure is the least
 
 from __future__ import annotations
 
-import argparse
 import importlib.util
 import math
 import os
-import platform
 import time
 from collections.abc import Callable, Mapping
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +24,7 @@ import lagrangian as lg
 from lagrangian import dynamics
 from lagrangian.graph import Program
 from lagrangian.integrate import Solver
+from record import append, command_line, table, this_machine
 
 HERE = Path(__file__).parent
 STEP = 0.002
@@ -101,11 +99,6 @@ def fastest(contenders: Mapping[str, Call], rounds: int) -> dict[str, float]:
             taken = time.perf_counter() - begin
             found[name] = min(taken, found.get(name, taken))
     return found
-
-
-def table(head: list[str], rows: list[list[str]]) -> list[str]:
-    """A Markdown table, all columns but the first to the right."""
-    return ["| " + " | ".join(row) + " |" for row in (head, ["---", *["---:"] * (len(head) - 1)], *rows)]
 
 
 def there(module: str) -> bool:
@@ -333,24 +326,13 @@ def ensemble_rows(quick: bool) -> list[list[str]]:
 # -- the report -----------------------------------------------------------------------------------------------------
 
 
-def this_machine() -> str:
-    info = Path("/proc/cpuinfo")
-    lines = info.read_text(encoding="utf-8").splitlines() if info.exists() else []
-    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    load = f", load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    peers = ["scipy", "heyoka", "jax", "mujoco"]
-    installed = ", ".join(f"{name} {version(name)}" for name in peers if there(name))
-    missing = [name for name in peers if not there(name)]
-    without = f"; not installed: {', '.join(missing)}" if missing else ""
-    return (
-        f"{models[0] if models else platform.processor() or platform.machine()}, {os.cpu_count()} cores{load}; "
-        f"{platform.system()}; Python {platform.python_version()}, llvmlite {version('llvmlite')}; "
-        f"{installed}{without}; {time.strftime('%Y-%m-%d %H:%M')}"
-    )
-
-
 def report(quick: bool) -> list[str]:
-    lines = ["## Integrators", "", f"`python bench/simulate.py`. {this_machine()}.", ""]
+    lines = [
+        "## Integrators",
+        "",
+        f"`python bench/simulate.py`. {this_machine('llvmlite', 'scipy', 'heyoka', 'jax', 'mujoco')}.",
+        "",
+    ]
     lines += [f"RK4, {RUNS} runs of {STEPS} steps, million steps a second on one core; in brackets how many times.", ""]
     lines += ["C by hand needs a compiler: its figures are those of another run on such a machine.", ""]
     head = ["one core", "ours", "two cores", "C by hand, another run", "JAX `lax.scan`", "MuJoCo `rollout`"]
@@ -363,16 +345,13 @@ def report(quick: bool) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--quick", action="store_true", help="fewer runs and rounds")
     given = parser.parse_args()
     lines = report(given.quick)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
-        results.write_text("\n".join([before.rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -9,16 +9,14 @@ so that what else the machine does falls on all of them alike. Python itself is 
 
 from __future__ import annotations
 
-import argparse
 import os
-import platform
 import resource
 import statistics
 import subprocess
 import sys
-import time
-from importlib.metadata import version
 from pathlib import Path
+
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 
@@ -85,25 +83,15 @@ def table(runs: int) -> str:
     return "\n".join(lines)
 
 
-def machine() -> str:
-    load = f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
-    packages = ", ".join(f"{name} {version(name)}" for name in ("sympy", "numpy", "typer"))
-    return (
-        f"{platform.machine()}, {os.cpu_count()} cores, {load}; {platform.system()}; "
-        f"Python {platform.python_version()}, {packages}; {time.strftime('%Y-%m-%d')}"
-    )
-
-
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=9)
-    parser.add_argument("--append", action="store_true")
-    options = parser.parse_args()
-    text = f"## Start\n\n`python bench/startup.py`, median of {options.runs}. {machine()}.\n\n{table(options.runs)}\n"
+    given = parser.parse_args()
+    where = this_machine("sympy", "numpy", "typer")
+    text = f"## Start\n\n`python bench/startup.py`, median of {given.runs}. {where}.\n\n{table(given.runs)}\n"
     print(text)
-    if options.append:
-        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write(f"\n{text}")
+    if given.append:
+        append([text])
 
 
 if __name__ == "__main__":

@@ -20,7 +20,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +27,7 @@ import numpy as np
 
 import lagrangian as lg
 from lagrangian import examples
+from record import append, command_line, this_machine
 
 HERE = Path(__file__).parent
 METHODS = {"dop853": {}, "rk4": {"step": 0.01}}
@@ -159,22 +159,11 @@ def workers(folder: Path, given: argparse.Namespace, count: int, *, faults: bool
     return [what, f"{took:.1f}", f"{given.runs / took:.0f}", f"{peak:.0f}", how]
 
 
-def this_machine() -> str:
-    models = [
-        line.split(":")[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if "model name" in line
-    ]
-    load = f", load {os.getloadavg()[0]:.1f} before"
-    return (
-        f"{models[0] if models else platform.machine()}, {os.cpu_count()} cores{load}; {platform.system()}; "
-        f"zarr {version('zarr')}, distributed {version('distributed')}; {time.strftime('%Y-%m-%d %H:%M')}"
-    )
-
-
 def report(given: argparse.Namespace) -> list[str]:
     lines = [
         "## A sweep",
         "",
-        f"`python bench/sweep.py --runs {given.runs} --method {given.method}`. {this_machine()}.",
+        f"`python bench/sweep.py --runs {given.runs} --method {given.method}`. {this_machine('zarr', 'distributed')}.",
         "",
     ]
     lines += [
@@ -191,8 +180,7 @@ def report(given: argparse.Namespace) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--append", action="store_true", help="append to bench/RESULTS.md")
+    parser = command_line(__doc__)
     parser.add_argument("--runs", type=int, default=1_000_000, help="how many runs, in thousands")
     parser.add_argument("--method", choices=list(METHODS), default="dop853")
     parser.add_argument("--one", metavar="STORE", help=argparse.SUPPRESS)
@@ -204,9 +192,7 @@ def main() -> None:
     lines = report(given)
     print("\n".join(lines), flush=True)
     if given.append:
-        results = HERE / "RESULTS.md"
-        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
-        results.write_text("\n".join([before.rstrip(), "", *lines, ""]), encoding="utf-8")
+        append(lines)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The house's own rules: floors, types, style, public names, rooms, and the README's commands."""
 
 import ast
+import importlib.util
 import pathlib
 import re
 import shutil
@@ -70,6 +71,24 @@ def test_text_is_never_run() -> None:
     ]
     assert len(called) > 1000
     assert not [(file, name) for file, name in called if name in {"eval", "exec", "parse_expr", "lambdify"}]
+
+
+def test_scripts_import_names_that_exist() -> None:
+    """No test runs all of ``bench/`` and ``tools/``: a name that was moved would be found by a user."""
+    scripts = [file for folder in ("bench", "tools") for file in sorted((ROOT / folder).glob("*.py"))]
+    asked = [
+        (file.name, str(node.module), alias.name)
+        for file in scripts
+        for node in nodes(file)
+        if isinstance(node, ast.ImportFrom) and str(node.module).split(".")[0] == "lagrangian"
+        for alias in node.names
+    ]
+    assert len(asked) > 20
+    assert not [x for x in asked if not hasattr(importlib.import_module(x[1]), x[2]) and not _is_module(x[1], x[2])]
+
+
+def _is_module(package: str, name: str) -> bool:
+    return importlib.util.find_spec(f"{package}.{name}") is not None
 
 
 CLOCKS = {"perf_counter", "process_time", "thread_time", "monotonic", "timeit", "getrusage", "clock_gettime"}
