@@ -98,7 +98,7 @@ def test_the_page_is_one_small_file_that_forbids_itself_every_request(file: Path
     assert policy is not None and policy[1].startswith("default-src 'none'")
     assert "'unsafe-eval'" not in policy[1]
     assert not re.search(r"""(src|href|action)\s*=\s*["']?https?:""", text)
-    for id_ in ("schematic", "motion", "equations", "controls", "plots", "steps"):
+    for id_ in ("schematic", "motion", "bench", "steps"):
         assert f'id="{id_}"' in text
 
 

@@ -209,9 +209,11 @@ def _flows(model: Model, scene: Scene) -> list[dict[str, Any]]:
 
 
 def _moving(scene: Scene) -> dict[str, Any]:
-    """What moves in the scene as data, in hundredths of a pixel."""
+    """What moves in the scene as data: in hundredths of a pixel, and positions in hundred thousandths of its size."""
     found = as_data(scene)
-    return {**found, "parts": _rounded(found["parts"])}
+    places = max(0, 5 - math.floor(math.log10(max(scene.size) / scene.scale)))
+    positions = [[round(x, places) for x in r] for r in found["positions"]]
+    return {**found, "parts": _rounded(found["parts"]), "positions": positions}
 
 
 def _rounded(value: Any) -> Any:

@@ -7,6 +7,7 @@ angles, powers and inverse hyperbolic functions. The host supplies the latter fr
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Callable, Iterable
 from functools import cache
 
@@ -30,6 +31,13 @@ IMPORTS = frozenset(("Math", name) for name in LIBM)
 """The functions that a module may import."""
 
 
+ADDRESS = re.compile(r"getelementptr ([\w<> ]+), ptr (%\w+), i64 (?=\d+$)", re.MULTILINE)
+"""An address at a constant distance from another."""
+
+SAYS_UNSIGNED = 20
+"""The first version of LLVM in which an address can say that its sum does not wrap."""
+
+
 @cache
 def target() -> Target:
     """WebAssembly with 32-bit addresses: vectors of two doubles, and no fused multiply-add."""
@@ -48,7 +56,15 @@ def compiled(printer: Callable[[Module], None], exports: Iterable[str], key: str
         module = Module(target())
         printer(module)
         _log.info("making a module of WebAssembly")
-        kept = native.object_code(module.text(), target(), LEVEL)
+        kept = native.object_code(_folding(module.text()), target(), LEVEL)
         if key:
             disk.write(f"{key}-wasm", kept)
     return linked(kept, exports, IMPORTS)
+
+
+def _folding(text: str) -> str:
+    """The same code, in which constant distances become a part of loads and stores instead of sums: every base lies in
+    the host's memory and every distance is within its buffer, so no sum wraps."""
+    if native.llvm.llvm_version_info[0] < SAYS_UNSIGNED:
+        return text
+    return ADDRESS.sub(r"getelementptr inbounds nuw \1, ptr \2, i64 ", text)

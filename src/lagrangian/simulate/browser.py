@@ -159,8 +159,9 @@ def browser_module(
     `lagrangian.System.simulate`.
 
     ``functions``: further functions of JavaScript, by name: expressions and points of the model, or a program over x,
-    u, p, t. ``energy``, which returns T and V, is always among them. ``fallback``: with what runs in JavaScript need
-    where WebAssembly is forbidden, if that makes at most so many characters. ``lanes``: 2 computes two runs at once.
+    u, p, t. ``energy``, which returns T and V, is among them unless a ``power`` is asked for. ``fallback``: with what
+    runs in JavaScript need where WebAssembly is forbidden, if that makes at most so many characters. ``lanes``: 2
+    computes two runs at once.
 
     Raises `RunError` for a method that WebAssembly cannot run, for dry friction, for inputs that are Python functions,
     and otherwise as a simulation does.

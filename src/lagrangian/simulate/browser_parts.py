@@ -180,9 +180,11 @@ class BrowserParts:
         text has more characters than that. Raises `RunError` for a name that a function cannot have.
         """
         model, feedback = self.model, self.drive.feedback
-        power = dynamics.power_closed(model, feedback)
         unchecked = {**self._around, "rhs": self.field, **self._projections}
-        checked = {"energy": replace(power, name="energy", outputs={n: power.outputs[n] for n in ("T", "V")})}
+        checked: dict[str, Program] = {}
+        if "power" not in more:  # whose balance has T and V, too
+            power = dynamics.power_closed(model, feedback)
+            checked["energy"] = replace(power, name="energy", outputs={n: power.outputs[n] for n in ("T", "V")})
         for name, asked in more.items():
             if name in unchecked or name in checked or not names_function(name):
                 raise RunError(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from base64 import b64encode, b85encode
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from string import Template
@@ -20,6 +20,7 @@ from lagrangian.write import html_page
 from lagrangian.write.document import Boxed, Document, Section
 from lagrangian.write.expression_tree import Math
 from lagrangian.write.html_page import escape
+from lagrangian.write.interactive.columns import in_columns
 from lagrangian.write.mathml import mathml
 
 SCRIPTS = (
@@ -86,14 +87,29 @@ def compressed(content: bytes) -> bytes:
     return made.compress(content) + made.flush()
 
 
+PACKED_RULES = "/* -- what follows comes packed"
+"""The comment in the style sheet after the rules for what is seen before a script has run."""
+
+
 def packed(content: bytes) -> str:
     """Return bytes compressed and in base64, a fifth of their size where they are the MathML of a derivation."""
     return b64encode(compressed(content)).decode("ascii")
 
 
+DIGITS = "".join(map(chr, range(33, 127))).translate(dict.fromkeys(map(ord, '"&<')))
+"""The 91 characters in which a page is packed: those that can be seen and have no meaning in HTML."""
+
+PAIRS = [DIGITS[n % 91] + DIGITS[n // 91] for n in range(1 << 13)]
+"""13 bits as two characters."""
+
+
 def dense(content: bytes) -> str:
-    """Return bytes compressed and in base 85, five characters for four bytes, without ``<``: for `unpack.js`."""
-    return b85encode(compressed(content)).decode("ascii").replace("<", ",")
+    """Return bytes compressed, 13 bits in two characters, for `unpack.js`; the first byte says how many fill up."""
+    made = compressed(content)
+    spare = -(len(made) + 1) % 13  # groups have 104 bits
+    made = bytes([spare]) + made + bytes(spare)
+    groups = (int.from_bytes(made[k : k + 13], "big") for k in range(0, len(made), 13))
+    return "".join(PAIRS[group >> shift & 8191] for group in groups for shift in range(91, -1, -13))
 
 
 @dataclass(frozen=True)
@@ -109,9 +125,11 @@ class PageSolver:
         """Return the script that defines ``physics``: {layout, functions, solver()}; it also runs in a worker."""
         lines = [
             UNPACKED,
+            _script("columns.js"),
             squeezed(self.driver),
             "const physics = (() => {",
-            f'const code = () => unpacked("{packed(self.code)}").arrayBuffer();',
+            f"const code = async () => fromColumns(new Uint8Array(await unpacked("
+            f'"{packed(in_columns(self.code))}").arrayBuffer()));',
             f"const layout = {embedded(self.layout)};",
             f"const functions = {squeezed(self.functions)};",
             "const solver = async () => lagrangianSolver.load(await code(), layout, functions);",
@@ -146,22 +164,30 @@ class PageContents:
 
 def page_html(contents: PageContents) -> str:
     """Return the page."""
-    states = [a for a in contents.adjustables if a.group == "x"]
-    coordinates, rates = states[: contents.coordinates], states[contents.coordinates :]
     title = escape(contents.document.title)
+    first, mark, _ = _file("page.css").partition(PACKED_RULES)
+    assert mark, "the style sheet says which rules are packed"
     return Template(_file("page.html")).substitute(
         title=title,
         subtitle=f"<p>{escape(contents.subtitle)}</p>" if contents.subtitle else "",
-        style=_style(html_page.style_sheet() + _file("page.css")),
+        style=_style(html_page.style_sheet().partition("\n.")[0] + "\n" + first),
         schematic="" if len(contents.schematic) > LARGE_PICTURE else contents.schematic,
         missing=_missing(contents.missing),
         motion_hint=_hint(contents),
+        packed=dense(_parts(contents).encode()),
+        unpack=_script("unpack.js"),
+    )
+
+
+def _bench(contents: PageContents) -> str:
+    """The panels with the equations, the values, the plots and the studies, which the scripts fill."""
+    states = [a for a in contents.adjustables if a.group == "x"]
+    coordinates, rates = states[: contents.coordinates], states[contents.coordinates :]
+    return Template(_file("bench.html")).substitute(
         coordinate_legend=_legend(coordinates),
         energy_legend=_ENERGIES,
         phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
-        packed=dense(_parts(contents).encode()),
-        unpack=_script("unpack.js"),
         **_studies(contents, states, coordinates),
         map_of=_choice("map-of", "what is coloured", coordinates, 0),
         map_across=_choice("map-x", "from left to right", states, 0),
@@ -191,6 +217,8 @@ def _parts(contents: PageContents) -> str:
     """What is packed, as JSON: [id, text, type] of the insides of elements and of scripts, in the order of use."""
     html, plain, script = "text/html", "text/plain", "text/javascript"
     parts = [
+        ("style", _style(html_page.style_sheet() + _file("page.css")), html),
+        ("bench", _bench(contents), html),
         *([("drawing", _lighter(contents.schematic), html)] if len(contents.schematic) > LARGE_PICTURE else []),
         ("result", _equations(contents.document), html),
         ("values", _controls(contents.adjustables), html),
@@ -206,9 +234,32 @@ def _parts(contents: PageContents) -> str:
 
 
 def _lighter(picture: str) -> str:
-    """A schematic without the colours that its style repeats, its outlines to a tenth of a pixel."""
+    """A schematic without the colours that its style repeats, its outlines as steps of tenths of a pixel."""
     text = re.sub(r' (fill|stroke)="#[0-9a-f]{6}"', "", picture)
-    return re.sub(r' d="[^"]*"', lambda d: re.sub(r"(\.\d)\d+", r"\1", d[0]), text)
+    return re.sub(r' d="([MLCZ\d. -]*)"', lambda d: f' d="{_in_steps(d[1])}"', text)
+
+
+def _in_steps(outline: str) -> str:
+    """An outline of moves, lines and cubic curves with every point counted from where its command begins.
+
+    Points are rounded, not steps, so that no error grows along the outline.
+    """
+    made: list[str] = []
+    at = start = (0, 0)
+    for letter, listed in re.findall(r"([MLCZ])([^MLCZ]*)", outline):
+        made.append(letter.lower())
+        numbers = [round(10 * float(x)) for x in re.findall(r"-?[\d.]+", listed)]
+        for k in range(0, len(numbers), 6 if letter == "C" else 2):
+            points = numbers[k : k + 6 if letter == "C" else k + 2]
+            for n, x in enumerate(points):
+                step = re.sub(r"^(-?)0\.", r"\1.", f"{(x - at[n % 2]) / 10:.1f}".removesuffix(".0"))
+                made.append(f" {step}" if made[-1][-1:] not in "mlc" and not step.startswith("-") else step)
+            at = (points[-2], points[-1])
+        if letter == "M":
+            start = (numbers[0], numbers[1])
+        elif letter == "Z":
+            at = start
+    return "".join(made)
 
 
 def embedded(data: Mapping[str, Any]) -> str:

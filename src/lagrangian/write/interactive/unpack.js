@@ -3,17 +3,15 @@
 
 (async function unpack() {
   const text = document.getElementById("packed").textContent.trim();
-  const digits = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;,=>?@^_`{|}~";
-  const values = Object.fromEntries([...digits].map((c, i) => [c, i]));
-  const count = Math.ceil(text.length / 5);
-  const view = new DataView(new ArrayBuffer(4 * count));
-  for (let n = 0; n < count; n++) {
-    let word = 0; // of base 85; the last one may be short
-    for (let i = 0; i < 5; i++) word = 85 * word + (values[text[5 * n + i]] ?? 84);
-    view.setUint32(4 * n, word);
+  const values = new Map();
+  for (let c = 33; c < 127; c++) if (!'"&<'.includes(String.fromCharCode(c))) values.set(c, values.size);
+  const value = (n) => values.get(text.charCodeAt(n));
+  const bytes = new Uint8Array(text.length / 16 * 13);
+  for (let n = 0, end = 0, word = 0, bits = 0; n < text.length; n += 2) { // 13 bits in two characters
+    word = (word & 255) << 13 | value(n) + 91 * value(n + 1);
+    for (bits += 13; bits > 7; bits -= 8) bytes[end++] = word >> (bits - 8);
   }
-  const bytes = new Uint8Array(view.buffer, 0, 4 * count - (5 * count - text.length));
-  const parts = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
+  const parts = await new Response(new Blob([bytes.subarray(1, bytes.length - bytes[0])]).stream().pipeThrough(new DecompressionStream("deflate"))).json();
   for (const [id, text, type] of parts) {
     if (type === "text/html") {
       document.getElementById(id).innerHTML = text;
