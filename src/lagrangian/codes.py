@@ -127,6 +127,12 @@ class Code(StrEnum):
         "friction that sticks where a smooth function is needed",
         "Runs and derivations take friction; for compiled functions, exports and equilibria `regime` says what slips.",
     )
+    E312 = (
+        "E312",
+        "a constraint that an energy may contain already",
+        "A notice: a velocity constraint holds a rate that no T* contains. Put into T* before the derivatives are "
+        "taken, it gives wrong equations.",
+    )
     E401 = (
         "E401",
         "something is missing",
@@ -278,9 +284,9 @@ class Code(StrEnum):
 
 CodeText = Literal[
     "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E108", "E201", "E202", "E203", "E210", "E301", "E302",
-    "E303", "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E401", "E402", "E403", "E404", "E405", "E406",
-    "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503",
-    "E504", "E505", "E506", "E507", "E508", "E509", "E510", "E511", "E521", "E522", "E523", "E524", "E525", "E601",
-    "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
+    "E303", "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E312", "E401", "E402", "E403", "E404", "E405",
+    "E406", "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502",
+    "E503", "E504", "E505", "E506", "E507", "E508", "E509", "E510", "E511", "E521", "E522", "E523", "E524", "E525",
+    "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

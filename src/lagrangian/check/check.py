@@ -27,6 +27,7 @@ from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
+from lagrangian.check.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.stated_coordinates import in_stated_coordinates
@@ -73,7 +74,8 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
     if truth.derivation.multipliers:
         read = unfolded(truth, written)
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
-        return _named_with_multipliers(truth, read.lines, verdict) if explain else verdict
+        verdict = energies_on_rows(truth, read.lines, verdict, hint)
+        return with_rows_put_in(truth, read.lines, _with_mistakes(truth, read.lines, verdict)) if explain else verdict
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
     if forces is not None:
@@ -87,7 +89,7 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
     return replace(verdict, notes=(*told, *verdict.notes))
 
 
-def _named_with_multipliers(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+def _with_mistakes(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer with multipliers, with the mistakes that its equations, taken one by one, show."""
     read = with_own_multipliers(truth, lines) if verdict.status is Status.WRONG else None
     if read is None:

@@ -89,7 +89,7 @@ class Compared:
         return self.derivation.model
 
 
-def _expanded(truth: Reference) -> Compared:
+def expanded(truth: Reference) -> Compared:
     """A system whose equations are written in the coordinates."""
     model = truth.model
     known: set[sp.Basic] = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
@@ -118,8 +118,8 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
-    other = _expanded(truth)
+    lines = in_coordinates(truth, lines)
+    other = expanded(truth)
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
@@ -127,11 +127,16 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verd
     return second if second.right else first
 
 
+def in_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines with new speeds written out in rates, and a constraint that was integrated as one on rates."""
+    return [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
+
+
 def _as_read(truth: Reference, read: SizeReading) -> bool:
     """Whether the multipliers of a right answer have the sizes that they were given."""
     equations = [line for line in read.lines if line.kind == "equation"]
-    other = _expanded(truth)
-    unknown = _unknown(other, equations)
+    other = expanded(truth)
+    unknown = unknown_names(other, equations)
     for given in (False, True):
         places = _places(other, equations, unknown, given=given)
         if all(
@@ -179,7 +184,7 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
     equations = [line for line in lines if line.kind == "equation"]
     results = results_in(truth.model, truth.known, equations)
     equations = [line for line in equations if line not in results.values()]
-    unknown = _unknown(truth, equations)
+    unknown = unknown_names(truth, equations)
     found: dict[int, Finding] = {}
     notes: list[Text] = []
     status: Status | None = None
@@ -233,7 +238,7 @@ def _names_in(truth: Compared, line: AnsweredLine) -> set[sp.Basic]:
     return used | {x for name in used & truth.holding.keys() for x in truth.holding[name]}
 
 
-def _unknown(truth: Compared, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
+def unknown_names(truth: Compared, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
     """The names in an answer that the system does not have, and its multipliers."""
     used = set[sp.Basic]().union(*(_names_in(truth, line) for line in lines))
     return sorted(used - truth.known, key=str)
@@ -279,7 +284,7 @@ def _no_force(unknown: Sequence[sp.Basic]) -> Text:
     )
 
 
-def _consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
+def consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
     """Whether one set of multipliers satisfies these lines at every state."""
     for place in places:
         rows, size = list(chosen), place.size[list(chosen)]
@@ -294,13 +299,13 @@ def _consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
 
 def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
     """The largest set of lines that are true together; of equals, that with the first lines."""
-    if _consistent(places, range(count)):
+    if consistent(places, range(count)):
         return set(range(count))
     if count > MOST:
-        return {j for j in range(count) if _consistent(places, [j])}
+        return {j for j in range(count) if consistent(places, [j])}
     for size in range(count - 1, 0, -1):
         for chosen in combinations(range(count), size):
-            if _consistent(places, chosen):
+            if consistent(places, chosen):
                 return set(chosen)
     return set()
 

@@ -15,6 +15,7 @@ from dataclasses import replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.codes import Code
 from lagrangian.dynamics.dependent import dependent_among
 from lagrangian.dynamics.describe import describe
@@ -23,8 +24,9 @@ from lagrangian.dynamics.friction import slips
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
-from lagrangian.model import Body, Gravity, Model, Parameter, VelocityConstraint
+from lagrangian.model import Body, Gravity, Kinetic, Model, Parameter, VelocityConstraint
 from lagrangian.model.body_checks import ConstantValues, Doubt, doubt
+from lagrangian.model.rows import rows_of
 from lagrangian.records import dataclass
 
 STATES = 20
@@ -56,6 +58,7 @@ def _found(model: Model) -> tuple[Notice, ...]:
         *(Notice(d.code, _where(d.body), _said(d)) for d in found),
         *_weightless(model),
         *_dependent(model),
+        *_put_in(model),
     )
 
 
@@ -79,6 +82,31 @@ def _dependent(model: Model) -> Iterator[Notice]:
     for name in dependent_rows(model):
         said = "it says again what the other constraints say, in every position: it is left out, its multiplier is 0"
         yield Notice(Code.E306, f"constraint '{name}'", said)
+
+
+def _put_in(model: Model) -> Iterator[Notice]:
+    """The velocity constraints that may have been put into a T* that is given as an expression.
+
+    Such a constraint contains a rate that no T* contains, and its factors change with the position: where they do not,
+    it can be integrated, and may be put in.
+    """
+    if not any(isinstance(e, Kinetic) for e in model.elements):
+        return
+    rows = [row for row in rows_of(model) if row.position is None]
+    energies = [e.kinetic(model) for e in model.elements if e.ledger == "T*"] if rows else []
+    for row in rows:
+        rate = model.expand(row.rate)
+        held = [c for c in model.coordinates if rate.has(c.rate)]
+        bent = any(bounded.diff(rate, c.rate).has(*[x.symbol for x in model.coordinates]) for c in held)
+        missing = [f"{c.name}'" for c in held if not any(T.has(c.rate) for T in energies)]
+        if bent and missing:
+            listed = " and ".join(missing)
+            yield Notice(
+                Code.E312,
+                f"constraint '{row.name}'",
+                f"T* is given as an expression without {listed}. If this constraint was put into it, the equations are "
+                "wrong: write T* in all rates, or describe particles and rigid bodies",
+            )
 
 
 def _weightless(model: Model) -> Iterator[Notice]:
