@@ -318,7 +318,7 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
                     sure=named.sure,
                 )
         status = Status.OTHER_COORDINATES if judged.status.right else judged.status
-        notes = (*spelling.notes, text("In other coordinates: ", *change.words.parts, "."), *judged.notes)
+        notes = (*spelling.notes, change.told, *judged.notes)
         return Verdict(
             status,
             judged.findings,

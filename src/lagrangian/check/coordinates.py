@@ -46,6 +46,12 @@ class ProposedChange(Brief):
     words: Text
     plain: bool
 
+    @property
+    def told(self) -> Text:
+        """How the coordinates were understood, and that the answer itself does not say so where it should."""
+        unsaid = () if self.plain else (" Your answer does not say so; if it is not meant, the equations are wrong.",)
+        return text("In other coordinates: ", *self.words.parts, ".", *unsaid)
+
     def put(self, expr: sp.Expr) -> sp.Expr:
         """An expression of the answer in the system's coordinates."""
         whole: dict[sp.Basic, sp.Expr] = {}
