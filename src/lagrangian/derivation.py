@@ -70,15 +70,17 @@ class Derivation(Guided, derive.Derived):
         linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
         checked on this machine, such as C without a compiler. ``exports``: the exports to other programs are run in
         them as well, where they are installed, a run and its files are compared with another run, and the checklist as
-        text, Markdown and LaTeX is read back. Raises
+        text, Markdown, LaTeX and HTML is read back. Raises
         `ModelError` if ``states`` is not a valid number.
         """
         found = verify_lines(self, states=states, seed=seed)
         if exports and self.form == "expanded":
+            from lagrangian.check.html_formulas import as_markdown
             from lagrangian.check.printed import printed_checks
 
             formats = {"text": self.to_text, "Markdown": self.to_markdown, "LaTeX": self.to_latex}
-            found += printed_checks(self, {name: write(brief=True) for name, write in formats.items()})
+            pages = {name: write(brief=True) for name, write in formats.items()}
+            found += printed_checks(self, {**pages, "HTML": as_markdown(self.to_html(brief=True))})
         return (*found, *verify_compiled(self.model, states=states, seed=seed, exports=exports))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:

@@ -112,8 +112,8 @@ class System(Designed):
         This covers the derived equations, the compiled functions, the exported source and the linearization: see
         `Derivation.verify`. Of a floating system without derived equations (all of its energies are given
         directly) everything else is checked.
-        ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed, and
-        the printed checklist is read back.
+        ``exports``: exports to other programs, such as Octave, are run in them as well, where they are installed; the
+        printed checklist is read back, and so are the sheets of a worksheet: of the variant with this seed.
         """
         from lagrangian.values.values import check_sampling
 
@@ -122,10 +122,14 @@ class System(Designed):
             from lagrangian.derivation import verify_floating
             from lagrangian.structured.choose import refusal
 
-            if not refusal(self.model):
-                return self.derive().verify(states=states, seed=seed, exports=exports)
-            return verify_floating(self.model, states=states, seed=seed, exports=exports)
-        return self.derive().verify(states=states, seed=seed, exports=exports)
+            if refusal(self.model):
+                return verify_floating(self.model, states=states, seed=seed, exports=exports)
+        found = self.derive().verify(states=states, seed=seed, exports=exports)
+        if exports:
+            from lagrangian.worksheet.proof import variant_checks
+
+            found += variant_checks(lambda: self.worksheet(seed=seed))
+        return found
 
     def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:
         """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … of arrays of states.

@@ -12,6 +12,7 @@ import sympy as sp
 
 from built_in import LARGE, derivation
 from lagrangian import Derivation, check, examples
+from lagrangian.check.html_formulas import as_markdown
 from lagrangian.check.printed import printed_checks
 from lagrangian.check.reading import parse_answer
 from size import rest_slow
@@ -94,6 +95,23 @@ def test_verification_reads_the_pages_back_and_notices_a_fraction_turned_over(mo
     assert [c.holds for c in checks] == [False, False] and "lines differ" in checks[0].figure
     (unread,) = printed_checks(own, {"text": "x = ) ("})
     assert unread.holds is None and "not read back" in unread.figure
+
+
+def test_a_page_in_html_is_read_back_and_a_changed_formula_noticed() -> None:
+    for name in ("duffing", "kapitza-pendulum"):
+        own = derivation(name)
+        page = own.to_html(brief=True)
+        (check,) = printed_checks(own, {"HTML": as_markdown(page)})
+        assert check.holds and check.figure == "7 lines"
+    changes = [
+        ("<mn>2</mn>", "<mn>3</mn>"),
+        ("<mi>sin</mi>", "<mi>cos</mi>"),
+        ('<mo form="infix">−', '<mo form="infix">+'),
+    ]
+    for old, new in changes:
+        assert old in page
+        (check,) = printed_checks(own, {"HTML": as_markdown(page.replace(old, new))})
+        assert check.holds is False, (old, check)
 
 
 def test_matrices_that_are_drawn_are_read() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from lagrangian.cli import main
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.worksheet.dice import Dice
 from lagrangian.worksheet.letters import new_letters
+from lagrangian.worksheet.proof import sheet_checks
 
 
 @cache
@@ -146,6 +148,7 @@ def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: 
     )
     said = capsys.readouterr().err
     assert "other letters and values" in said
+    assert "not read back: --verify" in said
     assert said.count("wrote ") == 3 == len(list(sheets.iterdir()))
     names = ["pendulum-5-questions.tex", "pendulum-5-solution.tex", "pendulum-5.toml"]
     assert sorted(p.name for p in sheets.iterdir()) == names
@@ -163,6 +166,37 @@ def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: 
     assert json.loads(capsys.readouterr().out)["seed"] is None
     for wrong in (["--variants", "2"], ["-f", "json"], ["-o", str(tmp_path / "a" / "b")]):
         assert main(["worksheet", "-e", "pendulum", *wrong]) == 2
+
+
+def test_a_sheet_is_held_against_its_model_file_and_what_differs_is_found() -> None:
+    made, own = sheet("pendulum", None), derivation("pendulum")
+    questions = {name: made.question(name) for name in ("markdown", "html")}
+    solutions = {name: made.solution(name, brief=True) for name in ("markdown", "text", "latex", "html")}
+
+    def found(asked: Callable[[str], str] = str, told: Callable[[str], str] = str) -> list[bool | None]:
+        checks = sheet_checks(lambda: own, lambda f: asked(questions[f]), lambda f, _: told(solutions[f]))
+        return [check.holds for check in checks]
+
+    assert found() == [True] * 6
+    assert found(asked=_another_value) == [True] * 4 + [False] * 2
+    assert found(told=lambda text: text.replace("sin", "cos")) == [False] * 4 + [True] * 2
+
+
+def _another_value(sheet: str) -> str:
+    """A question sheet on which one digit is wrong."""
+    return re.sub(r"(\d)( m/s|&#xa0;m/s)", lambda m: f"{(int(m[1]) + 1) % 10}{m[2]}", sheet, count=1)
+
+
+def test_the_command_verifies_its_sheets_and_fails_with_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = ["worksheet", "-e", "pendulum", "-o", str(tmp_path), "--force"]
+    write = lg.Worksheet.to_toml
+    monkeypatch.setattr(lg.Worksheet, "to_toml", lambda self: write(self).replace("9.81", "1.62"))
+    assert main([*command, "--verify", "--json"]) == 1
+    shown = capsys.readouterr()
+    assert "✗ pendulum: the values on the question sheet" in shown.err and "4 of 6 checks hold" in shown.err
+    assert [c["holds"] for c in json.loads(shown.out)[0]["checks"]] == [True] * 4 + [False] * 2
 
 
 def test_the_manuals_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -49,6 +50,10 @@ SheetFormat = Annotated[
         rich_help_panel=OUTPUT,
     ),
 ]
+Verify = Annotated[
+    bool,
+    typer.Option("--verify", help="Read every sheet back and hold it against its model file; exit 1 if one differs."),
+]
 Folder = Annotated[
     Path | None,
     output_option("Write question sheets, solutions and model files into this folder.", metavar="DIR"),
@@ -64,6 +69,7 @@ def worksheet(
     format: SheetFormat = None,
     notation: NotationOption = Notation.LECTURE,
     folder: Folder = None,
+    verify: Verify = False,
     json: Json = False,
     force: Force = False,
 ) -> None:
@@ -76,6 +82,7 @@ def worksheet(
       lagrangian worksheet --example cart-pole
       lagrangian worksheet carts.toml -f html -o sheets/
       lagrangian worksheet carts.toml --variants 30 --seed 100 -f latex -o sheets/
+      lagrangian worksheet carts.toml --variants 30 -o sheets/ --verify
     """
     if format is Format.JSON:
         raise Error("a sheet is not written as JSON", fix="--format html", code="E402")
@@ -88,9 +95,7 @@ def worksheet(
 
     system = open_system(file, example)
     if folder is None:
-        sheet = system.worksheet(notation=notation.value)
-        question = sheet.question((format or Format.TEXT).value)
-        put(as_json({**sheet.to_dict(), "question": question}) if json else question)
+        _put_question(system.worksheet(notation=notation.value), (format or Format.TEXT).value, json, verify)
         return
     stem = re.sub(r"[^A-Za-z0-9._-]+", "-", example or Path(file or "").stem).strip("-.") or "system"
     kind = (format or Format.HTML).value
@@ -106,13 +111,48 @@ def worksheet(
         progress(k, len(seeds))
         sheet = system.worksheet(seed=one, notation=notation.value)
         paths = sheet.save(folder, name, format=kind, brief=solution is SolutionLength.BRIEF, overwrite=force)
-        written.append({**sheet.to_dict(), "files": [str(path) for path in paths]})
+        written.append(
+            {**sheet.to_dict(), "files": [str(path) for path in paths], **(_checked(sheet) if verify else {})}
+        )
         if not json:
             _tell(name, sheet)
             for path in paths:
                 say(f"wrote {path}")
+    _end(written, json=json, verified=verify)
+
+
+def _put_question(sheet: Worksheet, format: Any, json: bool, verify: bool) -> None:
+    """Write the question sheet to standard output."""
+    question, checks = sheet.question(format), _checked(sheet) if verify else {}
+    put(as_json({**sheet.to_dict(), "question": question, **checks}) if json else question)
+    _exit_unless_held([checks])
+
+
+def _checked(sheet: Worksheet) -> dict[str, Any]:
+    """The checks of a sheet as plain data; what does not hold, and what could not be checked, is said."""
+    found = sheet.verify()
+    for check in found:
+        if not check.holds:
+            say(f"{'✗' if check.holds is False else '–'} {sheet.model.name}: {check.what} ({check.figure})")
+    return {"checks": [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in found]}
+
+
+def _end(written: Sequence[Mapping[str, Any]], *, json: bool, verified: bool) -> None:
+    """Write what was written as JSON, or say that nothing was read back; then what the checks found."""
     if json:
         put(as_json(written))
+    elif not verified:
+        say("not read back: --verify holds every sheet against its model file")
+    _exit_unless_held(written)
+
+
+def _exit_unless_held(written: Sequence[Mapping[str, Any]]) -> None:
+    """Say how many checks hold, and exit with 1 if one does not."""
+    found = [check["holds"] for sheet in written for check in sheet.get("checks", ())]
+    if found:
+        say(f"{sum(holds is True for holds in found)} of {len(found)} checks hold")
+    if False in found:
+        raise typer.Exit(1)
 
 
 def _tell(name: str, sheet: Worksheet) -> None:

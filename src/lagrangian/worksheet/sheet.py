@@ -5,20 +5,22 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, cast, get_args
 
 from lagrangian.derivation import Derivation, derive_and_verify
 from lagrangian.derive import pages
 from lagrangian.errors import ModelError
 from lagrangian.look.heading import head_picture
 from lagrangian.model import Model
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Check, text
 from lagrangian.page.report import Part, Report
-from lagrangian.read import dumps
+from lagrangian.read import dumps, loads
 from lagrangian.records import dataclass, field
+from lagrangian.structured.choose import derive_in_form
 from lagrangian.viewed import cut
 from lagrangian.worksheet.dice import checked_seed
 from lagrangian.worksheet.given import asked, given
+from lagrangian.worksheet.proof import sheet_checks
 from lagrangian.worksheet.variant import variant_of
 from lagrangian.write import check_free, html_page, latex, markdown, write_file
 from lagrangian.write import text as plain_text
@@ -77,6 +79,21 @@ class Worksheet:
         """Return the solution sheet: the derivation, whole or ``brief``. Raises `ModelError` for an unknown format."""
         _check_format(format)
         return pages.FORMATS[format](self.derivation, notation=self.notation, brief=brief, full=False)
+
+    def verify(self) -> tuple[Check, ...]:
+        """Hold the sheets against the model file, which is read again as whoever checks answers reads it.
+
+        The solution must be a right answer to the file, in every format, and the question sheet must print the values
+        of the file. ``holds`` is None for what cannot be read back, and the figure says why.
+        """
+
+        def question(format: str) -> str:
+            return self.question(cast("SheetFormat", format))
+
+        def solution(format: str, brief: bool) -> str:
+            return self.solution(cast("SheetFormat", format), brief=brief)
+
+        return sheet_checks(lambda: derive_in_form(loads(self.to_toml()).model()), question, solution)
 
     def save(
         self,

@@ -48,7 +48,7 @@ RUNNERS: dict[str, tuple[str, Runner]] = {
 
 
 NOT_RUN: dict[str, str] = {
-    "wasm": "it is an integrator for pages, which only a page runs",
+    "wasm": "only within the page that moves, whose run `lagrangian verify --exports` compares",
     "simulink": "S-functions run in Simulink alone",
 }
 """Targets that are run by nothing here, and why."""
