@@ -94,8 +94,8 @@ def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[An
     few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
     chosen: list[dict[int, Explanation]] = [{} for _ in groups]
     for together in product(*few):
-        told = [t for e in together for t in e.told]
-        if any(reproduces(pool, told, a) for a in found):
+        told = {(id(t.mistake), t.times): t for e in together for t in e.told}  # one may explain several lines
+        if any(reproduces(pool, list(told.values()), a) for a in found):
             for kept, e in zip(chosen, together, strict=True):
                 kept.setdefault(id(e), e)
     return [[*kept.values()] for kept in chosen] if all(chosen) else groups

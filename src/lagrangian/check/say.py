@@ -29,7 +29,7 @@ class KindWords:
     why: str
 
 
-PLURALS = ("the terms", "the weights", "the energies", "the kinetic energy and the weight")
+PLURALS = ("the terms", "the products", "the weights", "the energies", "the kinetic energy and the weight")
 """How the words of a site begin that ask for a verb in the plural."""
 
 LETTERS = "Keep to the letters of the sketch: every element has its own length, mass, stiffness and damping."

@@ -97,3 +97,9 @@ class LocalChange:
     positive: bool = False
     right: sp.Expr | Words | None = None
     written: sp.Expr | Words | None = None
+
+
+def made(kind: str, cost: float, site: Site, sums: dict[str, Any], right: Any, written: Any) -> LocalChange:
+    """The change at a site that has no sums of its own, by what it adds: ``sums`` are T, V, Xi or rows."""
+    effect = replace(site, **sums)
+    return LocalChange(kind=kind, cost=cost, site=site, effect=effect, right=right, written=written)

@@ -1,31 +1,38 @@
-"""Changes of the geometry: a piece of a position, a rate in a velocity, an angular velocity, a deflection."""
+"""Changes of the geometry: a piece of a position, a rate in a velocity, an angular velocity."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 from itertools import combinations
 from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.changes.change import LocalChange, Site, Words
-from lagrangian.check.changes.pieces import along_turning_axes, instead_of_piece, instead_of_segment, segment
-from lagrangian.check.changes.ring import TooLong, minus
+from lagrangian.check.changes.change import LocalChange, Site, Words, made
+from lagrangian.check.changes.pieces import (
+    along_turning_axes,
+    instead_of_angle,
+    instead_of_piece,
+    instead_of_segment,
+    segment,
+)
 from lagrangian.check.changes.sites import Sites
-from lagrangian.check.misconceptions.base import half_square, partner
+from lagrangian.check.misconceptions.base import half_square
 from lagrangian.check.misconceptions.base import put as replaced
 from lagrangian.model import Gravity
 from lagrangian.page.formula import Name
 
 AXES = "xyz"
 MOST_PIECES = 16
-"""A position or deflection with more pieces is not changed piece by piece."""
-MOST_WAYS = 4
+"""A position with more pieces is not changed piece by piece."""
+MOST_ALIKE = 2
+"""The largest number of letters that are tried in the place of another in one piece."""
 
 
 class GeometryChanges:
-    """All changes of positions, velocities, angular velocities and deflections of a system."""
+    """All changes of positions, velocities and angular velocities of a system."""
 
     def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol]) -> None:
         self.sites = sites
@@ -35,12 +42,10 @@ class GeometryChanges:
     def changes(self) -> Iterator[LocalChange]:
         """All of them; those whose sums would be too long are left out."""
         for b in self.s.bodies:
-            for made in (self._positions(b), self._velocities(b), self._turning(b)):
-                yield from made
+            yield from self._positions(b)
+            yield from self._velocities(b)
+            yield from self._turning(b)
         yield from self._rates_everywhere()
-        for spring, extension, _ in self.s.springs():
-            if spring.k is not None:
-                yield from self._deflections(spring, extension)
 
     # -- bodies -------------------------------------------------------------------------------------------------------
 
@@ -59,6 +64,10 @@ class GeometryChanges:
                 moved = list(position)
                 moved[c] = cast("sp.Expr", position[c] - p + instead)
                 yield from self._moved(b, moved, kind, cost + first, words, brief, p, instead)
+            for old, new in self._other_letters(p):
+                moved = list(position)
+                moved[c] = cast("sp.Expr", position[c] - p + replaced(p, {old: new}))
+                yield from self._moved(b, moved, "letter", 2.1, words, brief, old, new)
         groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
         for c, p in pieces:
             groups.setdefault(segment(p), []).append((c, p))
@@ -69,11 +78,24 @@ class GeometryChanges:
                 (c, x), (_, y) = group
                 across = [(-y, x), (y, -x)] if c == 0 else [(y, -x), (-y, x)]
                 every += [([*pair], "segment_direction", 1.95, key, None) for pair in across]
+            every += instead_of_angle([p for _, p in group], self._turning_angles)
             for instead, kind, cost, right, written in every:
                 moved = list(position)
                 for (c, p), other in zip(group, instead, strict=True):
                     moved[c] = cast("sp.Expr", moved[c] - p + other)
                 yield from self._moved(b, moved, kind, cost, words, words, right, written)
+
+    def _other_letters(self, piece: sp.Expr) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
+        """The lengths of a piece, each with a length of the same first letter."""
+        for p in [p for p in self.lengths if piece.has(p)]:
+            alike = [x for x in self.lengths if x != p and x.name[0].lower() == p.name[0].lower()]
+            yield from ((p, x) for x in alike[:MOST_ALIKE])
+
+    @cached_property
+    def _turning_angles(self) -> list[sp.Expr]:
+        """The coordinates by which the positions of bodies turn."""
+        turned = [a for b in self.s.bodies for x in self.s.position(b) for a in self.s.angles(x)]
+        return [q for q in self.s.q if any(a.has(q) for a in turned)]
 
     def _moved(
         self,
@@ -88,16 +110,16 @@ class GeometryChanges:
     ) -> Iterator[LocalChange]:
         """The change of the speed alone, and of the speed and the height."""
         velocity = tuple(self.s.rate(x) for x in position)
-        T = self._difference(half_square(self.s.expand(b.mass), velocity), self.s.translation(b))
+        T = self.sites.difference(half_square(self.s.expand(b.mass), velocity), self.s.translation(b))
         V = self._lifted(b, position)
         if T is None:
             return
         site = Site(words=words, brief=brief, step=2, element=b)
         if V:
-            yield self._of(kind, cost, site, {"T": T, "V": V}, right, written)
-            yield self._of(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
+            yield made(kind, cost, site, {"T": T, "V": V}, right, written)
+            yield made(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
         if T:
-            yield self._of(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, right, written)
+            yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, right, written)
 
     def _lifted(self, b: Any, position: list[sp.Expr]) -> Any:
         """What a moved position adds to m g h."""
@@ -229,7 +251,7 @@ class GeometryChanges:
             for v in rates:
                 extra = mass * length**2 * v**2 / 2
                 where: Words = (f"the kinetic energy of {b.title}",)
-                T = self._difference(extra, sp.S.Zero)
+                T = self.sites.difference(extra, sp.S.Zero)
                 if T:
                     site = Site(words=where, brief=where, step=2, element=b, T=T)
                     yield LocalChange(
@@ -279,76 +301,6 @@ class GeometryChanges:
         listed |= {**dict.fromkeys(more, 1.5), **dict.fromkeys(v, 1.45)}
         return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
 
-    # -- springs ------------------------------------------------------------------------------------------------------
-
-    def _deflections(self, spring: Any, extension: sp.Expr) -> Iterator[LocalChange]:
-        """A piece of the deflection left out or with the wrong sign; another coordinate; the inner derivative."""
-        k = self.s.expand(spring.k)
-        whole = bounded.expand(extension)
-        pieces = sp.Add.make_args(whole)
-        own = k * extension**2 / 2
-        words: Words = (f"the deflection of {spring.title}",)
-        found: list[tuple[sp.Expr, str, float]] = []
-        if 1 < len(pieces) <= MOST_PIECES:
-            for p in pieces:
-                found += [(whole - p, "deflection_left_out", 1.4), (whole - 2 * p, "deflection_sign", 1.5)]
-        for q in [q for q in self.s.q if whole.has(q)]:
-            others = [x for x in self.s.q if x != q]
-            found += [
-                (replaced(whole, {q: x}), "deflection", 1.9)
-                for x in (*others, *(q + x for x in others), *(q - x for x in others))
-            ]
-        found += [(q, "deflection", 2.0) for q in self.s.q]
-        for p in [p for p in self.lengths if whole.has(p)]:
-            others = [x for x in self.lengths if x != p]
-            found += [(replaced(whole, {p: x}), "deflection", 1.9) for r in others for x in (p + r, p - r, r - p)]
-            found += [(f(q) * p, "deflection", 2.0) for q in self.s.q if whole.has(q) for f in (sp.sin, sp.cos, sp.tan)]
-        found += [(f(q), "deflection", 2.0) for q in self.s.q if whole.has(q) for f in (sp.sin, sp.tan)]
-        for f in sorted(whole.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-            size = whole.coeff(f)
-            found += [(size * x, "deflection", 1.9) for x in (partner(f), f) if size != 0]
-        found += [(p - q, "deflection", 2.0) for p, q in combinations(self.s.q, 2)]
-        more = [*((x, 1.9) for x in (*self.s.carried, *self._ways())), *((x, 2.1) for x in self.lengths)]
-        found += [(whole + g * x, "deflection", cost) for x, cost in more for g in (1, -1)]
-        for p in pieces:
-            found += [
-                (whole - p + x, kind, cost + 0.2)
-                for x, kind, cost in instead_of_piece(p)
-                if kind not in ("piece_left_out", "piece_sign")
-            ]
-        for other, kind, cost in found:
-            if other in (0, whole, -whole) or other.has(sp.zoo, sp.nan):
-                continue
-            V = self._difference(k * other**2 / 2, own, still=True)
-            if V:
-                site = Site(words=words, brief=words, step=3, element=spring)
-                yield self._of(kind, cost, site, {"V": V}, whole, other)
-        yield from self._inner(spring, k, whole)
-
-    def _ways(self) -> list[sp.Expr]:
-        """The ways r φ of points on drums and pulleys: pieces of positions that are a length times a coordinate."""
-        pieces = [p for b in self.s.bodies for x in self.s.position(b) for p in sp.Add.make_args(bounded.expand(x))]
-        found = [p for p in pieces if any(bounded.diff(p, q) in (x, -x) for q in self.s.q for x in self.lengths)]
-        return list(dict.fromkeys(found))[:MOST_WAYS]
-
-    def _inner(self, spring: Any, k: sp.Expr, extension: sp.Expr) -> Iterator[LocalChange]:
-        """The chain rule left out: ∂(½kδ²)/∂ξ_i without ∂δ/∂ξ_i, or with a part of it."""
-        for i, q in enumerate(self.s.q):
-            slope = bounded.expand(bounded.diff(extension, q)) if extension.has(q) else sp.S.Zero
-            if slope == 0:
-                continue
-            others: list[sp.Expr] = [sp.S.One, *(p for p in sp.Add.make_args(slope)), -slope]
-            for f in slope.atoms(sp.sin, sp.cos):
-                others += [replaced(slope, {f: sp.S.One}), replaced(slope, {f: partner(f)})]
-            for other in dict.fromkeys(others):
-                if other == slope:
-                    continue
-                row = self._difference(k * extension * other, k * extension * slope)
-                if row:
-                    words: Words = ("∂/∂", q, f" of the energy of {spring.title}")
-                    site = Site(words=words, brief=words, step=5, element=spring, coordinate=i)
-                    yield self._of("inner_derivative", 1.9, site, {"rows": {i: row}}, slope, other)
-
     # -- what they have in common -------------------------------------------------------------------------------------
 
     def _kinetic(
@@ -363,28 +315,9 @@ class GeometryChanges:
         right: Any,
         written: Any = None,
     ) -> Iterator[LocalChange]:
-        T = self._difference(new, old)
+        T = self.sites.difference(new, old)
         if T:
-            yield self._of(kind, cost, Site(words=words, brief=brief, step=2, element=b), {"T": T}, right, written)
-
-    def _difference(self, new: sp.Expr, old: sp.Expr, *, still: bool = False) -> Any:
-        """new − old as a sum; None if that is too long. With ``still``, terms that do not move are left out."""
-        try:
-            found = minus(self.sites.ring.of(self.s.expand(new)), self.sites.ring.of(old))
-        except TooLong:
-            return None
-        return self.sites.ring.moving(found) if still else found
-
-    def _of(self, kind: str, cost: float, site: Site, sums: dict[str, Any], right: Any, written: Any) -> LocalChange:
-        effect = Site(
-            words=site.words,
-            brief=site.brief,
-            step=site.step,
-            element=site.element,
-            coordinate=site.coordinate,
-            **sums,
-        )
-        return LocalChange(kind=kind, cost=cost, site=site, effect=effect, right=right, written=written)
+            yield made(kind, cost, Site(words=words, brief=brief, step=2, element=b), {"T": T}, right, written)
 
 
 def _in(site: Site, what: str, step: int) -> Site:

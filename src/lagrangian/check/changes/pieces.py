@@ -12,6 +12,9 @@ from lagrangian.check.misconceptions.base import partner
 from lagrangian.check.misconceptions.base import put as replaced
 from lagrangian.model import time
 
+MOST_ANGLES = 6
+"""The largest number of angles that are tried in the place of one."""
+
 
 def instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
     """What may stand in place of a piece of a position: nothing, its negative, sine for cosine, without its number."""
@@ -46,6 +49,26 @@ def instead_of_segment(key: sp.Expr, pieces: Sequence[sp.Expr]) -> Iterator[tupl
         for times, cost in others:
             written = number * times * key
             yield [cast("sp.Expr", times * p) for p in pieces], "segment_number", cost, number * key, written
+
+
+def instead_of_angle(
+    pieces: Sequence[sp.Expr], turning: Sequence[sp.Expr]
+) -> Iterator[tuple[list[sp.Expr], str, float, Any, Any]]:
+    """The pieces of a segment with another angle: a relative one taken for an absolute one, or with the wrong sign.
+
+    Given as `instead_of_segment` gives what it finds; ``turning`` are the coordinates that may be taken for angles.
+    """
+    angles = {cast("sp.Expr", f.args[0]) for p in pieces for f in p.atoms(sp.sin, sp.cos)}
+    if len(angles) != 1:
+        return
+    angle = angles.pop()
+    parts = sp.Add.make_args(bounded.expand(angle))
+    others = [*(angle - p for p in parts), *(angle - 2 * p for p in parts)] if len(parts) > 1 else []
+    for q in [q for q in turning if not angle.has(q)]:
+        others += [angle + q, angle - q, q]
+    for other in [x for x in dict.fromkeys(others) if x not in (angle, -angle, 0)][:MOST_ANGLES]:
+        table: dict[Any, Any] = {sp.sin(angle): sp.sin(other), sp.cos(angle): sp.cos(other)}
+        yield [replaced(p, table) for p in pieces], "angle", 1.6, angle, other
 
 
 def segment(p: sp.Expr) -> sp.Expr:

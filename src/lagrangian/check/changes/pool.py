@@ -13,6 +13,7 @@ from scipy import sparse
 from lagrangian.check.align import LARGEST
 from lagrangian.check.candidates import Effects, Wrong, effects_of
 from lagrangian.check.changes.change import LocalChange
+from lagrangian.check.changes.deflections import DeflectionChanges
 from lagrangian.check.changes.geometry import GeometryChanges
 from lagrangian.check.changes.letters import LetterChanges
 from lagrangian.check.changes.ring import Monomial, Sum, TooLong
@@ -107,13 +108,15 @@ class Pool:
     def _changes(self) -> Iterator[LocalChange]:
         sites = self.sites
         letters = LetterChanges(sites)
-        parts, wholes = list(sites.parts()), list(sites.wholes())
+        deflections = DeflectionChanges(sites, letters.lengths)
+        parts, wholes = [*sites.parts(), *deflections.parts()], list(sites.wholes())
         terms, rows = list(sites.terms()), list(sites.in_rows())
         yield from scales(sites.n, [*parts, *wholes, *terms, *rows])
         yield from letters.exchanges([*parts, *wholes])
         yield from letters.changes([*parts, *wholes, *terms, *rows])
         yield from letters.factors([*parts, *terms, *rows])
         yield from GeometryChanges(sites, letters.lengths).changes()
+        yield from deflections.changes()
         yield from SumChanges(sites, letters.lengths).changes()
         yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
 

@@ -15,7 +15,7 @@ def scales(n: int, places: Iterable[Site]) -> Iterator[LocalChange]:
         if site.whole:
             continue
         yield LocalChange(kind="part", cost=LEFT_OUT + site.surcharge, site=site, effect=site, free=True)
-        if (site.T or site.V) and site.only is None and n > 1 and not site.single:
+        if (site.T or site.V) and not site.Xi and site.only is None and n > 1 and not site.single:
             for i in range(n):
                 own = site.within(i)
                 yield LocalChange(kind="part", cost=LEFT_OUT + own.surcharge, site=own, effect=own, free=True)

@@ -12,7 +12,7 @@ import sympy as sp
 
 from lagrangian.check.changes import alike
 from lagrangian.check.changes.change import Site, Words
-from lagrangian.check.changes.ring import Monomial, Sum, SumRing, add, plus, scaled, times
+from lagrangian.check.changes.ring import Monomial, Sum, SumRing, TooLong, add, minus, plus, scaled, times
 from lagrangian.check.misconceptions.base import Ingredients
 from lagrangian.model import Element, time
 from lagrangian.page.formula import Name, Partial, Total
@@ -33,6 +33,14 @@ class Sites:
     def sum(self, expr: Any) -> Sum:
         """An expression as a folded sum."""
         return self.ring.fold(self.ring.of(sp.sympify(expr)))
+
+    def difference(self, new: sp.Expr, old: sp.Expr, *, still: bool = False) -> Sum | None:
+        """new − old as a sum; None if that is too long. With ``still``, terms that do not move are left out."""
+        try:
+            found = minus(self.ring.of(self.of.expand(new)), self.ring.of(old))
+        except TooLong:
+            return None
+        return self.ring.moving(found) if still else found
 
     # -- sums -------------------------------------------------------------------------------------------------------
 
@@ -178,6 +186,11 @@ class Sites:
                     words=words, brief=words, step=2, element=b, T=self.kinetic[b], V=V, surcharge=0.3, sign_cost=0.9
                 )
 
+    def _mixed(self, T: Sum) -> Sum:
+        """The terms with products of different rates."""
+        rates = {self.ring.atom(v) for v in self.of.v}
+        return {m: c for m, c in T.items() if sum(a in rates for a, _ in m) > 1}
+
     def wholes(self) -> Iterator[Site]:
         """T*, V, all weights, all springs, and everything together."""
         T = self.all_kinetic
@@ -186,11 +199,17 @@ class Sites:
         Xi = {i: plus(*[s[i] for s in self.shares.values() if i in s]) for i in range(self.n)}
         if len(self.translations) + len(self.rotations) + len(self.others) > 1:
             yield Site(words=(Name("T*"),), brief=(Name("T*"),), step=2, T=T, surcharge=0.1)
+        for b in self.of.bodies:
+            for energy, what in ((self.kinetic[b], "the kinetic energy"), (self.translations[b], "½mv²")):
+                mixed = self._mixed(energy)
+                if 1 < len(mixed) < len(energy) and (what != "½mv²" or b in self.rotations):
+                    words: Words = (f"the products of different rates in {what} of {b.title}",)
+                    yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
         yield from alike.bodies(self.of.bodies, self.kinetic, self.weights)
         yield from alike.springs(self.energies)
         if len(self.weights) > 1:
             gravity = next(iter(self.weights.values()))[0]
-            words: Words = ("the weights",)
+            words = ("the weights",)
             yield Site(words=words, brief=words, step=3, element=gravity, V=weights, surcharge=0.1)
         if len(self.energies) > 1:
             words = ("the energies of the springs",)

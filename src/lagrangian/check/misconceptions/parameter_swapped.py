@@ -30,7 +30,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 if change == 0:
                     continue
                 what = text(b, " stands in place of ", a, " in ", Name("T*" if part == "T" else "V"), ".")
-                yield Variant(what=what, T=change) if part == "T" else Variant(what=what, V=change)
+                gone = int(not put(energy, {a: b}).has(b))  # r₂ for r₁ in (r₁/r₂)²: rather the ratio was forgotten
+                yield (
+                    Variant(what=what, T=change, doubt=gone)
+                    if part == "T"
+                    else Variant(what=what, V=change, doubt=gone)
+                )
             yield from _in_elements(s, a, b)
 
 

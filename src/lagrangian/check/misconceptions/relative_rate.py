@@ -25,9 +25,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             translation = half_square(s.expand(body.mass), moved) - s.translation(body) if moved else sp.S.Zero
             rotation = s.rotating(body, turned) - s.rotation(body) if turned else sp.S.Zero
             what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", s.v[k], " alone.")
-            for change in (translation + rotation, translation, rotation):
+            said = text(f"In the velocity of {body.title}, ", s.v[k], " alone stands in place of the sum of the rates.")
+            for change, words in ((translation + rotation, what), (rotation, what), (translation, said)):
                 if change != 0:
-                    yield Variant(what=what, T=change, element=body, coordinate=k)
+                    yield Variant(what=words, T=change, element=body, coordinate=k)
 
 
 def _velocity(s: Ingredients, body: object, q: sp.Expr) -> tuple[sp.Expr, ...]:

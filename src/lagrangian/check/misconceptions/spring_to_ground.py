@@ -37,5 +37,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             own = put(extension, {p: sp.S.Zero for p in held if p != q})
             if own.has(sp.nan, sp.zoo):
                 continue
-            what = text(f"{title} is stretched by ", q, " alone.")
+            what = text(f"{title} is stretched by ", _alone(own, q), " alone.")
             yield Variant(what=what, V=k * own**2 / 2 - V, element=spring)
+
+
+def _alone(deflection: sp.Expr, q: sp.Expr) -> sp.Expr:
+    """What one coordinate adds to a deflection, without its sign: R φ of y − R φ; q itself if it is not linear."""
+    slope = bounded.diff(deflection, q)
+    added = bounded.expand(slope * q)
+    return q if slope.has(q) else -added if added.could_extract_minus_sign() else added
