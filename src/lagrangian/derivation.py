@@ -15,7 +15,7 @@ from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Check, text
 from lagrangian.records import dataclass
 from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, takes_long
-from lagrangian.values.dimensions import check_dimensions
+from lagrangian.values.multiplier_units import units_of_multipliers
 from lagrangian.verify.equations import verify
 from lagrangian.verify.listed import verify_listed
 from lagrangian.viewed import Viewed
@@ -197,8 +197,7 @@ def verify_floating(model: Model, *, states: int, seed: int, exports: bool) -> t
 @bounded.answered("writing the equations out", takes_long)
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual", form: AskedForm = "auto") -> Derivation:
     """Derive a model and add the checks at the end; see `lagrangian.System.derive`."""
-    check_dimensions(model)
-    data = derive_in_form(model, form, detail=detail)
+    data = derive_in_form(model, form, detail=detail, units=units_of_multipliers(model))
     made = Derivation(**vars(data))
     known = dynamics.notices(model)
     if made.constraints is not None:  # a row that the machine leaves out as well is said once

@@ -16,6 +16,7 @@ from lagrangian.graph import Program, evaluate
 from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
+from lagrangian.values.multiplier_units import units_of_gaps
 from lagrangian.values.values import key_name
 
 Flags = NDArray[np.bool_]
@@ -123,9 +124,11 @@ class Assembler:
         """The error that names the open rows, their gaps, and the fixed coordinates that prevent them from closing."""
         assert self.search is not None
         gaps = self.search.gaps(nearest[None, :], p, t)[0]
-        named: dict[str, float] = {}
+        named: dict[tuple[str, str], float] = {}
+        units = units_of_gaps(self.model)
         for row, gap in zip([r for r in self.rows if r.condition.on_positions], gaps, strict=True):
-            named[row.element.name] = max(named.get(row.element.name, 0.0), abs(float(gap)))
+            key = (row.element.name, units.get(row.name, ""))
+            named[key] = max(named.get(key, 0.0), abs(float(gap)))
             if not np.isfinite(gap):
                 return RunError(
                     f"no position was found that satisfies the constraints: '{row.name}' has no finite value near the "
@@ -134,7 +137,7 @@ class Assembler:
                     code="E304",
                 )
         worst = sorted(named.items(), key=lambda item: -item[1])
-        shown = ", ".join(f"'{name}' by {gap:.3g}" for name, gap in worst[:4] if gap > 0)
+        shown = ", ".join(f"'{name}' by {gap:.3g} {unit}".rstrip() for (name, unit), gap in worst[:4] if gap > 0)
         freed = [name for name in self.fixed if self._closes_with([n for n in self.fixed if n != name], guess, p, t)]
         if freed:
             fix = f"do not hold {' or '.join(freed[:4])} fixed: without that, the loop closes"
@@ -145,7 +148,7 @@ class Assembler:
         else:
             fix = "look at the lengths: no position with them closes the loop"
         return RunError(
-            f"no position was found that satisfies the constraints (in the nearest position, {shown} open)",
+            f"no position was found that satisfies the constraints (open in the nearest position: {shown})",
             fix=fix,
             code="E304",
         )

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any, get_args
 
 import sympy as sp
@@ -22,7 +22,7 @@ from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import constrained, holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.multipliers.minimal import NOTHING_LESS, Found, without_multipliers
-from lagrangian.derive.multipliers.rows import RowForms, multipliers, row_forms, with_multipliers
+from lagrangian.derive.multipliers.rows import NO_UNITS, RowForms, multipliers, row_forms, with_multipliers
 from lagrangian.derive.multipliers.step import by_multipliers, introduced
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
@@ -34,11 +34,13 @@ _log = logging.getLogger(__name__)
 
 
 @bounded.answered("writing the equations out", is_hard)
-def derive(model: Model, *, detail: Detail = "usual") -> Derived:
+def derive(model: Model, *, detail: Detail = "usual", units: Mapping[str, str] = NO_UNITS) -> Derived:
     """Return the equations of motion of a model and the steps that lead to them.
 
     d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. ``detail="full"`` writes d/dt out term by
-    term. Raises `ModelError`, with their names, for coordinates that are dependent or move nothing, and for an unknown
+    term. ``units`` are those of multipliers, by the names of their rows, where an expression decides.
+
+    Raises `ModelError`, with their names, for coordinates that are dependent or move nothing, and for an unknown
     ``detail``. Source: the lecture's steps 0 to 6.
     """
     _check_detail(detail)
@@ -87,7 +89,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
         shares=Shares(context, sides, found, rows),
         notes=tuple(unexpanded_notes(context)),
         constraints=ties,
-        **_constrained(context, rows, less),
+        **_constrained(context, rows, less, units),
     )
 
 
@@ -100,9 +102,9 @@ def _check_detail(detail: str) -> None:
         )
 
 
-def _constrained(context: Context, rows: tuple[RowForms, ...], less: Found) -> dict[str, Any]:
+def _constrained(context: Context, rows: tuple[RowForms, ...], less: Found, units: Mapping[str, str]) -> dict[str, Any]:
     """The fields that a system with constraints has besides; ``less`` are its equations without multipliers."""
-    known = multipliers(context, rows)
+    known = multipliers(context, rows, units)
     return {
         "multipliers": known,
         "minimal": less.minimal,

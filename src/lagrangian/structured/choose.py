@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Literal, TypeAlias, get_args
 
@@ -13,6 +13,7 @@ from lagrangian import bounded
 from lagrangian.bounded import hard
 from lagrangian.derive import Derived, Detail, derive
 from lagrangian.derive.circuits import has_coils
+from lagrangian.derive.multipliers.rows import NO_UNITS
 from lagrangian.errors import Error, ModelError, did_you_mean
 from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import text
@@ -33,7 +34,9 @@ def takes_long(model: Model, form: AskedForm = "auto", **_: object) -> bool:
 
 
 @bounded.answered("writing the equations out", takes_long)
-def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "usual") -> Derived:
+def derive_in_form(
+    model: Model, form: AskedForm = "auto", *, detail: Detail = "usual", units: Mapping[str, str] = NO_UNITS
+) -> Derived:
     """Derive a model in the form asked for; "auto" writes long equations in named quantities.
 
     Raises `ModelError` for an unknown form, for ``detail="full"`` of a structured derivation, and where the system
@@ -44,14 +47,14 @@ def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "
         hint = did_you_mean(str(form), known) or f"use one of {', '.join(known)}"
         raise ModelError(f"there is no form '{form}'", fix=hint, code="E405")
     if is_structured(model, form):
-        return _structured(model, detail)
+        return _structured(model, detail, units)
     try:
-        return derive(model, detail=detail)
+        return derive(model, detail=detail, units=units)
     except Error as error:
         if form == "expanded" or refusal(model) or error.code != "E601":
             raise
         _log.info("deriving: %s", error)
-        made = _structured(model, detail)
+        made = _structured(model, detail, units)
         return replace(made, notes=(*made.notes, text(f"Written in named quantities, because {error.what}.")))
 
 
@@ -89,7 +92,7 @@ def _pieces(model: Model) -> Iterator[sp.Basic]:
         yield sp.sympify(x)
 
 
-def _structured(model: Model, detail: Detail) -> Derived:
+def _structured(model: Model, detail: Detail, units: Mapping[str, str]) -> Derived:
     refused = refusal(model)
     if refused:
         raise ModelError(
@@ -105,7 +108,7 @@ def _structured(model: Model, detail: Detail) -> Derived:
             fix="leave the detail out, or ask for the expanded form",
             code="E405",
         )
-    return derive_structured(model)
+    return derive_structured(model, units)
 
 
 def refusal(model: Model) -> str:

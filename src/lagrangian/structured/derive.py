@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import cast
 
 import sympy as sp
@@ -21,7 +21,7 @@ from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import constrained, holonomic
-from lagrangian.derive.multipliers.rows import with_multipliers
+from lagrangian.derive.multipliers.rows import NO_UNITS, with_multipliers
 from lagrangian.derive.multipliers.step import missing_equations
 from lagrangian.derive.result import ledger_items
 from lagrangian.derive.wiggle import study
@@ -39,7 +39,7 @@ from lagrangian.structured.writing import ListingWriter, equalities
 _log = logging.getLogger(__name__)
 
 
-def derive_structured(model: Model) -> Derived:
+def derive_structured(model: Model, units: Mapping[str, str] = NO_UNITS) -> Derived:
     """Return the equations of motion of a model in named quantities, with the seven steps that lead to them.
 
     Raises `ModelError` where a row of a constraint contradicts others; `refusal` says which models it does not take.
@@ -52,7 +52,7 @@ def derive_structured(model: Model) -> Derived:
     _log.info("deriving: velocities, momenta and forces")
     found = listing(model, known.holonomy.independent if known is not None else ())
     write = ListingWriter(found)
-    steps = ListedSteps(found, write)
+    steps = ListedSteps(found, write, units)
     step2, step3, step4, step5 = steps.kinetic(), steps.potential(), steps.lagrangian(), steps.left_hand_sides()
     _log.info("deriving: step 6, the generalized forces")
     step6 = early[2] or by_power(found, write)

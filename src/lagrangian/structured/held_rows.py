@@ -10,7 +10,7 @@ weight of its c, leaves at each velocity node the constraint forces on everythin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 
 import sympy as sp
 
@@ -37,11 +37,11 @@ class ListedRow:
     change: int
     multiplier: int
 
-    def known(self, write: Callable[[int], sp.Expr]) -> Multiplier:
-        """Its multiplier, with the row as it is written."""
+    def known(self, write: Callable[[int], sp.Expr], units: Mapping[str, str]) -> Multiplier:
+        """Its multiplier, with the row as it is written; ``units`` are those of rows given as expressions."""
         held = None if self.held is None else write(self.held)
         words = text(*self.row.multiplier)
-        return multiplier_of(self.row, self.symbol, words, (held, write(self.rate), write(self.change)))
+        return multiplier_of(self.row, self.symbol, words, (held, write(self.rate), write(self.change)), units)
 
 
 def ties(model: Model, m: Mechanics, acc: Accelerations, names: Collection[str]) -> list[ListedRow]:

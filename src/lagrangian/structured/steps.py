@@ -68,9 +68,9 @@ HEADINGS = {
 
 
 class ListedSteps:
-    """The steps of a listing; ``write`` has its names."""
+    """The steps of a listing; ``write`` has its names, ``units`` those of multipliers."""
 
-    def __init__(self, found: Listing, write: ListingWriter) -> None:
+    def __init__(self, found: Listing, write: ListingWriter, units: Mapping[str, str]) -> None:
         self.found, self.write, self.model = found, write, found.model
         self.families = Families(found.model)
         self.flat = self.model.dimension == 2
@@ -79,7 +79,7 @@ class ListedSteps:
         self.given = {title: write(node) for title, node in found.given.items()}
         self.total_T = sp.Add(*[value for _, value in self.T], *self.given.values())
         self.total_V = sp.Add(*[value for _, value in self.V])
-        self.multipliers = {tie.row.name: tie.known(write) for tie in found.ties}
+        self.multipliers = {tie.row.name: tie.known(write, units) for tie in found.ties}
         self.sections = self._sections()
 
     def _sections(self) -> dict[QuantityKind, list[NamedQuantity]]:

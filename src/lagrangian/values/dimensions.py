@@ -358,14 +358,14 @@ def _pressed(model: Model, friction: Friction, dims: Dimensions) -> Iterator[Cla
     if along is None:
         return
     for named in named_conditions(model):
-        if named.name in friction.pressing and (force := _multiplier(dims, named)) is not None:
+        if named.name in friction.pressing and (force := multiplier_dimension(dims, named)) is not None:
             unit = ENERGY.times(along, -1).times(force, -1)
             yield "coefficient", friction.mu, unit
             if friction.static is not None:
                 yield "coefficient at rest", friction.static, unit
 
 
-def _multiplier(dims: Dimensions, row: NamedCondition) -> Dim | None:
+def multiplier_dimension(dims: Dimensions, row: NamedCondition) -> Dim | None:
     """The unit of λ: energy / f, or power / c; None if that of an expression is not known."""
     if row.condition.unit is not None:
         return Dim.of_unit(row.condition.unit)

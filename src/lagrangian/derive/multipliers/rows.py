@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Container
+from collections.abc import Collection, Container, Mapping
 from dataclasses import replace
 
 import sympy as sp
@@ -37,6 +37,9 @@ class RowForms:
 
 UNITS = {answers.FORCE: "N", answers.ENERGY: "N m"}
 """How the unit of a multiplier is written."""
+
+NO_UNITS: Mapping[str, str] = {}
+"""The units of rows that are expressions, where no unit was given."""
 
 
 def row_forms(context: Context, names: Collection[str]) -> tuple[RowForms, ...]:
@@ -85,18 +88,26 @@ def symbol_name(row: str, taken: Container[str]) -> str:
     return name
 
 
-def multipliers(context: Context, forms: tuple[RowForms, ...]) -> dict[str, Multiplier]:
-    """The multipliers by the names of their rows."""
-    return {f.row.name: _multiplier(context, f) for f in forms}
+def multipliers(context: Context, forms: tuple[RowForms, ...], units: Mapping[str, str]) -> dict[str, Multiplier]:
+    """The multipliers by the names of their rows; ``units`` are those of rows given as expressions."""
+    return {f.row.name: _multiplier(context, f, units) for f in forms}
 
 
-def _multiplier(context: Context, forms: RowForms) -> Multiplier:
+def _multiplier(context: Context, forms: RowForms, units: Mapping[str, str]) -> Multiplier:
     row = forms.row
     position = None if row.position is None else context.readable(row.position)
     words = text(*(context.readable(part) if isinstance(part, sp.Basic) else part for part in row.multiplier))
-    return multiplier_of(row, forms.symbol, words, (position, forms.rate.expr(), forms.second_rate.expr()))
+    lines = (position, forms.rate.expr(), forms.second_rate.expr())
+    return multiplier_of(row, forms.symbol, words, lines, units)
 
 
-def multiplier_of(row: Row, symbol: sp.Expr, words: Text, lines: tuple[sp.Expr | None, sp.Expr, sp.Expr]) -> Multiplier:
-    """The multiplier of a row; ``lines`` are f, c and ċ as they are written."""
-    return Multiplier(row.name, symbol, "" if row.unit is None else UNITS[row.unit], words, row.element, *lines)
+def multiplier_of(
+    row: Row,
+    symbol: sp.Expr,
+    words: Text,
+    lines: tuple[sp.Expr | None, sp.Expr, sp.Expr],
+    units: Mapping[str, str],
+) -> Multiplier:
+    """The multiplier of a row; ``lines`` are f, c and ċ as they are written, ``units`` those of rows by name."""
+    unit = units.get(row.name, "") if row.unit is None else UNITS[row.unit]
+    return Multiplier(row.name, symbol, unit, words, row.element, *lines)
