@@ -56,7 +56,8 @@ Reactions = Annotated[
     typer.Option(
         "--reactions",
         metavar="NAME[,NAME]",
-        help="Add the forces and torques of joints to the results: constraints, points or bodies by name.",
+        help="Add the forces and torques of joints to the results: constraints, points or bodies by name, or "
+        "'B on rod 1 in axes of rod 2'.",
         rich_help_panel=OUTPUT,
     ),
 ]

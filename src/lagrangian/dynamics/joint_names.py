@@ -96,7 +96,7 @@ def _target(parts: Parts, on: Any) -> RigidPart:
     point = on if isinstance(on, Point) else next((p for p in _points(parts) if p.name == name), None)
     if point is not None and point in parts.d.places:
         return parts.natives[parts.d.places[point]]
-    known = [*parts.bodies, *(f.name for f in model.frames if f.name), "ground"]
+    known = list(dict.fromkeys([*parts.bodies, *(f.name for f in model.frames if f.name), "ground"]))
     fix = did_you_mean(str(name), known) or f"known: {', '.join(known[:MOST_LISTED])}"
     raise ModelError(f"there is no body, frame or point '{str(name or on)[:64]}' to act on", fix=fix, code="E412")
 

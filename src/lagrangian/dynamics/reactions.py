@@ -34,6 +34,7 @@ from lagrangian.graph import Output, Program, jvp, replaced, vjp
 from lagrangian.model import Frame, Model
 from lagrangian.model.elements.conditions import NoSlip, Stated
 from lagrangian.model.elements.friction import Stuck
+from lagrangian.model.joint_texts import asked_joint
 from lagrangian.model.rows import named_conditions, rows_of
 from lagrangian.records import dataclass
 
@@ -64,9 +65,12 @@ def reaction(
 ) -> ReactionProgram:
     """q, v (or x), u, p, t → the reaction of the joint or constraint ``asked``, on the side ``on``, in a frame's axes.
 
+    A text may say all three: "B on rod 1 in axes of rod 2".
+
     Raises `ModelError` for what is no joint, for a side that it does not have, and where an element does not say on
     which bodies it acts.
     """
+    asked, on, axes = _taken_apart(model, asked, on, axes)
     seen = Observed(model, state=state)
     frame = None if axes is None else named_place(model, axes, Frame)
     what = joint_side(Parts(seen.description), asked, on)
@@ -93,8 +97,26 @@ def reaction(
 
 
 def check_joint(model: Model, asked: Any) -> JointSide:
-    """The joint that is meant. Raises `ModelError` for what is no joint and no constraint with forces at points."""
-    return joint_side(Parts(Observed(model).description), asked, None)
+    """The joint and the side that are meant, by name or by a text such as "B on rod 1 in axes of rod 2".
+
+    Raises `ModelError` for what is no joint and no constraint with forces at points, and for what is no frame.
+    """
+    asked, on, axes = _taken_apart(model, asked, None, None)
+    if axes is not None:
+        named_place(model, axes, Frame)
+    return joint_side(Parts(Observed(model).description), asked, on)
+
+
+def _taken_apart(model: Model, asked: Any, on: Any, axes: Any) -> tuple[Any, Any, Any]:
+    """A joint, its side and axes; a text may say all three."""
+    if not isinstance(asked, str):
+        return asked, on, axes
+    things = (*model.constraints, *model.bodies, *model.points, *model.frames)
+    found = asked_joint(asked, {"origin", *(x.name for x in things if x.name)})
+    for said, given in ((found.on, on), (found.axes, axes)):
+        if said is not None and given is not None and said != given:
+            raise ModelError(f"'{asked[:64]}' says '{said[:64]}', and {given!r:.64} is given besides", code="E404")
+    return found.joint, on if found.on is None else found.on, axes if found.axes is None else found.axes
 
 
 # -- constraints ------------------------------------------------------------------------------------------------

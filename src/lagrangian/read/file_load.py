@@ -13,6 +13,7 @@ import sympy as sp
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import REGISTRY, Builder
+from lagrangian.model.joint_texts import asked_joint
 from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words, unit_dimension
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
@@ -287,7 +288,7 @@ class Loader(Reading):
                 self._refuse(("simulate", "fixed", number), f"there is no coordinate {shown(name)}", known, "E402")
         joints = self.builder.joint_names
         for number, name in enumerate(table.reactions):
-            if name not in joints:
+            if asked_joint(name, joints).joint not in joints:
                 known = did_you_mean(name[:64], joints) or f"known: {', '.join(joints[:12]) or 'none'}"
                 self._refuse(("simulate", "reactions", number), f"there is no joint {shown(name)}", known, "E402")
         for name, value in table.inputs.items():

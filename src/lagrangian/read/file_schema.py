@@ -212,7 +212,9 @@ class SimulateTable(_Table):
         default_factory=list, description="Coordinates that stay as given where constraints move the others."
     )
     reactions: list[str] = Field(
-        default_factory=list, description="Joints whose reactions are in tables: constraints, points, bodies by name."
+        default_factory=list,
+        description="Joints whose reactions are in tables: constraints, points, bodies by name; 'B on rod 1' is the "
+        "other side, and 'B in axes of rod 2' turns the components.",
     )
     inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
 

@@ -47,20 +47,21 @@ def worked_out(model: Model, made: ReactionProgram, answer: Mapping[str, Array])
     """The reaction from the outputs of its program."""
     d = model.dimension
     force, torque = force_and_torque(made.sign, d, answer)
-    if "R" in answer:
-        back = np.swapaxes(np.asarray(answer["R"]), -1, -2)
-        force = np.einsum("...ij,...j->...i", back, force)
-        torque = torque if d == 2 else np.einsum("...ij,...j->...i", back, torque)
     notices = _not_unique(model, np.asarray(answer["margins"])) if "margins" in answer else ()
     return Reaction(force, torque[..., 0] if d == 2 else torque, made.on, made.at, notices)
 
 
 def force_and_torque(sign: int, dimension: int, answer: Mapping[str, Array]) -> tuple[Array, Array]:
-    """The force (..., d) and the torque (..., 1 or 3) in the fixed axes, from the outputs of a reaction's program."""
-    wrench = sign * np.asarray(answer["wrench"])
+    """The force (..., d) and the torque (..., 1 or 3) from a reaction's program, in the axes that were asked for."""
+    wrench = sign * np.asarray(answer["wrench"]) + 0.0  # no −0
     if "twists" in answer:
         wrench = across(wrench, np.asarray(answer["twists"]))
-    return wrench[..., :dimension], wrench[..., dimension:]
+    force, torque = wrench[..., :dimension], wrench[..., dimension:]
+    if "R" not in answer:
+        return force, torque
+    back = np.swapaxes(np.asarray(answer["R"]), -1, -2)
+    turned = torque if dimension == 2 else np.einsum("...ij,...j->...i", back, torque)
+    return np.einsum("...ij,...j->...i", back, force), turned
 
 
 def across(wrench: Array, twists: Array) -> Array:
