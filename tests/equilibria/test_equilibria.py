@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 from built_in import system as built_in
@@ -189,6 +190,20 @@ def test_bad_boxes_are_named(box: Any, message: str) -> None:
 def test_bad_starts_are_named() -> None:
     with pytest.raises(RunError, match="starts"):
         built_in("pendulum").equilibria(starts=0)
+
+
+def test_a_list_that_would_be_chance_is_refused() -> None:
+    """V = cos 200x + x²/10⁶: at x = kπ/200 to within 10⁻⁹, so 1273 from −10 to 10 and 13 from −0.1 to 0.1."""
+    system = lg.System("comb")
+    x = system.coordinates("x")
+    system.particle(1, at=system.origin + (x, 0))
+    system.potential(sp.cos(200 * x) + sp.Rational(1, 10**6) * x**2)
+    with pytest.raises(RunError, match="system 'comb' has more than 500 equilibria in the box") as refused:
+        system.equilibria()
+    assert refused.value.fix == "narrow box to those you look for, or say from how many starts"
+    assert len(system.equilibria(starts=20)) > 10
+    found = system.equilibria(box={"x": (-0.1, 0.1)})
+    assert [e["x"] for e in found] == pytest.approx([k * math.pi / 200 for k in range(-6, 7)], abs=1e-9)
 
 
 def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:

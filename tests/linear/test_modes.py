@@ -1,6 +1,7 @@
 """Poles, modes, stability, what inputs reach: against closed forms and python-control."""
 
 import builtins
+import difflib
 import json
 import math
 import os
@@ -258,16 +259,19 @@ def test_poles_of_a_system_in_unlike_units_are_found() -> None:
 def test_every_text_is_the_same_whatever_the_processor() -> None:
     """OpenBLAS has kernels for many processors, each with other last digits; where another library is, all agree."""
     program = Path(__file__).with_name("texts_of_examples.py")
-    texts = []
+    texts: dict[str, list[str]] = {}
     for core, shaken in (("Haswell", 0), ("SkylakeX", 1), ("Prescott", 2)):
         known = {**os.environ, "OPENBLAS_CORETYPE": core, "PYTHONIOENCODING": "utf-8"}
         done = subprocess.run([sys.executable, str(program), str(shaken)], env=known, capture_output=True, check=False)
         if done.returncode < 0 and core == "SkylakeX":
             continue  # its instructions are not there
         assert done.returncode == 0, done.stderr.decode()
-        texts.append(done.stdout.decode().splitlines())
-    for other in texts[1:]:
-        assert [pair for pair in zip(texts[0], other, strict=True) if pair[0] != pair[1]] == []
+        texts[f"{core}, shaken by {shaken}"] = done.stdout.decode().splitlines()
+    (name, first), *others = texts.items()
+    assert first and others
+    for other, text in others:
+        differing = difflib.unified_diff(first, text, name, other, lineterm="", n=3)
+        assert text == first, "\n".join(differing)
 
 
 # -- what inputs reach ---------------------------------------------------------------------------------------------

@@ -45,6 +45,9 @@ def show() -> None:
         try:
             rests = system.equilibria()
             print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
+        except lg.Error as trouble:
+            print(name, trouble)
+        try:
             print(name, system.linearize().to_text())
         except lg.Error as trouble:
             print(name, trouble)

@@ -8,8 +8,10 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.equilibria.orientations import SIDE as ORIENTED
 from lagrangian.errors import RunError
+from lagrangian.model import Model
 from lagrangian.model.elements import answers
 from lagrangian.records import dataclass
 from lagrangian.values.dimensions import LENGTH, NONE, Dim
@@ -26,6 +28,8 @@ CHARGE, CURRENT = Dim.of_unit(answers.CHARGE), Dim.of_unit(answers.CURRENT)
 SIDE = 10.0
 """Half the length of a side if no length is known."""
 
+MAX_EQUILIBRIA = 500
+"""A search ends when it has found more and there are others still: which of them it finds is chance."""
 
 LeftOut: TypeAlias = Literal["outside", "negative", "moving"]
 """Why a root is not listed: it is outside the box that was given, has a positive coordinate that is not, or does not
@@ -66,6 +70,10 @@ class Box:
             return q, "negative"
         return q, None if (inside | ~self.given).all() else "outside"
 
+    def listed(self, roots: Array) -> int:
+        """How many of the roots (N, n) are not left out."""
+        return sum(self.placed(q)[1] is None for q in roots)
+
     def words(self, why: str, count: int) -> str:
         """How many roots are left out for a reason."""
         one = count == 1
@@ -76,6 +84,17 @@ class Box:
         names = ", ".join(name for name, positive in zip(self.names, self.positive, strict=True) if positive)
         is_left = "is" if one else "are"
         return f"{count} more {is_left} left out, where a coordinate that is always positive is not ({names})"
+
+
+def check_few(model: Model, box: Box, isolated: Array) -> None:
+    """Raise `RunError` if the isolated roots of a search that did not find all are too many for a list."""
+    if box.listed(isolated) > MAX_EQUILIBRIA:
+        raise RunError(
+            f"system '{model.name}' has more than {MAX_EQUILIBRIA} equilibria in the box, and a search finds some of "
+            "them by chance",
+            fix=Advice("narrow ", Argument("box"), " to those you look for, or say from how many ", Argument("starts")),
+            code="E601",
+        )
 
 
 def make_box(

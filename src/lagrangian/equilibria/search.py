@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
-from lagrangian.equilibria.box import Box, LeftOut, make_box
+from lagrangian.equilibria.box import MAX_EQUILIBRIA, Box, LeftOut, check_few, make_box
 from lagrangian.equilibria.currents import SteadyCurrents, largest_charge
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.orientations import SoughtOrientations
@@ -45,9 +45,6 @@ ROUND = 256
 """The number of starting points in a round."""
 
 ROUNDS = 16
-MAX_EQUILIBRIA = 1000
-"""The search ends when there are more equilibria, because nobody reads such a long list."""
-
 MANY = 8
 """From this number of equilibria on, machine code is compiled for their verdicts."""
 
@@ -68,7 +65,8 @@ def equilibria(
     ``box``: coordinate → (low, high), numbers or text with units. By default it is (−π, π] for angles, and a few times
     the largest length among the parameters for lengths; equilibria outside a side are kept unless you gave that side.
     ``starts``: the number of starting points; by default as many as the search needs. If forces depend on time, only
-    equilibria at all times are kept. Raises `RunError` for values and names that do not fit.
+    equilibria at all times are kept. Raises `RunError` for values and names that do not fit, and without ``starts`` for
+    more isolated equilibria than a search finds all of.
     """
     if starts is not None and (type(starts) is not int or not 1 <= starts <= 1_000_000):
         raise RunError(f"starts must be a whole number from 1 (got {starts!r})", code="E501")
@@ -77,6 +75,8 @@ def equilibria(
     _log.info("equilibria: searching the box")
     found, hits, count, sure = _sought(task, starts)
     isolated, families = split(task.search, found, task.box.low, task.box.high)
+    if starts is None and not sure:
+        check_few(model, task.box, isolated)
     if len(isolated) > MANY:
         task = replace(task, linearizer=Linearizer(model, QuickValues()))
     proper = [q for q in isolated if not task.is_singular(q)]
@@ -278,7 +278,7 @@ def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], in
         roots, hits = distinct(search, found)
         settled = asked is not None or len(roots) == before
         sure = settled and (not len(hits) or int(hits.min()) >= ENOUGH)
-        if sure or len(roots) > MAX_EQUILIBRIA or (count >= 4 * ROUND and _is_family(search, roots, count)):
+        if sure or task.box.listed(roots) > MAX_EQUILIBRIA or (count >= 4 * ROUND and _is_family(search, roots, count)):
             break
         before = len(roots)
     return roots, {r.tobytes(): int(n) for r, n in zip(roots, hits, strict=True)}, count, sure

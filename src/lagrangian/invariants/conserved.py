@@ -35,6 +35,10 @@ SWINGS = 20.0
 TRIES = 5
 """The number of random initial states that are tried until a run reaches its end."""
 
+MAX_STEPS = 1_000_000
+MAX_OPERATIONS = 200_000_000_000
+"""What a run may take, about twenty seconds; counted, so that every machine and every load gives the same answer."""
+
 
 @bounded.answered("the search for conserved quantities", is_hard)
 def conserved_quantities(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
@@ -173,6 +177,7 @@ def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Gener
     rhs = dynamics.rhs(model)
     rows = None if not model.constraints else projection(model, rhs, project=True)
     solver = integrate.Solver(rhs, "dop853", projection=rows)
+    max_steps = min(MAX_STEPS, MAX_OPERATIONS // (len(rhs.graph.nodes) * solver.method.cost))
     for _ in range(TRIES):
         x = np.concatenate([source.uniform(0.3, 1.0, n), source.uniform(-0.5, 0.5, len(program.inputs["x"]) - n)])
         if model.constraints:
@@ -186,7 +191,7 @@ def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Gener
         fastest = float(np.abs(np.linalg.eigvals(found["A"])).max())
         length = float(np.clip(2 * np.pi * SWINGS / max(fastest, 1e-3), 0.1, 100.0))
         times = np.linspace(0, length, 201)
-        run = solver.solve(x, times, u=u, p=p, rtol=1e-12, atol=1e-13, deadline=20.0, max_steps=1_000_000)
+        run = solver.solve(x, times, u=u, p=p, rtol=1e-12, atol=1e-13, max_steps=max_steps)
         if int(np.ravel(run.status)[0]) == 0:
             return times, np.asarray(run.states).reshape(len(times), -1)
     return None
