@@ -205,6 +205,7 @@ def derive_and_verify(model: Model, *, detail: derive.Detail = "usual", form: As
         known += tuple(n for n in made.constraints.notices() if n.where.removeprefix("constraint ") not in told)
     made = replace(made, notices=known, verified=verify_lines(made, states=10, seed=1))
     steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
+    steps = Viewed(steps, partial(pages.steps_to_html, made))
     return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))
 
 

@@ -34,7 +34,7 @@ def test_a_summary_on_the_terminal(folder: pathlib.Path, capsys: pytest.CaptureF
     said = capsys.readouterr()
     assert said.err == ""
     assert "10 runs, theta1 (5) × m2 (2), rk4" in said.out
-    assert "10: the end was reached" in said.out
+    assert "\n  all reached the end\n" in said.out
     runs = lg.load("arm.toml").sweep(
         2.0, ["theta1=10deg:120deg:5", "m2=1,2"], outputs={"reach": "max L1*sin(theta1)"}, method="rk4", step=0.01
     )

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy as sp
 from run_systems import ball, oscillator
 
+import built_in
 import lagrangian as lg
+from lagrangian.errors import Error
 
 REFUSED = [
     ({"duration": -1.0}, "duration is negative"),
@@ -209,3 +213,30 @@ def test_numbers_with_an_imaginary_part_are_refused() -> None:
 def test_ensembles_of_nonsense_are_refused(options: dict, words: str) -> None:
     with pytest.raises(lg.RunError, match=words):
         oscillator().ensemble(0.1, **options)
+
+
+@pytest.mark.parametrize(
+    ("asked", "attribute"),
+    [
+        ("energy", "energy"),
+        ("energies", "energy"),
+        ("kinetic energy", "kinetic"),
+        ("T*", "kinetic"),
+        ("V", "potential"),
+    ],
+)
+def test_energies_that_are_asked_by_name_are_shown_where_they_are(asked: str, attribute: str) -> None:
+    run = built_in.system("pendulum").simulate(0.01, samples=2)
+    for ask in (lambda: run[asked], lambda: run.plot(asked)):
+        with pytest.raises(Error, match=rf"run\.{attribute}; run\.plot\(energy=True\)"):
+            ask()
+    assert getattr(run, attribute).shape == (2,)
+
+
+@pytest.mark.parametrize(
+    ("given", "example"), [({"duration": "ten"}, "10 s"), ({"theta": "ten"}, "0.3"), ({"params": {"L": "ten"}}, "10 m")]
+)
+def test_a_word_for_a_number_is_answered_by_a_quantity_of_that_kind(given: dict[str, Any], example: str) -> None:
+    with pytest.raises(Error) as caught:
+        built_in.system("pendulum").simulate(**{"duration": 0.1, **given})
+    assert f"such as {example}" in str(caught.value) and "40 N/m" not in str(caught.value)

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian import examples
 
@@ -70,6 +71,9 @@ def test_a_system_that_is_not_complete_is_shown_too() -> None:
 
 def test_what_a_notebook_shows_can_be_copied(results: dict[str, Any]) -> None:
     ledger = results["ledger"]
+    steps = built_in.derivation("pendulum").steps
+    shown = copy.copy(steps)._repr_html_()
+    assert shown.count("<h2>") == len(steps) == 7 and "Kinetic co-energy" in shown and "Result" not in shown
     assert copy.copy(ledger) == ledger and copy.copy(ledger)._repr_html_() == ledger._repr_html_()
     modes = results["modes"]
     assert pickle.loads(pickle.dumps(tuple(modes))) == tuple(modes)

@@ -28,7 +28,7 @@ def summary(runs: Ensemble) -> list[str]:
     """Return the summary as text."""
     axes = " × ".join(f"{d} ({n})" for d, n in zip(runs.dims, runs.shape, strict=True))
     lines: list[str] = [Title(f"{runs.name}: {runs.count} runs, {axes}, {runs.settings['method']}")]
-    lines += [f"  {n}: {words}" for words, n in runs.counts.items()]
+    lines += [f"  {words}" for words in runs.endings]
     rows: list[list[str]] = [["", "least", "mean", "greatest", "where"]]
     for r in _results(runs):
         where = ", ".join(f"{n} = {x:.6g}" for n, x in r.where.items())

@@ -195,6 +195,12 @@ def section_to_html(derivation: Derived, anchor: str) -> str:
     return html_page.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor == anchor)))
 
 
+def steps_to_html(derivation: Derived) -> str:
+    """Return the steps of a derivation, without its description and its result, as a piece of HTML for a notebook."""
+    page = lay_out(derivation, details=True)
+    return html_page.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor.startswith("step-"))))
+
+
 def to_json(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return `to_dict` as JSON text."""
     return (

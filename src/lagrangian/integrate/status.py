@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import IntEnum
 
 
@@ -38,3 +39,22 @@ class RunStatus(IntEnum):
     PARADOX = -14, "friction and the force that presses on it do not determine each other (Painlevé's paradox)"
     LOST = -127, "its results are damaged"
     NOT_RUN = -128, "not run yet"
+
+
+def reason_of(status: int) -> str:
+    """Return the message of a status, also of one that a later version wrote into a store."""
+    try:
+        return RunStatus(status).message
+    except ValueError:
+        return f"status {status}"
+
+
+def endings_of(counts: Mapping[str, int], count: int) -> tuple[str, ...]:
+    """Return how ``count`` runs ended, from the number of runs for each message.
+
+    >>> endings_of({"the end was reached": 2, "its results are damaged": 1}, 3)
+    ('2 of 3: the end was reached', '1 of 3: its results are damaged')
+    """
+    if set(counts) == {RunStatus.REACHED.message}:
+        return ("it reached the end" if count == 1 else "all reached the end",)
+    return tuple(f"{n} of {count}: {words}" for words, n in counts.items())

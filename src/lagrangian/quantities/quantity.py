@@ -66,18 +66,19 @@ class _Token:
 
 
 @lru_cache(maxsize=1024)
-def parse_quantity(text: str, *, what: str = "value") -> Quantity:
-    """Return the quantity that ``text`` describes. Raises `ParseError` with line, column and a correct form.
+def parse_quantity(text: str, *, what: str = "value", example: str = "40 N/m") -> Quantity:
+    """Return the quantity that ``text`` describes. Raises `ParseError` with line, column and a correct form, such as
+    the ``example``.
 
     >>> parse_quantity("40 N/m").value, parse_quantity("250 mm").value
     (40.0, 0.25)
     """
-    return read_quantity(Source(text, what))
+    return read_quantity(Source(text, what, example=example))
 
 
 def read_quantity(source: Source) -> Quantity:
     """Return the quantity that a `Source` describes."""
-    source.check_text(MAX_CHARACTERS, "a number and a unit, such as 40 N/m")
+    source.check_text(MAX_CHARACTERS, f"a number and a unit, such as {source.example}")
     reader = _Reader(source)
     number, is_pi = reader.number()
     start = reader.offset
@@ -162,7 +163,11 @@ class _Reader:
         if text[position] == ":" and all(map(lookup, re.findall(r"[^\W\d_]+", text))):
             fix = Advice("give one value; a range such as 10:100:50 is an argument of ", Verb("sweep"))
             self.fail("this is a range of values, but one value is needed", position, fix)
-        fix = "write * for a product" if text[position] == "." else "write a number and a unit, such as 40 N/m"
+        fix = (
+            "write * for a product"
+            if text[position] == "."
+            else f"write a number and a unit, such as {self.source.example}"
+        )
         raise self.source.error(
             f"found {character(text[position])} in a number with a unit", position, fix=fix, code="E406"
         )
@@ -198,7 +203,7 @@ class _Reader:
             self.fail(
                 f"found {found} where a number is expected first",
                 token.start,
-                "write a number and a unit, such as 40 N/m",
+                f"write a number and a unit, such as {self.source.example}",
             )
         value, pis = sign * Fraction(1), 0
         operator = "*"
@@ -214,7 +219,8 @@ class _Reader:
         if pis not in (0, 1):
             self.fail("pi may occur only once, as a factor", 0, "write a decimal number")
         if self._is_number() and not (self.peek().text == "1" and self.peek(1).text in ("/", "÷")):
-            self.fail("two numbers are next to each other", self.offset, "write one number and a unit, such as 40 N/m")
+            fix = f"write one number and a unit, such as {self.source.example}"
+            self.fail("two numbers are next to each other", self.offset, fix)
         return value, bool(pis)
 
     def _is_number(self, ahead: int = 0) -> bool:

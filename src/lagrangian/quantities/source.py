@@ -28,14 +28,15 @@ def character(c: str) -> str:
 class Source:
     """A ``text`` from a user. ``what`` describes it (``"k of spring 's1'"``); ``place`` is where it begins.
 
-    ``locate`` returns the place of each character of a text inside a file, in which it may continue over lines and
-    contain escapes. Without it, the text is in the file as it is.
+    ``example`` is what a right one looks like. ``locate`` returns the place of each character of a text inside a file,
+    in which it may continue over lines and contain escapes. Without it, the text is in the file as it is.
     """
 
     text: str
     what: str
     place: Place | None = None
     locate: Callable[[int], Place] | None = None
+    example: str = "40 N/m"
 
     def at(self, offset: int) -> Place:
         """Return the place of the character at ``offset``."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path as FilePath
 from typing import Any, NoReturn
@@ -263,7 +264,7 @@ class Loader(Reading):
             return
         if table.duration is not None:
             path = ("simulate", "duration")
-            duration = self._quantity(table.duration, path, "the duration")
+            duration = self._quantity(table.duration, path, "the duration", "10 s")
             exponents = duration.dimension.exponents
             if not duration.is_bare and exponents != unit_dimension("s"):
                 self._refuse(path, f"expected a time, got {shown(duration.unit)}", "write '10 s'", "E408")
@@ -273,7 +274,7 @@ class Loader(Reading):
         coordinates = [*self.file.coordinates, *floating]
         for name, value in table.initial.items():
             path = ("simulate", "initial", name)
-            self._quantity(value, path, f"the initial value of '{name[:64]}'")
+            self._quantity(value, path, f"the initial value of '{name[:64]}'", "0.3 rad")
             base = name.removesuffix("'")
             if normal(base) not in map(normal, coordinates) or (base != name and normal(base) in floating):
                 self._refuse(
@@ -300,10 +301,9 @@ class Loader(Reading):
             self.expression(value, path, f"the input '{name}' in [simulate]")
         self.builder.settings.update(self.data["simulate"])
 
-    def _quantity(self, value: Any, path: Path, what: str) -> Quantity:
-        if isinstance(value, str):
-            return read_quantity(self.index.source(path, value, what))
-        return read_quantity(self.index.source(path, repr(value), what))
+    def _quantity(self, value: Any, path: Path, what: str, example: str) -> Quantity:
+        text = value if isinstance(value, str) else repr(value)
+        return read_quantity(replace(self.index.source(path, text, what), example=example))
 
     def _refuse(self, path: Path, message: str, fix: str, code: CodeText) -> NoReturn:
         place = self.index.of_key(path) if code == "E402" else self.index.of_value(path)

@@ -15,7 +15,7 @@ from lagrangian.calls import ENSEMBLE, Guided
 from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
 from lagrangian.integrate.observe import DRIFTED
 from lagrangian.integrate.places import place
-from lagrangian.integrate.status import RunStatus
+from lagrangian.integrate.status import RunStatus, endings_of, reason_of
 from lagrangian.integrate.stored import Stored, StoredResult
 from lagrangian.records import dataclass
 from lagrangian.simulate.plot import check_no_file
@@ -167,7 +167,17 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
     def counts(self) -> dict[str, int]:
         """The number of runs for each way of ending, in words."""
         values, counts = np.unique(self.status, return_counts=True)
-        return {_reason(int(v)): int(n) for v, n in sorted(zip(values, counts, strict=True), key=lambda x: -x[1])}
+        return {reason_of(int(v)): int(n) for v, n in sorted(zip(values, counts, strict=True), key=lambda x: -x[1])}
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """How the runs ended, in words: ``all reached the end``, or ``2 of 3: a terminal event``, ….
+
+        >>> from lagrangian import example
+        >>> example("pendulum").ensemble(0.1, params={"L": [1, 2]}).endings
+        ('all reached the end',)
+        """
+        return endings_of(self.counts, self.count)
 
     def failures(self, most: int = SHOWN) -> list[Failure]:
         """The first runs that failed, with the varied values and the reason for each."""
@@ -177,7 +187,7 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
         found = []
         for number in numbers:
             index = tuple(int(k) for k in np.unravel_index(number, self.shape)) if self.shape else ()
-            found.append(Failure(index, self.at(index), float(reached[index]), _reason(int(status[index]))))
+            found.append(Failure(index, self.at(index), float(reached[index]), reason_of(int(status[index]))))
         return found
 
     def at(self, index: tuple[int, ...]) -> dict[str, float]:
@@ -193,7 +203,7 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
         """Summarize the runs: their number, axes, ends and results."""
         axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
         sizes = f" ({axes})" if axes else ""
-        ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
+        ends = "; ".join(self.endings)
         kept = ", ".join(n for n in self if n not in ("status", "reached", *DRIFTED))
         said = "".join(f"; notice: {notice}" for notice in self.notices)
         return cut(
@@ -291,7 +301,7 @@ class Ensemble(Guided, Mapping[str, NDArray[Any]]):
         """The number of failed runs and the reasons, in words; empty if there are none."""
         status = self.status
         lost = status[(status < 0) & (status != RunStatus.NOT_RUN)]
-        ways = ", ".join(_reason(int(s)) for s in np.unique(lost)[:3])
+        ways = ", ".join(reason_of(int(s)) for s in np.unique(lost)[:3])
         return f"{lost.size} of {self.count} runs FAILED: {ways}" if lost.size else ""
 
     def _along(self, axis: str) -> NDArray[Any]:
@@ -385,10 +395,3 @@ def write_csv(runs: Ensemble, file: Writable) -> None:
 
 ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": _netcdf, ".parquet": _parquet}
 """The function that writes a file, for each ending of its name."""
-
-
-def _reason(status: int) -> str:
-    try:
-        return RunStatus(status).message
-    except ValueError:  # from a store that a later version wrote
-        return f"status {status}"

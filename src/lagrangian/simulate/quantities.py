@@ -13,6 +13,19 @@ from lagrangian.model.names import multiplier_symbol
 from lagrangian.model.rows import Row, named_conditions, rows_of
 from lagrangian.page.plain import plain
 
+ENERGIES = {
+    "energy": "energy",
+    "total": "energy",
+    "e": "energy",
+    "t": "kinetic",
+    "kinetic": "kinetic",
+    "v": "potential",
+    "potential": "potential",
+    "supplied": "supplied",
+    "imbalance": "imbalance",
+}
+"""What energies are called → the attributes of a run."""
+
 
 def quantity(model: Model, text: str, what: str) -> sp.Expr:
     """The expression that a text stands for; the name of a constraint's row, or of its one row, stands for its
@@ -36,10 +49,17 @@ def quantity(model: Model, text: str, what: str) -> sp.Expr:
     try:
         return read.parse_expression(text, read.Scope(model.symbols), what=what)
     except ModelError:
-        meant = _row_meant(model, name, names)
+        meant = _energy_meant(name) or _row_meant(model, name, names)
         if meant is None:
             raise
         raise ModelError(f"there is no quantity and no constraint row '{name[:64]}'", fix=meant, code="E402") from None
+
+
+def _energy_meant(name: str) -> str | None:
+    """The attribute of a run that an energy is; None for other names."""
+    word = name.casefold().replace("energies", "energy").removesuffix(" energy").removesuffix("*")
+    attribute = ENERGIES.get(word)
+    return attribute and f"energies are attributes: run.{attribute}; run.plot(energy=True) shows them"
 
 
 def _row_meant(model: Model, name: str, rows: Sequence[str]) -> str | None:

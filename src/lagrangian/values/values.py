@@ -34,6 +34,13 @@ def _unit(dim: Dim) -> str:
     return "rad (or no unit)" if dim.known == NONE.known else str(dim)
 
 
+def _example(dim: Dim | None) -> str:
+    """A quantity of a dimension as it is written: ``10 s``; of an angle or a number ``0.3``."""
+    if dim is None or dim.unknown:
+        return "40 N/m"
+    return "0.3" if dim.known == NONE.known else f"10 {dim}"
+
+
 def number(value: object, what: str, dim: Dim | None = None) -> float:
     """Return a number in SI units from a number or from text with a unit; ``dim`` is the required dimension.
 
@@ -50,7 +57,7 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
 def _number(value: object, what: str, dim: Dim | None) -> float:
     """The same for numbers of any size, and for those that are not finite."""
     if isinstance(value, str):
-        quantity = parse_quantity(value, what=what)
+        quantity = parse_quantity(value, what=what, example=_example(dim))
         found = Dim(quantity.dimension.exponents)
         if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
             raise RunError(
