@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,13 @@ from typing import Any
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
+from lagrangian.check.needless import Needed, needed
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.unexplained import question, unexplained
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 from lagrangian.page.report import Report
 from lagrangian.read import MAX_BYTES
 from lagrangian.records import dataclass
@@ -100,24 +102,37 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
-    for reading in (lambda: answer, *answer.others) if answer.others else ():
+    own = _deciding(derivation, answer)
+    for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
         try:
             other = reading()
         except ParseError:
             continue
-        verdict = check.check(derivation, check.lines_of(other), hint=hint, explain=False)
-        if verdict.right:
-            return _told(verdict, other)
-    verdict = check.check(derivation, check.lines_of(answer), hint=hint)
+        for decides in own if other is answer else _deciding(derivation, other):
+            verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
+            if verdict.right:
+                return _told(verdict, other, decides.notes)
+    decides = own[-1]
+    verdict = check.check(derivation, decides.lines, hint=hint)
     if asked := unexplained(derivation, answer, verdict):
         raise question(asked)
-    return _told(verdict, answer)
+    return _told(verdict, answer, decides.notes)
 
 
-def _told(verdict: check.Verdict, answer: Answer) -> check.Verdict:
+def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
+    """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
+    lines = check.lines_of(answer)
+    names = () if derivation.multipliers else [u.symbol for u in answer.unknown]
+    fewer = needed(lines, names, len(derivation.model.coordinates))
+    if fewer is not None and fewer.together:
+        return [fewer]
+    return [Needed(lines), *([] if fewer is None else [fewer])]
+
+
+def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
     """The verdict with the notes of the reading, each once."""
-    notes = {str(note): note for note in (*map(text, answer.notes), *verdict.notes)}
-    return replace(verdict, notes=tuple(notes.values()))
+    listed = {str(note): note for note in (*map(text, answer.notes), *notes, *verdict.notes)}
+    return replace(verdict, notes=tuple(listed.values()))
 
 
 def read_text(path: Path) -> str:

@@ -11,7 +11,9 @@ from lagrangian.check.reading.rows import AnswerRow
 _INDEX = re.compile(r"_(?:\{(?P<braced>[ijkn])\}|(?P<bare>[ijkn])(?![A-Za-z0-9]))")
 _NUMBERS = r"(?:=|\\in|∈)\s*\\?\{?\s*(?P<numbers>\d(?:[\s,\d]|\\[,;]|\\[lc]?dots|…|\.{3}){0,60})\\?\}?\s*\Z"
 _COUNTED = re.compile(rf"\s*(?:for\s+|\\text\{{[^{{}}]{{0,9}}\}})?(?P<index>[ijkn])\s*{_NUMBERS}")
-_BEHIND = re.compile(rf"(?<=\S)(?:\s*,)?\s+(?:for|with|where|für|mit|pour)\s+(?P<index>[ijkn])\s*{_NUMBERS}")
+_BEHIND = re.compile(
+    rf"(?<=\S)(?:\s*,)?\s+(?:for\s+|with\s+|where\s+|für\s+|mit\s+|pour\s+|[(])(?P<index>[ijkn])\s*{_NUMBERS}"
+)
 _STEM = re.compile(r"(?P<stem>\\?(?<![^\W\d_])[^\W\d_]+)_(?:\{(?:[ijkn])\}|[ijkn](?![A-Za-z0-9]))")
 
 MOST = 9

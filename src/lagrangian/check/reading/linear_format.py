@@ -88,6 +88,8 @@ def dots_in_letters(text: str, coordinates: Sequence[str], given: Iterable[str])
     words = {m.group(): m for m in _LETTERED.finditer(text) if key(m.group()) not in own}
     twice = {key(m["stem"]) for m in words.values() if len(m["dots"]) in (2, 10)}
     meant = twice & names
+    if meant:  # th1pp of a th1 of the answer's own beside xpp
+        meant |= twice & {key(x) for x in re.findall(r"[^\W\d]\w*", text)}
 
     def primed(match: re.Match[str]) -> str:
         if match.group() not in words or key(match["stem"]) not in meant:

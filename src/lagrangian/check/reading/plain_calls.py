@@ -9,6 +9,7 @@ from lagrangian.check.reading.nodes import leaf, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_derivatives import CLOSING, PlainDerivatives
 from lagrangian.check.reading.words import Words
+from lagrangian.read.letters import undotted
 
 
 class PlainCalls(PlainDerivatives):
@@ -54,7 +55,7 @@ class PlainCalls(PlainDerivatives):
         while self.tokens[at].kind in ("name", "primes", ","):
             token = self.tokens[at]
             if token.kind == "name" and (
-                token.text not in ("q", "xi", "ξ") or self.words.names.scope.meanings(token.text)[0]
+                undotted(token.text)[0] not in ("q", "xi", "ξ") or self.words.names.scope.meanings(token.text)[0]
             ):
                 return False
             at += 1

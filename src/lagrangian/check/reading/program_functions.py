@@ -3,6 +3,7 @@
 x, v = z                        the states
 return [v, (F - k*x)/m]         x' = v,  v' = (F - k*x)/m
 
+function f!(dz, z, p, t)        the same in Julia
 function dz = f(t, z)           z(2) is v, or by default the coordinates and then their rates
 dz = [z(2); (F - k*z(1))/m]
 
@@ -23,7 +24,8 @@ from lagrangian.records import dataclass, field
 _NAME = r"[^\W\d]\w*"
 _HEADER = re.compile(
     rf"^[ \t]*+(?:def[ \t]++{_NAME}[ \t]*+\((?P<python>[^()\n]*+)\)[^:\n]*+:"
-    rf"|function[ \t]++(?P<out>{_NAME})[ \t]*+=[ \t]*+{_NAME}[ \t]*+\((?P<matlab>[^()\n]*+)\)[ \t]*+;?)[ \t]*+$",
+    rf"|function[ \t]++(?:(?P<out>{_NAME})[ \t]*+=[ \t]*+{_NAME}[ \t]*+\((?P<matlab>[^()\n]*+)\)[ \t]*+;?"
+    rf"|{_NAME}!?[ \t]*+\([ \t]*+(?P<given>d\w*+)[ \t]*+,(?P<julia>[^()\n]*+)\)))[ \t]*+$",
     re.MULTILINE,
 )
 _END = r"[ \t]*+;?[ \t]*+$"
@@ -68,10 +70,13 @@ class _Function:
     state: str | None
     out: str | None
     names: dict[int, str] = field(default_factory=dict)
+    others: Sequence[str] = ()
+    """Its other arguments, such as a list of parameters."""
 
 
 def without_functions(written: TracedText, coordinates: Sequence[str]) -> TracedText:
     """Return an answer in which a function that returns the rates of a state is a list of equations."""
+    written = _with_round_indices(written)
     text = written.text
     headers = list(_HEADER.finditer(text))
     loose = _without_header(text) if not headers and not _RETURNED.search(text) else None
@@ -81,7 +86,8 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     function.names = _commented(text, function.state, coordinates) | function.names
     edits: list[Edit] = [(m.start(), m.end(), "") for m in headers]
     edits += [(m.start(), m.end(), "") for m in _NOTHING.finditer(text)]
-    edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] == function.state]
+    unpacked = {function.state, *function.others}
+    edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
     edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     names = [function.names.get(i) for i in range(2 * len(coordinates))]
     default = [*coordinates, *(f"{name}'" for name in coordinates)]
@@ -97,17 +103,29 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     return written.edited(apart(edits))
 
 
+def _with_round_indices(written: TracedText) -> TracedText:
+    """The indices of Julia, which begin at 1, in round brackets: du[1] as du(1)."""
+    header = next((m for m in _HEADER.finditer(written.text) if m["given"]), None)
+    if header is None:
+        return written
+    listed = (re.escape(x.strip()) for x in (header["given"], header["julia"].split(",")[0]))
+    return written.sub(re.compile(rf"(?<!\w)({'|'.join(listed)})\[(\d)\]"), lambda m: f"{m[1]}({m[2]})")
+
+
 def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:
     """What is known about the function: its state is its second argument, or what is unpacked."""
-    listed = [x.strip().lstrip("*") for m in headers for x in (m["python"] or m["matlab"] or "").split(",")]
+    listed = [
+        x.strip().lstrip("*") for m in headers for x in (m["python"] or m["matlab"] or m["julia"] or "").split(",")
+    ]
     others = [x.partition("=")[0].partition(":")[0].strip() for x in listed]
     unpacked = [m for m in _UNPACKED.finditer(text) if not others or m["of"] in others]
     indexed = [m for m in _INDEXED.finditer(text) if m["of"] in others]
     state = next((m["of"] for m in (*unpacked, *indexed)), None) or next(
         (x for x in others if x not in ("t", "")), None
     )
-    found = _Function(state, next((m["out"] for m in headers), None))
-    for match in unpacked[:1]:
+    found = _Function(state, next((m["out"] or m["given"] for m in headers), None))
+    found.others = [x for x in others if x]
+    for match in [m for m in unpacked if m["of"] == state][:1]:
         found.names = dict(enumerate(x.strip() for x in match["names"].split(",")))
     for match in indexed:
         found.names[_place(match)] = match["name"]

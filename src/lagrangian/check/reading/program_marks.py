@@ -1,6 +1,7 @@
 """Takes off what programs set around equations: comments in brackets, prompts, names of lists, fields of parameters.
 
-(* ks is k_s *)                 # ks is k_s                   a comment of Mathematica or Maple
+(* ks is k_s *)  /* ks is k_s */  # ks is k_s                 a comment of Mathematica, Maple or C
+(%o7) m*x'' = F                 m*x'' = F                     a line of Maxima
 >> EL = simplify(…)             EL = m*x'' + …                a command of MATLAB and the result that it shows
 EL =⏎⏎ m*x'' + …
 sys = {a == b,⏎ c == d}         {a == b,⏎ c == d}             a list of equations
@@ -23,7 +24,15 @@ _WORD = r"[^\W\d]\w*"
 MOST, LONGEST = 200, 2_000
 """The most marks of one kind that are looked at, and the most characters of a comment in brackets."""
 
-_COMMENT = re.compile(rf"\(\*(?!\))(?P<said>(?:(?!\*\)|\(\*).){{1,{LONGEST}}}?)\*\)", re.DOTALL)
+_COMMENT = re.compile(
+    rf"\(\*(?!\))(?P<said>(?:(?!\*\)|\(\*).){{1,{LONGEST}}}?)\*\)|/\*(?P<slashed>(?:(?!\*/|/\*).){{1,{LONGEST}}}?)\*/",
+    re.DOTALL,
+)
+_TERMINATED = re.compile(r"\$(?=[ \t]*$)", re.MULTILINE)
+_PAIRED = re.compile(r"\$[^\n]*\$|\$(?![ \t]*$)|\\[A-Za-z]|^[ \t]*\$", re.MULTILINE)
+"""How statements end in Maxima, and what dollar signs of LaTeX have about them."""
+_LABELLED = re.compile(r"^[ \t]*+\(%[io]\d{1,4}\)", re.MULTILINE)
+"""How Maxima numbers what is typed and what it answers."""
 _LIST = re.compile(rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
 _COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)
 _SHOWN = re.compile(
@@ -37,7 +46,7 @@ _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME}
 
 def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
-    written = written.edited(_comments(written.text))
+    written = written.edited(_comments(written.text)).sub(_LABELLED, lambda m: "")
     shown = {m["name"] for m in _SHOWN.finditer(written.text)}
     if shown and ">>" in written.text:
         written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
@@ -46,6 +55,13 @@ def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> 
     written = written.edited(_diagonals(written.text))
     written = written.edited(_equations_in_comments(written.text))
     return written.edited(_fields(written.text, taken))
+
+
+def without_terminators(written: TracedText) -> TracedText:
+    """Return an answer in which the statements of Maxima do not end with dollar signs."""
+    if "$" not in written.text or _PAIRED.search(written.text):
+        return written
+    return written.sub(_TERMINATED, lambda m: ";")
 
 
 def _comments(text: str) -> Iterator[Edit]:
@@ -58,7 +74,8 @@ def _comments(text: str) -> Iterator[Edit]:
             yield *match.span(), " "
             continue
         yield match.start(), match.start() + 2, "\n# " if above else "# "
-        yield from ((k, k + 1, "\n# ") for k in range(*match.span("said")) if text[k] == "\n")
+        inside = match.span("said" if match["said"] is not None else "slashed")
+        yield from ((k, k + 1, "\n# ") for k in range(*inside) if text[k] == "\n")
         yield match.end() - 2, match.end(), "\n" if below else " "
 
 
@@ -92,9 +109,18 @@ def _list_names(text: str) -> Iterator[Edit]:
             depth += (text[at] in "([{") - (text[at] in ")]}")
             if depth == 0:
                 inside = text[match.end() : at]
-                if "==" in inside or re.search(r"\bEq\(", inside):
+                if "==" in inside or re.search(r"\bEq\(", inside) or _are_equations(inside):
                     yield *match.span(), ""
                 break
+
+
+def _are_equations(listed: str) -> bool:
+    """Whether all entries of a list have an equals sign."""
+    depth, entries = 0, [""]
+    for c in listed:
+        depth += (c in "([{") - (c in ")]}")
+        entries = [*entries, ""] if c == "," and not depth else [*entries[:-1], entries[-1] + c]
+    return all("=" in x for x in entries)
 
 
 def _fields(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:

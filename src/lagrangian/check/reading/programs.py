@@ -50,6 +50,12 @@ _LINE_OF_CODE = re.compile(
     re.MULTILINE,
 )
 """Lines of programs that state nothing: imports, and declarations of symbols."""
+_TYPE = re.compile(
+    r"^[ \t]*+(?:(?:const|final|static)[ \t]++)?(?:double|float|real|auto|let|var|val|const|Float64|local)[ \t]++"
+    r"(?=[^\W\d]\w*+[ \t]*+=(?!=))",
+    re.MULTILINE,
+)
+"""The type of a variable that a program declares with its value: double D = m*g;"""
 _PLAIN_DOTS = re.compile(r"\\(?P<dots>d{1,2})ot\s*\\?(?P<of>[^\W\d_]\w*)")
 _COMMAND = re.compile(r"\\(?P<word>[A-Za-z]+)")
 _PLAIN_CALL = re.compile(rf"(?<![\w\\])(?:sin|cos|tan|sqrt)\s*\(|(?<![\w\\])(?:{'|'.join(SPELLED.values())})(?!\w)")
@@ -86,7 +92,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     from_typst = _is_typst(written.text)
     if from_typst:
         written = _without_typst(written)
-    written = written.sub(_MODULE, _bare)
+    written = written.sub(_TYPE, lambda m: m.group() if m.group().split()[-1] == "let" else "").sub(_MODULE, _bare)
     written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}")
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")

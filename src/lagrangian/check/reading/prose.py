@@ -281,6 +281,13 @@ def is_prose(text: str, words: Words) -> bool:
     return any(_is_word(x, words) for x in named) or not any(map(words.known, _IDENTIFIER.findall(text)))
 
 
+def is_sentence(text: str, words: Words) -> bool:
+    """Whether a line without an equals sign is mostly words, so that no equation goes on behind it."""
+    listed = _WORD.findall(text)
+    said = sum(_links(x, words) or _is_word(x, words) for x in listed)
+    return "=" not in text and said > MOST_NAMES and 2 * said > len(listed)
+
+
 def is_level(text: str, own: str, words: Words) -> bool:
     """Whether a statement with words behind it only says where something is counted from, which a note tells: V = 0 at
     the pivot, θ = 0 is downwards."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -26,12 +26,14 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
-from lagrangian.check.reading.program_marks import without_program_marks
+from lagrangian.check.reading.program_marks import without_program_marks, without_terminators
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.remarks import is_remark
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
+from lagrangian.check.reading.said_values import SaidValues, said_values
+from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -57,9 +59,10 @@ LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
+_DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
-_BEGINS = r"^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
+_BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
@@ -112,14 +115,46 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
     others: list[Choices] = []
     try:
-        return _answer(text, model, place, LIKELIEST, others)
+        return _with_said_values(LIKELIEST, others, text, model, place)
     except ParseError as error:
         for reading in others if error.code != "E703" else ():
             try:
-                return _answer(text, model, place, reading, [])
+                return _with_said_values(reading, [], text, model, place)
             except ParseError:
                 continue
         raise
+
+
+def _with_said_values(reading: Choices, choices: list[Choices], text: str, model: Model, place: Place | None) -> Answer:
+    """The answer in one reading, with names that only its sentences explain; where they leave it open, with ``others``
+    that are possible."""
+    answer = _answer(text, model, place, reading, choices)
+    if not answer.unknown:
+        return answer
+    typed, lines = plainer(text), Lines(model)
+    latex = answer.notation == "latex"
+    names = [u.name for u in answer.unknown]
+    said = said_values(typed, names, _words(lines, typed), latex=latex)
+
+    def read(with_values: SaidValues) -> Answer:
+        return _answer(_completed(text, with_values.values, latex=latex), model, place, reading, [])
+
+    others = (*answer.others, *(partial(read, x) for x in said))
+    answer = replace(answer, others=others)
+    for sure in (x for x in said if x.sure):
+        try:
+            found = read(sure)
+        except ParseError:
+            continue
+        told = [f"'{name}' was read as {value}, as the words say." for name, value in sure.values.items()]
+        return replace(found, notes=(*told, *found.notes), others=(*found.others, lambda: answer, *others))
+    return answer
+
+
+def _completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
+    """An answer with the values of names as statements behind it."""
+    marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
+    return text.rstrip() + "".join(f"\n\n{marks[0]}{name} = {value}{marks[1]}" for name, value in values.items())
 
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
@@ -187,7 +222,7 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     def taken(name: str) -> bool:
         return bool(names.scope.meanings(name)[0])
 
-    tagless = solved_matrices(without_tags(TracedText(text)))
+    tagless = solved_matrices(without_tags(without_terminators(TracedText(text))))
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
@@ -271,6 +306,9 @@ def _parsed(
         try:
             found.append(replace(_statement(own, parser, lines), remark=remark))
         except ParseError as error:
+            if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
+                found += [replace(part, remark=remark) for part in parts]
+                continue
             lines.unread.update(key(x) for x in re.findall(_NAME, whole))
             stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
             if stated and error.code != "E703" and remark():
@@ -282,6 +320,20 @@ def _parsed(
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MAX_ERRORS]]
     return found, errors if found or errors or lines.remarks else words[:1], notes
+
+
+def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
+    """The statements in a row of plain text that cannot be parsed as a whole; none if one of them cannot be parsed."""
+    if "\\" in own.text:
+        return []
+    found: list[Statement] = []
+    try:
+        for span in statements(own.text, words):
+            part = Source(own.text[span.start : span.end], own.what, own.place, lambda at, k=span.start: own.at(k + at))
+            found.append(_statement(part, parser, lines))
+    except ParseError:
+        return []
+    return found
 
 
 def _line_at(text: str, at: int) -> str:

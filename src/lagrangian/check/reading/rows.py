@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
 
+from lagrangian.check.reading.conditions import without_conditions
 from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_dashes, without_units
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
@@ -14,6 +15,7 @@ from lagrangian.check.reading.prose import (
     LINKING,
     is_level,
     is_prose,
+    is_sentence,
     moves,
     says_nothing,
     stated_remarks,
@@ -88,7 +90,7 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_headings(_STARRED.sub("T* ", text))
+    text = without_conditions(without_headings(_STARRED.sub("T* ", text)), words)
     text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
@@ -113,8 +115,8 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             gap = offset - open_row.start - len(head)
             rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, numbers))
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
-            open_row = AnswerRow(offset, behind(stripped, numbers))
-            rows.append(open_row)
+            rows.append(AnswerRow(offset, behind(stripped, numbers)))
+            open_row = None if is_sentence(stripped, words) else rows[-1]
         offset += len(line)
     split = [
         piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",", words=words)

@@ -20,6 +20,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from lagrangian.check.reading.drawn_matrices import without_drawings
 from lagrangian.check.reading.listed_rows import TRANSPOSED, spaced_rows, transposed_sides, tuple_sides, tuples
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.check.reading.words import function_of
@@ -53,7 +54,7 @@ _OPEN_END = re.compile(r"(?:=|[-+]|\\cdot|\\times)\s*\Z")
 
 def on_one_line(written: TracedText) -> TracedText:
     """Return an answer with matrices in one line, and with commas between their entries."""
-    written = written.edited(spaced_rows(written.text))
+    written = without_drawings(written.edited(spaced_rows(written.text)))
     if "\\begin{" in written.text:
         return _joined(written)
     drawn = [line.lstrip()[0] for line in written.text.split("\n") if _TALL.search(line)]

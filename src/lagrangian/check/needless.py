@@ -1,0 +1,106 @@
+"""Lines with names that nothing explains, where the equations of motion beside them do without these names.
+
+"The pulley turns with φ′ = x′/R" says what φ is. If every coordinate has its equation in names of the system, nothing
+follows from φ, and such a line is neither right nor wrong. Two that say different things of one name contradict each
+other, x = R φ and x = R φ + 1; what they say together of the system is judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
+
+MOST = 8
+"""The largest number of relations between which contradictions are sought."""
+
+LONGEST = 60
+"""The largest number of operations of such a relation."""
+
+_STATES = frozenset(
+    ["equation", "identity", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "given", "definition"]
+)
+
+
+@dataclass(frozen=True)
+class Needed:
+    """The lines that decide, what to say about the others, and whether these say something together that is judged."""
+
+    lines: tuple[AnsweredLine, ...]
+    notes: tuple[Text, ...] = ()
+    together: bool = False
+
+
+def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: int) -> Needed | None:
+    """The lines without those that hold ``unknown`` names, and what these say together.
+
+    None if there are none, or if the others have fewer than ``count`` equations of motion.
+    """
+    aside = [line for line in lines if line.kind in _STATES and line.expr.has(*unknown)] if unknown else []
+    energies = {(line.kind, line.number) for line in lines if line.kind in ("T", "V", "L", "D")}
+    told = [(x.kind, x.number) for x in aside if x.kind in ("T", "V", "L", "D")]
+    if any(sum((x.kind, x.number) == at for x in lines) > told.count(at) for at in energies & set(told)):
+        return None  # one side of a chain: T = 99 Z = ½ m x′²
+    kept = [line for line in lines if not any(line is x for x in aside)]
+    if not aside or sum(line.kind == "equation" and _accelerates(line.expr) for line in kept) < count:
+        return None
+    more = tuple(_contradictions([*aside, *_values(lines, unknown)], unknown))
+    judged = {(line.number, line.text) for line in more}
+    others = [line for line in aside if (line.number, line.text) not in judged]
+    told = [text(f"'{line.text}' was not judged: the equations do without its names.") for line in others]
+    return Needed((*kept, *more), tuple(dict.fromkeys(told)), bool(more))
+
+
+def _accelerates(expr: sp.Expr) -> bool:
+    return any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative))
+
+
+def _values(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Iterator[AnsweredLine]:
+    """That two values of one name are equal, where an unknown name stands in one of them."""
+    given: dict[str, AnsweredLine] = {}
+    for line in lines:
+        if line.kind == "definition" and line.name is not None:
+            above = given.setdefault(line.name, line)
+            if above is not line and (above.expr - line.expr).has(*unknown):
+                yield replace(line, kind="equation", expr=above.expr - line.expr, name=None)
+
+
+def _contradictions(aside: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Iterator[AnsweredLine]:
+    """What relations say of the system, once each unknown name has been eliminated."""
+    waiting = [line for line in aside if line.kind == "equation" and bounded.operations(line.expr) <= LONGEST]
+    waiting = waiting[:MOST]
+    while waiting:
+        first, *waiting = waiting
+        name = next((x for x in _forms(first.expr, unknown) if _slope(first.expr, x) is not None), None)
+        if name is None:
+            continue
+        slope = cast("sp.Expr", _slope(first.expr, name))
+        value = name - first.expr / slope
+        put = [replace(x, expr=bounded.expand(cast("sp.Expr", x.expr.xreplace({name: value})))) for x in waiting]
+        waiting = [x for x in put if x.expr.has(*unknown)]
+        found = [x for x in put if not x.expr.has(*unknown)]
+        yield from (x for x in found if bounded.operations(x.expr) <= 4 * LONGEST and bounded.expand(x.expr) != 0)
+
+
+def _forms(expr: sp.Expr, unknown: Collection[sp.Basic]) -> list[Any]:
+    """The unknown names in an expression, and their rates."""
+    rates = [d for d in expr.atoms(sp.Derivative) if d.args[0] in unknown]
+    atoms = [x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x in unknown and x != time]
+    return sorted(rates, key=str) or sorted(atoms, key=str)
+
+
+def _slope(expr: sp.Expr, name: Any) -> sp.Expr | None:
+    """The factor of a name of which an expression is a linear function; None if it is not."""
+    mark = sp.Dummy()
+    put = cast("sp.Expr", expr.xreplace({name: mark}))
+    slope = bounded.diff(put, mark)
+    return None if slope == 0 or slope.has(mark) else slope

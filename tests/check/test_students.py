@@ -1,0 +1,60 @@
+"""Right answers of imagined students are accepted whatever they look like, and wrong ones in the same clothes are not.
+
+Oracle: the derived equations, which `Students` writes; a wrong answer lacks one term or has it with the other sign.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+import sympy as sp
+from students import Students
+
+from built_in import derivation
+from lagrangian import ParseError
+
+FEW = ("cart-pole", "two-disk-shaft", "elastic-pendulum")
+MANY = (*FEW, "two-carts", "quarter-car", "wedge", "dc-motor", "bead-on-hoop", "atwood", "lecture-3b", "loudspeaker")
+
+
+def told(name: str, count: int, seed: str, *, wrong: bool = False) -> Counter[str]:
+    """What is said of some answers: right, not right, or that one cannot be read, with the place."""
+    own = derivation(name)
+    students, found = Students(own, seed), Counter[str]()
+    for _ in range(count):
+        answer = students.answer(_spoiled(students) if wrong else None)
+        try:
+            verdict = own.check(answer)
+        except ParseError as error:
+            assert error.place is not None, answer
+            found["unread"] += 1
+            continue
+        assert verdict.right is not wrong, f"{name}: {answer}\n{verdict.to_text()}"
+        found["wrong" if wrong else "right"] += 1
+    return found
+
+
+def _spoiled(students: Students) -> list[tuple[sp.Expr, sp.Expr]]:
+    """The equations, one of them without one of its terms, or with its other sign."""
+    sides = list(students.sides)
+    k = students.random.randrange(len(sides))
+    terms = sp.Add.make_args(sp.expand(sides[k][0]))
+    sides[k] = (sides[k][0] - students.random.choice([1, 2]) * students.random.choice(terms), sides[k][1])
+    return sides
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_a_few_right_answers_in_random_clothes_are_accepted(name: str) -> None:
+    assert told(name, 8, "few")["unread"] == 0
+
+
+def test_a_few_wrong_answers_in_random_clothes_are_not() -> None:
+    assert told("two-disk-shaft", 6, "few", wrong=True)["wrong"] > 4
+
+
+@pytest.mark.slow
+def test_many_answers_in_random_clothes() -> None:
+    right = sum((told(name, 60, "many") for name in MANY), Counter[str]())
+    wrong = sum((told(name, 12, "many", wrong=True) for name in MANY), Counter[str]())
+    assert right["unread"] <= 0.02 * right.total() and wrong["unread"] <= 0.05 * wrong.total()
