@@ -22,7 +22,9 @@ def pytest_configure(config: pytest.Config) -> None:
     # how long an example takes depends on what else the machine does, and says nothing about the package
     settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
     settings.load_profile("untimed")
-    size.FULL = "not slow" not in (config.getoption("markexpr") or "")
+    chosen = config.getoption("markexpr") or ""
+    size.FULL = "not slow" not in chosen
+    size.EVERY = size.FULL and "not exhaustive" not in chosen
 
 
 def _keep_bytecode(config: pytest.Config) -> None:

@@ -11,12 +11,17 @@ from hypothesis import settings
 FULL = False
 """Whether the tests that take long are run; ``conftest.py`` sets it before any test is read."""
 
+EVERY = False
+"""Whether their exhaustive cases are run, too: all that there are, before a release. Set in the same place."""
+
 
 def sized(full: int, small: int, **others: Any) -> Callable[[Any], Any]:
-    """Decorate a test by Hypothesis: ``small`` examples by default, ``full`` among the tests that take long."""
+    """Decorate a test by Hypothesis: ``small`` examples by default, a third of ``full`` among the tests that take
+    long, and ``full`` before a release."""
+    long = full if EVERY else max(small, full // 3)
 
     def decorate(test: Any) -> Any:
-        chosen = settings(max_examples=full if FULL else small, deadline=None, derandomize=True, **others)
+        chosen = settings(max_examples=long if FULL else small, deadline=None, derandomize=True, **others)
         return also_in_full(chosen(test))
 
     return decorate

@@ -39,7 +39,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 def unfolded(opened: Opened) -> None:
     """Open everything that is folded."""
     opened.page.evaluate("document.querySelectorAll('details').forEach((e) => (e.open = true))")
-    opened.page.wait_for_timeout(200)
+    opened.draw()
 
 
 @pytest.mark.parametrize("size", NARROW)
@@ -59,7 +59,7 @@ def test_text_of_twice_the_size_loses_nothing(browser: Any, files: dict[str, Pat
     """Only the letters grow, as in a browser that zooms text alone (WCAG 1.4.4)."""
     made = Opened(browser, files[name].as_uri(), viewport={"width": 1280, "height": 800})
     made.page.evaluate("document.documentElement.style.fontSize = '200%'")
-    made.page.wait_for_timeout(200)
+    made.draw()
     assert made.page.evaluate(LOST) == []
     made.context.close()
 
@@ -153,7 +153,7 @@ def test_what_falls_stays_in_the_frame(browser: Any, tmp_path: Path) -> None:
     made = Opened(browser, path.as_uri())
     made.page.locator("#speed").evaluate("(e) => { e.value = e.max; e.dispatchEvent(new Event('input')); }")
     made.run_to(30.0)
-    made.page.wait_for_timeout(100)
+    made.draw()
     ((x, y),) = made.page.evaluate("livePage.handles()")
     box = made.page.locator("#canvas").bounding_box()
     assert box is not None and 0 <= x <= box["width"] and 0 <= y <= box["height"]

@@ -88,7 +88,7 @@ CALLS = 10_000_000
 LONGEST = {"many names", "derivative of nested functions", "long", "combining dots"}
 
 
-@pytest.mark.thinned(4)
+@pytest.mark.thinned(8)
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", rest_slow(HOSTILE, set(HOSTILE) - LONGEST))
 def test_hostile_answers_take_bounded_effort(name):

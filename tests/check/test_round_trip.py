@@ -77,7 +77,7 @@ def test_what_is_printed_of_some_examples_is_right(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.thinned(4)
+@pytest.mark.thinned(8)
 @pytest.mark.parametrize(("turn", "name"), list(enumerate(n for n in examples.names() if n not in LARGE)))
 def test_what_is_printed_of_all_examples_is_right(turn: int, name: str) -> None:
     own = derivation(name)

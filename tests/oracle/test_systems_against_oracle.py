@@ -90,7 +90,7 @@ def test_random_systems_agree_with_the_oracle(family: str, seed: int) -> None:
     check(case, state_of(case, seed), computed(case, seed, further), derived=derived, further=further)
 
 
-@pytest.mark.thinned(7)
+@pytest.mark.thinned(14)
 @pytest.mark.slow
 @pytest.mark.parametrize("block", range(25))
 @pytest.mark.parametrize("family", FAMILIES)
@@ -112,7 +112,7 @@ def test_the_stored_answers_are_the_oracle_s(family: str, seed: int) -> None:
         assert getattr(kept, name) == pytest.approx(value, rel=1e-13, abs=1e-15), name
 
 
-@pytest.mark.thinned(3)
+@pytest.mark.thinned(6)
 @pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.slow) for k in range(1, 40))])
 def test_random_circuits_agree_with_the_oracle(seed: int) -> None:
     """Their energies are quadratic in the rates, so the same oracle answers; its answers take tenths of seconds."""

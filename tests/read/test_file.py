@@ -90,11 +90,20 @@ def summary(model: Model) -> list[object]:
     rows += [(x.name, x.symbol, x.expression) for x in model.definitions]
     for e in model.elements:
         rows.append((e.kind, e.name, [u.expr for u in e.uses()]))
-        rows.append([[sp.expand(x) for x in model.position(p)] for _, p in e.points()])
-        rows.append([[sp.expand(x) for x in f.rotation] for _, f in e.frames()])
-        rows.append([sp.expand(e.kinetic(model)), sp.expand(e.potential(model))])
-        rows.append([(sp.expand(a.effort), sp.expand(a.rate)) for a in e.works(model)])
+        rows.append([list(model.position(p)) for _, p in e.points()])
+        rows.append([list(f.rotation) for _, f in e.frames()])
+        rows.append([e.kinetic(model), e.potential(model)])
+        rows.append([(a.effort, a.rate) for a in e.works(model)])
     return rows
+
+
+def same(one: object, two: object) -> bool:
+    """Whether two summaries agree; expressions that are written differently are multiplied out."""
+    if isinstance(one, list | tuple) and isinstance(two, list | tuple):
+        return len(one) == len(two) and all(map(same, one, two))
+    return one == two or (
+        isinstance(one, sp.Expr) and isinstance(two, sp.Expr) and bool(sp.expand(one) == sp.expand(two))
+    )
 
 
 def test_a_file_means_what_it_says() -> None:
@@ -123,7 +132,7 @@ def test_a_file_is_written_back_as_the_same_system() -> None:
     model = loads(CARTS).model()
     text = dumps(model)
     again = loads(text).model()
-    assert summary(again) == summary(model)
+    assert same(summary(again), summary(model))
     assert dumps(again) == text
 
 
@@ -132,7 +141,7 @@ def test_a_file_is_written_back_as_the_same_system() -> None:
 def test_built_in_examples_round_trip(name: str) -> None:
     model = loads(examples.text(name), name).model()
     again = loads(dumps(model), name).model()
-    assert summary(again) == summary(model)
+    assert same(summary(again), summary(model))
 
 
 @pytest.fixture(scope="module")
@@ -199,7 +208,7 @@ def test_everything_python_can_describe_a_file_can() -> None:
     model = everything().model()
     text = dumps(model)
     again = loads(text).model()
-    assert summary(again) == summary(model)
+    assert same(summary(again), summary(model))
     assert dumps(again) == text
 
 
@@ -222,14 +231,14 @@ Xi = { x = "F" }
         ("dissipation", "D"),
         ("generalized_force", "Xi_x"),
     ]
-    assert summary(loads(dumps(model)).model()) == summary(model)
+    assert same(summary(loads(dumps(model)).model()), summary(model))
 
 
 def test_plane_body_turned_by_an_angle() -> None:
     text = CARTS + '[[rigid_body]]\nmass = 1\ninertia = 2\nat = ["x1", 1]\nframe = "x1/3"\n'
     model = loads(text).model()
     assert model.bodies[-1].frame.total_angle == model.coordinates[0].symbol / 3
-    assert summary(loads(dumps(model)).model()) == summary(model)
+    assert same(summary(loads(dumps(model)).model()), summary(model))
 
 
 def test_points_and_frames_may_refer_to_later_ones() -> None:
@@ -274,7 +283,7 @@ def test_a_step_is_written_in_cases() -> None:
 def test_a_saved_file_loads(tmp_path) -> None:  # type: ignore[no-untyped-def]
     path = tmp_path / "θ carts.toml"
     path.write_text(CARTS, encoding="utf-8")
-    assert summary(load(path).model()) == summary(loads(CARTS).model())
+    assert same(summary(load(path).model()), summary(loads(CARTS).model()))
 
 
 @sized(150, 20)

@@ -45,7 +45,7 @@ def refused(system: lg.System, method: str) -> str:
     return ""
 
 
-@pytest.mark.thinned(3)
+@pytest.mark.thinned(7)
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", rest_slow(CASES, QUICK))
 def test_a_run_is_that_of_machine_code(case: str, tmp_path: Path) -> None:

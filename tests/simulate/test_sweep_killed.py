@@ -16,10 +16,14 @@ from lagrangian import examples
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform == "win32", reason="there is no kill -9")]
 
 SCRIPT = """
+import time
 import lagrangian as lg
 from lagrangian import examples
 from test_sweep_killed import GRID, HOW
-lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW, store="a.zarr", resume=True)
+def wait(done, count):  # near its end it waits to be killed, however late that comes
+    while done > 0.85 * count:
+        time.sleep(1)
+lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW, store="a.zarr", resume=True, progress=wait)
 """
 GRID = ["theta1=0.1:3:50", "m1~normal(1,0.1)"]
 HOW = {
