@@ -15,6 +15,7 @@ from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, 
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
+from lagrangian.check.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
@@ -264,20 +265,19 @@ def _equations(
     taken = [r.index for r in comparison.rows if r.true and r.index is not None]
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
     solved = {j: pair for j in wrong if (pair := multiplied(truth, lines[j].expr)) is not None}
-    forms = {j: truth.form(lines[j].expr) for j in wrong}
+    forms = {j: None if is_energy_theorem(truth, x := lines[j].expr) else truth.form(x) for j in wrong}
     pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
     follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
     found = findings_of(truth, lines, comparison)
     for j in wrong:
-        line = lines[j]
-        like, form = pairs[j], forms[j]
+        line, like, form = lines[j], pairs[j], forms[j]
         right = truth.forms[like.index] if like is not None else None
         if j in solved and like is not None:
             accelerations = [c.acceleration for c in truth.model.coordinates]
             like = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
             form, right = (truth.form(x) for x in solved[j])
         if like is None or form is None or right is None:
-            found[j] = Finding(line, Status.WRONG, follows=follow[j])
+            found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
             continue
         differing = differences(truth, form, right, like.factor, like.index)
         name = name_of(truth, like.index)

@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian.check import say
 from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.line_mistakes import MOST_TOLD, UNNATURAL, contradicted, followed, of_line, stated
 from lagrangian.check.numerators import by_numerators, said_of
 from lagrangian.check.own_terms import OwnTerm, own_terms
@@ -79,7 +80,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
             found, more = of_line(pool, line)
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
-    of_equation = [f for f in findings if f.line.kind == "equation"]
+    powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
+    groups += [of_energy_theorem(pool, line.expr) for line in powers]
+    of_equation = [f for f in findings if f.line.kind == "equation" and not any(f.line is x for x in powers)]
     groups = followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
     combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import sympy as sp
 
+from lagrangian.check.energy_theorem import note_on
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, ReferenceRow, RowComparison
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -17,7 +18,7 @@ def findings_of(truth: Reference, lines: Sequence[AnsweredLine], comparison: Row
     return [
         Finding(line, Status.WRONG)
         if row.kind is Kind.WRONG
-        else Finding(line, _status(row), _note(truth, row), name_of(truth, row.index))
+        else Finding(line, _status(row), _note(truth, row, line.expr), name_of(truth, row.index))
         for line, row in zip(lines, comparison.rows, strict=True)
     ]
 
@@ -35,7 +36,7 @@ def _status(row: ReferenceRow) -> Status:
     return Status.INCOMPLETE if row.kind is Kind.NOTHING else Status.SAME_MOTION
 
 
-def _note(truth: Reference, row: ReferenceRow) -> Text | None:
+def _note(truth: Reference, row: ReferenceRow, expr: sp.Expr) -> Text | None:
     """Which right equations a true row consists of, in words."""
     if row.kind is Kind.NOTHING:
         return text("says 0 = 0")
@@ -54,6 +55,8 @@ def _note(truth: Reference, row: ReferenceRow) -> Text | None:
         return text("the sum of ", *parts)
     if row.kind is Kind.TURNED:
         return text("the equations added with factors that depend on where the system is")
+    if row.kind is Kind.CONSEQUENCE and (said := note_on(truth, expr, right=True)) is not None:
+        return said
     if row.kind is Kind.CONSEQUENCE:
         return text("true whenever the right equations hold")
     return None

@@ -49,6 +49,17 @@ def in_rows(
                 yield Site(words=words, brief=words, step=5, element=group[0], coordinate=i, rows={i: x}, surcharge=0.4)
 
 
+def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) -> Iterator[Site]:
+    """What all forces, torques and dampers add to one equation, if there are several."""
+    for i, coordinate in enumerate(q):
+        held = [e for e, x in shares.items() if x.get(i)]
+        if len(held) > 1:
+            names = _names(held) if len(held) == 2 else "all forces"
+            words: Words = (f"what {names} add to the equation of ", coordinate)
+            Xi = {i: plus(*[shares[e][i] for e in held])}
+            yield Site(words=words, brief=words, step=6, element=held[0], coordinate=i, Xi=Xi, surcharge=0.15)
+
+
 def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:
     groups: dict[frozenset[Any], list[Element]] = {}
     for element, V in energies.items():

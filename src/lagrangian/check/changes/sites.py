@@ -207,6 +207,7 @@ class Sites:
                     yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
         yield from alike.bodies(self.of.bodies, self.kinetic, self.weights)
         yield from alike.springs(self.energies)
+        yield from alike.forces(self.shares, self.of.q)
         if len(self.weights) > 1:
             gravity = next(iter(self.weights.values()))[0]
             words = ("the weights",)
@@ -243,7 +244,12 @@ class Sites:
             for i, x in site.Xi.items():
                 for m, c in x.items() if 1 < len(x) <= MOST_TERMS else ():
                     yield replace(
-                        site, Xi={i: {m: c}}, words=self._term(m, c, site), coordinate=i, surcharge=0.5, single=True
+                        site,
+                        Xi={i: {m: c}},
+                        words=self._term(m, abs(c), site),
+                        coordinate=i,
+                        surcharge=0.5,
+                        single=True,
                     )
 
     def _terms_of(self, site: Site, name: str, whole: Sum) -> Iterator[Site]:

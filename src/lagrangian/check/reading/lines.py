@@ -338,7 +338,7 @@ class Lines:
         if not isinstance(above, MatrixBase) or above.shape != value.shape:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         return [
-            made_line("identity", a, b, None, side, side, reader)
+            made_line("equation" if solves(a, b) else "identity", a, b, None, side, side, reader)
             for a, b in zip(above.flat(), value.flat(), strict=True)
         ]
 
