@@ -127,3 +127,29 @@ def test_mistakes_in_an_equation_without_its_multiplier(trammel: lg.Derivation) 
     assert mistake.name == "elimination"
     (mistake,) = trammel.check(without.replace("k*y", "2*k*y")).mistakes
     assert mistake.element == "spring 'spring'"
+
+
+@pytest.fixture(scope="module")
+def trolley() -> lg.Derivation:
+    """A load on a rod of length l below a trolley, in the coordinates s of the trolley and x, y of the load."""
+    system = lg.System("load below a trolley")
+    s, x, y = system.coordinates("s x y")
+    M, m, l, k = system.parameters("M m l k")
+    system.particle(M, at=system.origin + (s, 0), name="trolley")
+    system.particle(m, at=system.origin + (x, y), name="load")
+    system.gravity()
+    system.spring(k, deflection=s)
+    system.constraint((x - s) ** 2 + y**2 - l**2, name="rod")
+    return system.derive()
+
+
+def test_a_wrong_constraint_is_one_mistake_with_the_factors_that_follow(trolley: lg.Derivation) -> None:
+    rows = "M*s'' + k*s = 0\nm*x'' = 2*lambda*x\nm*y'' = 2*lambda*y - m*g"
+    (mistake,) = trolley.check(f"x^2 + y^2 = l^2\n{rows}").mistakes
+    assert mistake.name == "constraint_wrong" and "follow from it" in str(mistake.what)
+
+
+def test_a_multiplier_with_another_factor_in_one_equation_is_one_mistake(trolley: lg.Derivation) -> None:
+    rows = "M*s'' + k*s = -2*lambda*(x-s)\nm*x'' = lambda*(x-s)\nm*y'' = 2*lambda*y - m*g"
+    (mistake,) = trolley.check(rows).mistakes
+    assert mistake.name == "multiplier_factor" and mistake.coordinate == "x"

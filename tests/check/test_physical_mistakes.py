@@ -143,3 +143,8 @@ def test_a_spring_and_the_damper_beside_it_are_told_together(old: str, new: str,
         answer = "m*x'' + K*x + n*k*(y + n*x) + n*c*(y' + n*x') = 0\nM*y'' + k*(y + n*x) + c*(y' + n*x') = 0"
     (mistake,) = strut().model().check(answer).mistakes
     assert mistake.name == kind and "spring 'k' and damper 'c'" in str(mistake.what), str(mistake.what)
+
+
+def test_a_wrong_deflection_in_the_force_alone_is_one_mistake_in_both_equations() -> None:
+    (mistake,) = strut().model().check(STRUT.replace("(y - n*x)", "y")).mistakes
+    assert mistake.name == "deflection_left_out" and "in the force of spring 'k' is taken as y" in str(mistake.what)

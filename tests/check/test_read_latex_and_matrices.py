@@ -111,3 +111,13 @@ def test_matrices_entry_by_entry_inverted_and_with_what_they_depend_on(written: 
     assert derivation("cart-pole").check(written).right
     for old, new in (("l*cos(theta)", "l*sin(theta)"), ("l cos(theta)", "l sin(theta)"), ("J +", "J -")):
         assert old not in written or not derivation("cart-pole").check(written.replace(old, new)).right
+
+
+@pytest.mark.parametrize(("stiffness", "right"), [("-k/J2", True), ("k/J2", False)])
+def test_rows_of_a_stacked_state_are_equations(stiffness: str, right: bool) -> None:
+    """x' = A x + B u, where x is a name of the answer's own for the column of coordinates and rates."""
+    rows = f"0 0 1 0; 0 0 0 1; -k/J1 k/J1 -b/J1 b/J1; k/J2 {stiffness} b/J2 -(b+b_load)/J2"
+    answer = f"z = [phi1; phi2; phi1'; phi2']\nz' = [{rows}]*z + [0; 0; 1/J1; 0]*tau"
+    verdict = derivation("two-disk-shaft").check(answer)
+    assert verdict.right == right
+    assert right or [m.element for m in verdict.mistakes] == ["spring 'shaft'"]

@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.beside import beside
 from lagrangian.check.candidates import too_long
+from lagrangian.check.constraint_mistakes import beside_constraints
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
@@ -19,7 +20,7 @@ from lagrangian.check.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
-from lagrangian.check.multipliers import with_own_multipliers, wrong_constraints
+from lagrangian.check.multipliers import with_own_multipliers
 from lagrangian.check.new_angles import check_in_any_angle
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
@@ -97,8 +98,7 @@ def _with_mistakes(truth: Reference, lines: Sequence[AnsweredLine], verdict: Ver
         return verdict
     judged = _judged(truth, read.lines)
     named = mistakes_beside_multipliers(truth, read.lines, judged.findings)
-    of_constraints = wrong_constraints(truth, verdict.findings)
-    told = (*named.told, *read.mistakes, *of_constraints)
+    told = (*named.told, *beside_constraints(truth, lines, verdict.findings, judged.findings, read.mistakes))
     if not told:
         return verdict
     better = {f.line.number: f for f in judged.findings}

@@ -76,7 +76,8 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     plain_ones = [k for k, x in enumerate(possible) if all(c in (1, -1) for _, c in x.values())]
     plain_ones.sort(key=lambda k: (_against(truth, exprs, matches[k]), -scores[k]))
     others = [_read(truth, lines, rows, possible[k]) for k in plain_ones]
-    return next((x for x in others if not any(map(_is_odd, x.mistakes))), found)
+    kept = (x for x in others if len(x.mistakes) <= len(found.mistakes))  # never two for one
+    return next((x for x in kept if not any(map(_is_odd, x.mistakes))), found)
 
 
 def _against(truth: Reference, exprs: Sequence[sp.Expr], found: Sequence[_Match]) -> int:

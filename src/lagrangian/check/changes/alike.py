@@ -60,6 +60,16 @@ def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) ->
             yield Site(words=words, brief=words, step=6, element=held[0], coordinate=i, Xi=Xi, surcharge=0.15)
 
 
+def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[Any, Sum]) -> Iterator[Site]:
+    """The terms with products of different rates in the kinetic energy of a body, and in its ½mv² alone."""
+    for b, whole in kinetic.items():
+        for energy, what in ((whole, "the kinetic energy"), (translations[b], "½mv²")):
+            mixed = {m: c for m, c in energy.items() if sum(a in rates for a, _ in m) > 1}
+            if 1 < len(mixed) < len(energy) and (what != "½mv²" or energy != whole):
+                words: Words = (f"the products of different rates in {what} of {b.title}",)
+                yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
+
+
 def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:
     groups: dict[frozenset[Any], list[Element]] = {}
     for element, V in energies.items():

@@ -104,6 +104,21 @@ class DeflectionChanges:
             if V and (strut.damper is None or Xi):
                 site = Site(words=words, brief=words, step=3, element=strut.spring)
                 yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, other)
+            if kind in ("deflection_left_out", "deflection_sign"):
+                yield from self._in_the_force(strut, kind, cost + more + 0.2, other)
+
+    def _in_the_force(self, strut: Strut, kind: str, cost: float, other: sp.Expr) -> Iterator[LocalChange]:
+        """Another deflection in the force k δ + b δ′ alone, which acts where it should: ∂δ/∂ξ_i is right."""
+        whole = strut.deflection
+        force = self.s.expand(strut.spring.k) * (other - whole)
+        if strut.damper is not None:
+            force = force + self.s.expand(strut.damper.b) * self.s.rate(other - whole)
+        rows = {i: self.sites.difference(force * bounded.diff(whole, q), sp.S.Zero) for i, q in enumerate(self.s.q)}
+        rows = {i: x for i, x in rows.items() if x}
+        if len(rows) > 1:
+            words: Words = (f"the deflection in the force of {strut.title}",)
+            site = Site(words=words, brief=words, step=5, element=strut.spring)
+            yield made(kind, cost, site, {"rows": rows}, whole, other)
 
     def _others(self, whole: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
         """What may be taken for a deflection: a piece left out or with the wrong sign; another coordinate."""

@@ -186,11 +186,6 @@ class Sites:
                     words=words, brief=words, step=2, element=b, T=self.kinetic[b], V=V, surcharge=0.3, sign_cost=0.9
                 )
 
-    def _mixed(self, T: Sum) -> Sum:
-        """The terms with products of different rates."""
-        rates = {self.ring.atom(v) for v in self.of.v}
-        return {m: c for m, c in T.items() if sum(a in rates for a, _ in m) > 1}
-
     def wholes(self) -> Iterator[Site]:
         """T*, V, all weights, all springs, and everything together."""
         T = self.all_kinetic
@@ -199,18 +194,13 @@ class Sites:
         Xi = {i: plus(*[s[i] for s in self.shares.values() if i in s]) for i in range(self.n)}
         if len(self.translations) + len(self.rotations) + len(self.others) > 1:
             yield Site(words=(Name("T*"),), brief=(Name("T*"),), step=2, T=T, surcharge=0.1)
-        for b in self.of.bodies:
-            for energy, what in ((self.kinetic[b], "the kinetic energy"), (self.translations[b], "½mv²")):
-                mixed = self._mixed(energy)
-                if 1 < len(mixed) < len(energy) and (what != "½mv²" or b in self.rotations):
-                    words: Words = (f"the products of different rates in {what} of {b.title}",)
-                    yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
+        yield from alike.products({self.ring.atom(v) for v in self.of.v}, self.kinetic, self.translations)
         yield from alike.bodies(self.of.bodies, self.kinetic, self.weights)
         yield from alike.springs(self.energies)
         yield from alike.forces(self.shares, self.of.q)
         if len(self.weights) > 1:
             gravity = next(iter(self.weights.values()))[0]
-            words = ("the weights",)
+            words: Words = ("the weights",)
             yield Site(words=words, brief=words, step=3, element=gravity, V=weights, surcharge=0.1)
         if len(self.energies) > 1:
             words = ("the energies of the springs",)
@@ -259,7 +249,7 @@ class Sites:
         if 1 < len(whole) <= MOST_TERMS:
             for m, c in whole.items():
                 changed: Any = {name: {m: c}}
-                yield replace(site, **changed, words=self._term(m, c, site), surcharge=0.5, single=True)
+                yield replace(site, **changed, words=self._term(m, c, site), surcharge=0.65, single=True)
 
     def _alike(self, site: Site, name: str, whole: Sum, moves: bool) -> Iterator[Site]:
         """The terms of one motion, or with the same letters."""

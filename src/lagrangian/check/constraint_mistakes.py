@@ -1,0 +1,69 @@
+"""A constraint that an answer has wrong, told once: the factors of its multiplier that follow are no mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.multipliers import wrong_constraints
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.model import time
+from lagrangian.page.formula import text
+
+LONGEST = 400
+"""Factors with more operations together are not compared."""
+
+
+def beside_constraints(
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    findings: Sequence[Finding],
+    judged: Sequence[Finding],
+    of_multipliers: Sequence[Mistake],
+) -> tuple[Mistake, ...]:
+    """The mistakes of the multipliers and of the constraints that an answer has wrong, ``findings``.
+
+    If the multiplier's factors are λ ∂g/∂ξ of the answer's own constraint g = 0, that constraint is the one mistake.
+    ``judged`` say which equation each line is.
+    """
+    told = wrong_constraints(truth, findings)
+    moving = [x for c in truth.model.coordinates for x in (c.rate, c.acceleration)]
+    wrong = [f.line for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
+    own = [line.expr for line in wrong if not line.expr.has(*moving)]
+    if not told or not own or any(bounded.cancel(g**2 - own[0] ** 2) != 0 for g in own[1:]):
+        return (*of_multipliers, *told)
+    if not of_multipliers or not _follow(truth, own[0], lines, judged):
+        return (*told[:1], *of_multipliers)
+    what = text(*told[0].what.parts, " The factors of the multiplier follow from it.")
+    return (Mistake(told[0].name, what, told[0].why, told[0].step, told[0].element, None, told[0].brief),)
+
+
+def _follow(truth: Reference, g: sp.Expr, lines: Sequence[AnsweredLine], judged: Sequence[Finding]) -> bool:
+    """Whether the one multiplier of an answer has the factors ∂g/∂ξ_i, all times the same."""
+    model = truth.model
+    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
+    accelerations = [c.acceleration for c in model.coordinates]
+    coordinates = {c.name: (i, c) for i, c in enumerate(model.coordinates)}
+    rows = [line.expr for line in lines if line.kind == "equation" and line.expr.has(*accelerations)]
+    said = [f.coordinate for f in judged if f.line.kind == "equation"]
+    if len(rows) != len(said) or not all(name in coordinates for name in said):
+        return False
+    pairs: list[tuple[sp.Expr, sp.Expr]] = []
+    symbols: set[Any] = set()
+    for expr, (i, c) in zip(rows, (coordinates[name] for name in said if name is not None), strict=True):
+        names: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in known}
+        symbols |= names
+        own, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
+        if len(symbols) > 1 or own == 0 or right == 0:
+            return False
+        factor = sum((expr.diff(s) for s in names), sp.S.Zero) * right / own
+        pairs.append((cast("sp.Expr", factor), bounded.diff(g, c.symbol)))
+    if len(symbols) != 1 or len(pairs) < 2 or sum(bounded.size(x) for p in pairs for x in p) > LONGEST:
+        return False
+    a, b = next(((w, x) for w, x in pairs if w != 0 and x != 0), (sp.S.Zero, sp.S.Zero))
+    return a != 0 and all(bounded.cancel(w * b - x * a) == 0 for w, x in pairs)
