@@ -1,6 +1,7 @@
 """Runs of systems with constraints: every state satisfies them, and what a run says of that."""
 
 from importlib import import_module
+from math import comb
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import built_in
 import lagrangian as lg
 from constrained_systems import PEAUCELLIER, peaucellier
 from lagrangian.integrate import RunStatus
+from lagrangian.integrate.scipy_history import rescale
 from lagrangian.simulate import spared
 from redundant_systems import INERTIA, START, WEIGHT, crank_angle, plate_on_cranks
 
@@ -313,3 +315,26 @@ def test_constraints_that_are_missed_after_the_projection_too_are_told(monkeypat
     fine = s.simulate(2.0, initial=START, method="rk4", step=1e-3)
     assert max(fine.drift.position_after, fine.drift.velocity_after) < 1e-6
     assert not any("still missed" in str(notice) for notice in fine.notices)
+
+
+@pytest.mark.slow
+def test_a_step_taken_back_leaves_a_multistep_method_its_order():
+    """With a new solver for every step whose correction is too great, it takes 2332 steps at order 1 and 2."""
+    system = peaucellier()
+    kept, free = (
+        system.simulate(0.2, initial=PEAUCELLIER, method="BDF", rtol=1e-9, project=project) for project in (True, False)
+    )
+    assert kept.rejected > 0 and kept.steps < 3 * free.steps
+    assert float(kept.audit) < 1e-8 and abs(kept["x"][-1] - 1.25) < 1e-14
+
+
+def test_differences_at_another_step_are_those_of_the_same_polynomial():
+    """∇ʲ of t³ at t = 2, at the steps 1 and 0.3: by their definition, sums of values with binomial coefficients."""
+
+    def differences(h):
+        values = np.array([(2.0 - k * h) ** 3 for k in range(4)])
+        return np.array([sum((-1) ** k * comb(j, k) * values[k] for k in range(j + 1)) for j in range(4)])[:, None]
+
+    D = differences(1.0)
+    rescale(D, 3, 0.3)
+    assert pytest.approx(differences(0.3), abs=1e-13) == D

@@ -21,6 +21,7 @@ from lagrangian.integrate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.methods.memory_layout import MARGIN
 from lagrangian.integrate.projection import Drift, Projection
+from lagrangian.integrate.scipy_history import History
 from lagrangian.integrate.scipy_projection import Projected
 from lagrangian.integrate.scipy_weights import Weights
 from lagrangian.integrate.status import RunStatus
@@ -215,6 +216,7 @@ class _March:
                 if not self._within_bounds() or self.sticks(leg):
                     return False
                 # one step of SciPy's solver
+                history = None if self.ground is None else History.of(solver)
                 words = solver.step()
                 self.steps += 1
                 if solver.status == "failed":
@@ -232,7 +234,11 @@ class _March:
                         shorter = self._shorter(solver.t, size)
                         if shorter is None:
                             return False
-                        break
+                        if history is None:
+                            break
+                        history.retry(solver, size)
+                        shorter = None
+                        continue
                     jumped = anew
                 self.weights.note(solver.y)
                 jumped = self._advance(solver, dense, leg) or jumped
