@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import sympy as sp
@@ -20,14 +21,22 @@ from lagrangian.model import time as t
 class Planted:
     """A mistake: what was done, to which elements, in which sort of words it is told, and the wrong derivation.
 
-    ``rows`` are the wrong equations; ``steps`` the wrong energies, where the mistake is made in these.
+    ``steps`` are the wrong energies, where the mistake is made in these, and otherwise ``own`` the wrong equations.
     """
 
     kind: str
     elements: tuple[str, ...]
     words: str
-    rows: list[Any]
+    own: list[Any] | None = None
     steps: Steps | None = None
+
+    @cached_property
+    def rows(self) -> list[Any]:
+        """The wrong equations, which are derived when they are first asked for."""
+        if self.own is not None:
+            return self.own
+        assert self.steps is not None
+        return self.steps.rows()
 
     def __str__(self) -> str:
         return f"{self.kind} of {' or '.join(self.elements)}"
@@ -57,11 +66,11 @@ def planted(m: Mechanism) -> Iterator[Planted]:
 
 def _spec(m: Mechanism, kind: str, name: str, words: str) -> Planted:
     steps = m.steps()
-    return Planted(kind, (name,), words, steps.rows(), steps)
+    return Planted(kind, (name,), words, steps=steps)
 
 
 def _step(s: Steps, kind: str, name: str, words: str) -> Planted:
-    return Planted(kind, (name,), words, s.rows(), s)
+    return Planted(kind, (name,), words, steps=s)
 
 
 def _of_bodies(m: Mechanism) -> Iterator[Planted]:
@@ -159,6 +168,7 @@ def _wrong_pieces(m: Mechanism, x: Any, count: int) -> Iterator[tuple[Any, str, 
 
 def _of_springs(m: Mechanism) -> Iterator[Planted]:
     s = m.steps()
+    right = s.rows()
     for n, k in m.springs.items():
         yield _step(s.put("springs", n, sp.S.Zero), "spring left out", n, GONE)
         yield _step(s.put("springs", n, -s.springs[n]), "sign of the spring", n, SIGN)
@@ -183,11 +193,10 @@ def _of_springs(m: Mechanism) -> Iterator[Planted]:
                 n,
                 GONE + "|" + OTHER,
             )
-            wrong = s.rows()
             for i, p in enumerate(m.q):  # k δ without ∂δ/∂ξ's arm
                 share = sp.expand(k.size * k.along * sp.diff(k.along, p))
                 if sp.diff(k.along, p).has(x):
-                    rows = list(wrong)
+                    rows = list(right)
                     rows[i] = sp.expand(
                         rows[i] - share + k.size * k.along * sp.diff(k.along, p).xreplace({x: sp.S.One})
                     )
@@ -196,7 +205,7 @@ def _of_springs(m: Mechanism) -> Iterator[Planted]:
             force = sp.expand(sp.diff(s.springs[n], p))
             if force != 0 and sum(sp.diff(s.springs[n], x) != 0 for x in m.q) > 1:
                 for j, kind, words in ((1, "reaction left out for", GONE), (2, "sign of the reaction for", SIGN)):
-                    rows = s.rows()
+                    rows = list(right)
                     rows[i] = sp.expand(rows[i] - j * force)
                     yield Planted(f"{kind} {p}", (n,), words, rows)
 
@@ -286,19 +295,20 @@ def _of_forces(m: Mechanism) -> Iterator[Planted]:
 
 def _of_operator(m: Mechanism) -> Iterator[Planted]:
     s = m.steps()
+    right = s.rows()
     T = sp.expand(s.T)
     names = (*m.bodies,)
     for i, p in enumerate(m.q):
         slope = sp.expand(sp.diff(T, p))
         if slope != 0:
             for k, kind, words in ((1, "∂T/∂ξ forgotten for", GONE), (2, "sign of ∂T/∂ξ for", SIGN)):
-                rows = s.rows()
+                rows = list(right)
                 rows[i] = sp.expand(rows[i] + k * slope)
                 yield Planted(f"{kind} {p}", names, words, rows)
         momentum = sp.expand(sp.diff(T, sp.diff(p, t)))
         for x in m.q:
             part = sp.expand(sp.diff(momentum, x) * sp.diff(x, t))
             if part != 0:
-                rows = s.rows()
+                rows = list(right)
                 rows[i] = sp.expand(rows[i] - part)
                 yield Planted(f"d/dt ∂T/∂{p}' without what {x}' adds", names, GONE + "|product rule|chain rule", rows)

@@ -85,7 +85,8 @@ CALLS = 10_000_000
 """Of Python functions, that any one of these takes at most."""
 
 
-LONGEST = {"many names", "derivative of nested functions", "long", "combining dots"}
+LONGEST = {"many names", "derivative of nested functions", "long", "combining dots", "labels", "subscripts"}
+LONGEST |= {"a chain of definitions upward"}
 
 
 @pytest.mark.thinned(8)

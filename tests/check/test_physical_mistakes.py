@@ -5,6 +5,7 @@ The wrong equations come from `physical_mistakes`, which derives them by SymPy a
 
 from __future__ import annotations
 
+import itertools
 import random
 import re
 from functools import cache
@@ -50,10 +51,12 @@ def is_told(made: Planted, mistake: object) -> bool:
 def sampled(name: str, count: int, seed: str) -> tuple[int, list[str]]:
     """How many of some mistakes were told first and alone; the others in words. None is accepted."""
     m, derivation = mechanism(name)
-    every = [x for x in planted(m) if any(sp.expand(a - b) != 0 for a, b in zip(x.rows, m.steps().rows(), strict=True))]
+    every, right = list(planted(m)), m.steps().rows()
     chooser = random.Random(f"{name} {seed}")
     missed: list[str] = []
-    chosen = chooser.sample(every, min(count, len(every)))
+    shuffled = iter(chooser.sample(every, len(every)))
+    wrong = (x for x in shuffled if any(sp.expand(a - b) != 0 for a, b in zip(x.rows, right, strict=True)))
+    chosen = list(itertools.islice(wrong, count))
     for made in chosen:
         text = written(m, made, chooser.choice(["plain", "collected", "energies"]))
         verdict = derivation.check(text)

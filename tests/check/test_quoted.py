@@ -68,6 +68,7 @@ def test_no_sentence_quotes_what_was_not_written() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.thinned(3)
 @pytest.mark.parametrize(
     "name", ["cart-pole", "double-pendulum", "quarter-car", "lecture-1", "rolling-cylinder", "wedge"]
 )

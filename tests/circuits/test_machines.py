@@ -82,6 +82,7 @@ def test_a_motor_holds_its_arm_at_the_angle_at_which_its_torque_is_the_weights()
     assert np.abs(run.imbalance).max() < 1e-9 * run.supplied.max()
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("name", built_in.CIRCUITS)
 def test_machines_are_verified_compiled_saved_and_read_again(name: str, tmp_path: Any) -> None:
     s = built_in.system(name)
@@ -138,6 +139,7 @@ def test_coils_that_share_more_flux_than_they_have_are_told() -> None:
         free.linearize(params={"L": 1, "M": 2})
 
 
+@pytest.mark.thinned(2)
 @pytest.mark.parametrize("name", built_in.CIRCUITS)
 def test_exercises_about_machines_have_variants(name: str) -> None:
     for seed in range(3):

@@ -82,7 +82,7 @@ def steering(text: str) -> set[str]:
     return {c for c in text if (ord(c) < 32 and c not in "\n\t") or 127 <= ord(c) < 160 or c in turning}
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("verb", VERB_LINES)
 def test_no_text_of_a_model_steers_the_terminal(capsys: pytest.CaptureFixture[str], folder: Path, verb: str) -> None:
     main([*typed(folder, VERB_LINES[verb]), *(["--force"] if verb == "export" else [])])

@@ -102,7 +102,7 @@ def test_the_change_is_found_from_what_both_put_in_the_same_places(name: str, ch
     assert found.change.replaced
 
 
-@pytest.mark.parametrize("links", [3, pytest.param(6, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("links", [3, pytest.param(6, marks=[pytest.mark.slow, pytest.mark.exhaustive])])
 def test_chains_absolute_and_relative(links: int) -> None:
     def chain(relative: bool) -> lg.System:
         s = lg.System("chain")
@@ -228,7 +228,7 @@ DIFFERENT = {
 }
 
 
-@pytest.mark.parametrize("case", rest_slow(DIFFERENT, list(DIFFERENT)[::2]))
+@pytest.mark.parametrize("case", rest_slow(DIFFERENT, list(DIFFERENT)[::4]))
 def test_systems_that_differ_and_where_first(case: str) -> None:
     one, other, expected = DIFFERENT[case]
     found = lg.compare(lg.loads(one), lg.loads(other))

@@ -138,7 +138,8 @@ CHANGES: dict[str, dict[str, str]] = {
 }
 
 
-@pytest.mark.parametrize("name", rest_slow(CHANGES, {"linear"}))
+@pytest.mark.thinned(2)
+@pytest.mark.parametrize("name", rest_slow(CHANGES, ()))
 def test_every_kind_of_element_is_carried_over(name: str) -> None:
     system = _everything()
     change = read_change(system.model, CHANGES[name])

@@ -113,7 +113,7 @@ def test_what_is_wrong_is_said_and_pointed_at(text: str, column: int | None, fra
         assert caught.value.place is not None and caught.value.place.column == column
 
 
-@sized(200, 60)
+@sized(200, 20)
 @given(
     st.one_of(
         st.text(max_size=20),

@@ -46,7 +46,7 @@ def whole() -> lg.Ensemble:
     return lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize("share", [0.3, *(pytest.param(x, marks=pytest.mark.exhaustive) for x in (0.0, 0.7))])
 def test_killed_and_resumed_is_the_same_as_never_killed(
     tmp_path: pathlib.Path, whole: lg.Ensemble, share: float
 ) -> None:
