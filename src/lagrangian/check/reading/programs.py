@@ -76,13 +76,18 @@ _SHAPES = {
 _COMMAS = {"frac": 1, "Rational": 1, "pow": 1, "power": 1, "square": 0}
 
 
+def without_long_names(written: TracedText) -> TracedText:
+    """Return an answer without the long names of Mathematica: \\[Theta], Subscript[m, 1]."""
+    if "\\[" not in written.text:
+        return written
+    return written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
+
+
 def without_programs(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
     """Return an answer without the spellings of programs.
 
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
-    if "\\[" in written.text:
-        written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
     written = written.sub(_SEQUENCE, lambda m: f"t, {m['order']}")
     written = written.sub(_LINE_OF_CODE, lambda m: "").sub(_TIMES, lambda m: f"t, {m['order']}")
     if _is_mixed(written.text):

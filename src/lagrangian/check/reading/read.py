@@ -28,11 +28,13 @@ from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.program_marks import without_program_marks, without_terminators
 from lagrangian.check.reading.program_names import with_program_names
-from lagrangian.check.reading.programs import without_programs
+from lagrangian.check.reading.programs import without_long_names, without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.remarks import is_remark
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
 from lagrangian.check.reading.said_values import SaidValues, said_values
+from lagrangian.check.reading.session_lists import without_lists, without_sets
+from lagrangian.check.reading.sessions import without_session
 from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.stands_for import (
     with_stated_letters,
@@ -222,17 +224,23 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     def taken(name: str) -> bool:
         return bool(names.scope.meanings(name)[0])
 
-    tagless = solved_matrices(without_tags(without_terminators(TracedText(text))))
+    commands: list[int] = []
+    session = without_session(
+        without_long_names(without_tags(without_terminators(TracedText(text)))), taken, commands.append
+    )
+    if commands:
+        names.notes.setdefault(_left_out(text, commands))
+    tagless = solved_matrices(session)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
-        tagless = without_program_marks(tagless, taken)
+        tagless = without_lists(without_program_marks(tagless, taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
     if _LATEX.search(said.text):
-        said = with_open_text(said)
+        said = with_open_text(without_sets(said))
     else:
         said = with_stated_values(said, taken)
         own = {key(name) for name in lines.model.symbols}
@@ -240,6 +248,13 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
     return on_one_line(plain)
+
+
+def _left_out(text: str, commands: Sequence[int]) -> str:
+    """What to say about commands of a program at these places."""
+    at = [str(x) for x in dict.fromkeys(text.count("\n", 0, x) + 1 for x in commands)]
+    named = f"Lines {', '.join(at[:-1])} and {at[-1]} hold" if len(at) > 1 else f"Line {at[0]} holds"
+    return f"{named} commands of a program, which state no equation and were not judged."
 
 
 def _value(lines: Lines, written: str) -> float | None:

@@ -1,0 +1,113 @@
+"""Sessions of programs: prompts, commands, lists of expressions and solutions as Jupyter, SymPy, Mathematica and Maple
+print them.
+
+Oracle: the equations of the cart with a pole and of the pendulum, in the spelling that these programs print. Every form
+has a wrong twin, which stays wrong.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+X = "F - b*Derivative(x(t), t) - (M + m)*Derivative(x(t), (t, 2)) - l*m*cos(theta(t))*Derivative(theta(t), (t, 2))"
+X = f"{X} + l*m*sin(theta(t))*Derivative(theta(t), t)**2"
+ANGLE = "(J + l**2*m)*Derivative(theta(t), (t, 2)) + l*m*cos(theta(t))*Derivative(x(t), (t, 2)) - g*l*m*sin(theta(t))"
+PENDULUM = "L**2*m*Derivative(theta(t), (t, 2)) + L*g*m*sin(theta(t)) + b*Derivative(theta(t), t)"
+SOLVED = "(-L*g*m*sin(theta(t)) - b*Derivative(theta(t), t))/(L**2*m)"
+MATHEMATICA = "(b Derivative[1][theta][t])/(m L^2) + Derivative[2][theta][t] + (g Sin[theta[t]])/L == 0"
+SWING = "m L^2 theta''[t] + b theta'[t] + m g L Sin[theta[t]]"
+
+
+def right(written: str, name: str) -> bool:
+    """Whether an answer is judged right."""
+    return derivation(name).check(written).right
+
+
+def twins(written: str, name: str, old: str = "l*m*cos", new: str = "l*m*sin") -> None:
+    """An answer is right, and wrong with one of its pieces replaced."""
+    assert old in written
+    assert right(written, name)
+    assert not right(written.replace(old, new), name)
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"In [8]: LM.form_lagranges_equations()\nOut[8]: \nMatrix([\n[{X}],\n[  {ANGLE}]])",
+        f"In [1]: from sympy.physics.mechanics import *\n\nIn [2]: LM = LagrangesMethod(Lag, [x, theta], forcelist=fl,"
+        f" frame=N)\n\nOut[3]: Matrix([[{X}], [{ANGLE}]])",
+        f"N = ReferenceFrame('N'); P = Point('P'); P.set_vel(N, x.diff(t)*N.x)\nLM = LagrangesMethod(T - V, [x, theta],"
+        f"\n    forcelist=[(P, (F - b*x.diff(t))*N.x)],\n    frame=N)\nMatrix([[{X}], [{ANGLE}]])",
+        f"%matplotlib inline\nimport sympy as sp\nsp.init_printing()\n"
+        f"eqs = sp.Matrix([\n    [{X}],\n    [{ANGLE}],\n])",
+        f"eqs = [\n  {X},\n  {ANGLE},\n]\n# all of them are zero",
+        f"residuals = ({X},\n             {ANGLE})",
+        f">>> pprint(eqs)\n>>> [print(e) for e in eqs]\n>>> print(Eq({X}, 0))\n>>> display(Eq(0, {ANGLE}))",
+        f"eq1 = simplify({X})\nprint(Eq({X}, 0)); print(Eq({ANGLE}, 0))\nplt.plot(t, sol.y[0], label='x')",
+        f"plot(t, x, 'r'); xlabel('t'); legend(['x'])\n{X} = 0\n{ANGLE} = 0",
+        f"for e in LM.eom: display(simplify(e))\n{X} = 0\n{ANGLE} = 0",
+    ],
+)
+def test_commands_of_sympy_state_nothing(session: str) -> None:
+    twins(session, "cart-pole")
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"In[9]:= InputForm[eom]\n\nOut[9]//InputForm= \n{{{MATHEMATICA}}}",
+        f"In[3]:= eom // FullSimplify\n\nOut[3]= {SWING} == 0",
+        "In[4]:= TeXForm /@ eqs\nOut[4]//TeXForm=\nm L^2 \\theta ''(t)+b \\theta '(t)+m g L \\sin (\\theta (t))=0",
+        f"Simplify[{SWING} == 0]",
+        f'Needs["VariationalMethods`"]\neqn = EulerEquations[lag, theta[t], t];\n{SWING} == 0',
+        f"sol = NDSolve[{{eqn, theta[0] == 1}}, theta, {{t, 0, 10}}]\n{SWING} == 0",
+        "{{theta''[t] -> -((b theta'[t] + m g L Sin[theta[t]])/(m L^2))}}",
+        "eqs = {m \\[Theta]''[t] L^2 + b \\[Theta]'[t] ==\n  -m g L Sin[\\[Theta][t]]}",
+    ],
+)
+def test_inputs_and_outputs_of_mathematica(session: str) -> None:
+    old, new = ("g Sin", "2 g Sin") if "(g Sin" in session else ("m g L", "m g")
+    twins(session, "pendulum", old, new)
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"In [5]: sol = solve(eq, theta.diff(t, 2))\nIn [6]: sol\nOut[6]: {{Derivative(theta(t), (t, 2)): {SOLVED}}}",
+        f"sol = solve([eq1], [thetadd], dict=True)\n{{thetadd: {SOLVED}}}",
+        f"from sympy.physics.mechanics import dynamicsymbols ... In[12]: print(LM.eom)\nMatrix([[{PENDULUM}]])",
+        f"> restart; with(Physics):\n> L := T - V;\n{PENDULUM} = 0",
+    ],
+)
+def test_solutions_and_single_rows(session: str) -> None:
+    twins(session, "pendulum", "L*g*m", "g*m")
+
+
+def test_sets_of_equations_in_the_latex_of_programs() -> None:
+    rows = (
+        "\\left\\{m l \\cos (\\theta (t)) \\theta ''(t)+(m+M) x''(t)+b x'(t)-m l \\theta '(t)^2 \\sin (\\theta (t))=F,"
+    )
+    rows += "\\left(J+m l^2\\right) \\theta ''(t)+m l \\cos (\\theta (t)) x''(t)=m g l \\sin (\\theta (t))\\right\\}"
+    twins(f"In[2]:= TeXForm[eqs]\n\nOut[2]//TeXForm= {rows}", "cart-pole", "+b x'", "-b x'")
+
+
+def test_a_note_says_which_lines_hold_commands() -> None:
+    checked = derivation("pendulum").check(f"N = ReferenceFrame('N')\nplot(t, x)\n{PENDULUM} = 0")
+    assert "Lines 1 and 2 hold commands of a program" in " ".join(checked.to_text().split())
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["sol = solve([m*L**2*theta.diff(t, 2) - b*theta.diff(t)], [w])", "add_row(m*L*theta'' + b*theta', k=2)"],
+)
+def test_an_equation_of_motion_in_a_command_is_never_left_out(command: str) -> None:
+    with pytest.raises(ParseError) as error:
+        right(f"{command}\n{PENDULUM} = 0", "pendulum")
+    assert error.value.place is not None
+    assert error.value.place.line in (None, 1)
+
+
+def test_a_name_that_a_command_sets_has_no_value() -> None:
+    with pytest.raises(ParseError, match="weight"):
+        right("weight = get_weight(m, g, units='SI')\nm*L**2*theta'' + b*theta' + weight*L*sin(theta) = 0", "pendulum")
