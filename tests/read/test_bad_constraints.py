@@ -34,7 +34,7 @@ BAD = {
     "two forms": ('[[constraint]]\nexpression="x"\nbetween=["P","Q"]\n', "E412", "got both"),
     "unknown point": ('[[constraint]]\nbetween=["P","R"]\n', "E412", "unknown point 'R'"),
     "three points": ('[[constraint]]\nbetween=["P","Q","origin"]\n', "E414", "3 entries"),
-    "one point": ('[[pin]]\nbetween=["P"]\n', "E414", "1 entries"),
+    "one point": ('[[pin]]\nbetween=["P"]\n', "E414", "1 entry"),
     "rate": ('[[constraint]]\nexpression="x\'"\n', "E419", "contains a rate"),
     "input": ('[[constraint]]\nexpression="x - F"\n', "E417", "may depend on t"),
     "input rate": ('[[velocity_constraint]]\nexpression="x\' - F"\n', "E417", "may depend on t"),
@@ -62,7 +62,7 @@ BAD = {
     "weld same": ('[[weld]]\nbetween=["P","P"]\n', "E410", "same point"),
     "weld frames": ('[[weld]]\nbetween=["P","Q"]\nbodies=["c"]\n', "E412", "unknown frame 'c'"),
     "slider": ('[[slider]]\nbetween=["P","Q"]\nalong=["x",1]\n', "E419", "made of parameters"),
-    "rope": ('[[rope]]\nthrough=["P"]\nlength=1\n', "E414", "1 entries"),
+    "rope": ('[[rope]]\nthrough=["P"]\nlength=1\n', "E414", "1 entry"),
     "rope neg": ('[[rope]]\nthrough=["P","Q"]\nlength=-1\n', "E406", "above 0"),
     "name twice": (
         '[[constraint]]\nname="a"\nexpression="x"\n[[pin]]\nname="a"\nbetween=["P","Q"]\n',
@@ -88,7 +88,7 @@ BAD = {
     "too short": (
         '[[constraint]]\nname="rod"\nbetween=["P","Q"]\ndistance="l"\n[[constraint]]\nexpression="x - 5*l"\n',
         "E304",
-        "'rod' by 3 open",
+        "'rod' by 3 m",
     ),
     "held open": (
         '[[constraint]]\nname="rod"\nbetween=["P","Q"]\ndistance="l"\n[simulate]\nfixed=["x","y"]\n',
@@ -105,6 +105,15 @@ BAD = {
     "kink": ('[[constraint]]\nexpression="abs(x) - l"\n', "E308", "kink"),
     "sqrt neg": ('[[constraint]]\nexpression="sqrt(-1 - x^2/l^2)"\n', "E503", "finite"),
     "impossible": ('[[constraint]]\nexpression="x^2/l^2 + 1"\n', "E304", "open"),
+    "equation": (
+        '[[constraint]]\nexpression="x = l*theta - y"\n',
+        "E701",
+        "write what is zero, without '=': x - (l*theta - y)",
+    ),
+    "equals zero": ('[[constraint]]\nname="c"\nexpression="x - l = 0"\n', "E701", "without '=': x - l"),
+    "comparison": ('[[velocity_constraint]]\nname="c"\nexpression="x\' == y\'"\n', "E701", "without '=': x' - y'"),
+    "a rate": ('[[constraint]]\nname="c"\nexpression="x\' - y"\n', "E419", "on rates is a velocity constraint"),
+    "one end": ('[[constraint]]\nbetween=["P"]\n', "E414", "has 1 entry"),
     "const": ('[[constraint]]\nexpression="l"\n', "E410", "restricts nothing"),
     "pin axis": ('[[pin]]\nbetween=["P","Q"]\naxis=[0,0,1]\n', "E414", "no axis"),
     "fixed": ('[[pin]]\nbetween=["P","Q"]\n[simulate]\nfixed=["z"]\n', "E402", "no coordinate 'z'"),

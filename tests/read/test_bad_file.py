@@ -147,7 +147,7 @@ BAD = [
     ),
     ("same point twice", GOOD + '[[spring]]\nk = 1\nbetween = ["A", "A"]\n', 24, 1, ["same point", "E410"]),
     ("unknown frame", change('["x", "0"]', '{ frame = "B", offset = ["x", "0"] }'), 14, 15, ["unknown frame 'B'"]),
-    ("point of one component", change('["x", "0"]', '["x"]'), 14, 5, ["point 'A'", "1 entries", "at least 2"]),
+    ("point of one component", change('["x", "0"]', '["x"]'), 14, 5, ["point 'A'", "1 entry", "at least 2"]),
     ("point of four components", change('["x", "0"]', "[1, 2, 3, 4]"), 14, 5, ["4 entries", "at most 3"]),
     ("mixed dimensions", change('["x", "0"]', '["x", "0"]\nB = ["x", "0", "0"]'), 15, 1, ["has 3 components", "E414"]),
     ("text for a point", change('["x", "0"]', '"x, 0"'), 14, 5, ["'A' must be a list or a table"]),

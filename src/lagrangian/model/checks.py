@@ -51,9 +51,9 @@ def check_use(
             )
         if use.level < Level.VELOCITY:
             holds = "coordinates" if use.level == Level.POSITION else "parameters"
-            raise error(
-                f"the {use.what} contains a rate, {name}'", f"it may depend on {holds} only, not on rates", "E419"
-            )
+            instead = ": a constraint on rates is a velocity constraint" if element.kind == "constraint" else ""
+            fix = f"it may depend on {holds} only, not on rates{instead}"
+            raise error(f"the {use.what} contains a rate, {name}'", fix, "E419")
     for atom in sorted(full.atoms(AppliedUndef), key=str):
         if atom in velocities and use.level < Level.VELOCITY:
             holds = "coordinates" if use.level == Level.POSITION else "parameters"

@@ -39,6 +39,25 @@ _CHARACTERS = {
 _QUOTES = frozenset("'\"`‘’“”′″")
 
 
+_LONGEST_SIDE = 60
+"""The longest side of an equation that is repeated in an error."""
+
+
+def _of_equation(source: Source, offset: int) -> str:
+    """What to write for an equation in a constraint: the difference of its sides, which is zero."""
+    left, right = source.text[:offset].strip(), source.text[offset:].lstrip("=").strip()
+    sides = (left, right)
+    if not re.match(r"expression of (velocity )?constraint\b", source.what) or not all(
+        0 < len(x) <= _LONGEST_SIDE and "=" not in x for x in sides
+    ):
+        return ""
+    if left.count("(") != left.count(")"):
+        return ""
+    is_sum = any(x in right[1:] for x in "+-")
+    whole = left if right in ("0", "0.0") else f"{left} - ({right})" if is_sum else f"{left} - {right}"
+    return f"write what is zero, without '=': {whole}"
+
+
 def explain(source: Source, offset: int, wants_operand: bool) -> ParseError:
     """Return the error for a text whose parse stopped at ``offset``, where an operand or an operator was expected."""
     text = source.text
@@ -57,13 +76,15 @@ def explain(source: Source, offset: int, wants_operand: bool) -> ParseError:
         return source.error(
             f"found '=' (assignment); {ALLOWED}",
             offset,
-            fix="write one expression without '='; inside piecewise(...) equality is ==",
+            fix=_of_equation(source, offset)
+            or "write one expression without '='; inside piecewise(...) equality is ==",
         )
     if match := _COMPARISON.match(rest):
+        equation = _of_equation(source, offset) if match.group() == "==" else ""
         return source.error(
             f"found the comparison '{match.group()}' outside a condition",
             offset,
-            fix="comparisons are allowed only in piecewise(condition, value, otherwise)",
+            fix=equation or "comparisons are allowed only in piecewise(condition, value, otherwise)",
         )
     if c == ")":
         return _closing(source, offset, before, wants_operand)

@@ -194,7 +194,7 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
         count = wanted.get("actual_length")
         low, high = wanted.get("min_length"), wanted.get("max_length")
         return ParseError(
-            f"{field} has {count} entries",
+            f"{field} has {count} {'entry' if count == 1 else 'entries'}",
             element=element,
             place=index.of_value(path),
             fix=f"give {'at least ' + str(low) if low is not None else 'at most ' + str(high)}",
