@@ -159,6 +159,7 @@ def _given(model: Model, row: Row) -> _Given:
 
 def _items(found: Constraints, readable: Callable[[sp.Expr], Left]) -> Iterator[Item]:
     yield Heading(text("The constraints"))
+    yield text("Every scalar condition is called a row. A force, described by its multiplier λ, keeps it:")
     header = (text("row"), text("what it says"), text("its multiplier λ"))
     yield Table(header, tuple((text(r.name), _states(r, readable), text(*r.multiplier)) for r in found.rows))
     for notice in found.notices():

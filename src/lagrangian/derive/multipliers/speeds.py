@@ -132,7 +132,7 @@ class _Elimination:
         return False
 
     def _turn(self) -> bool:
-        """Two coefficients that are a turn: a new speed across the row."""
+        """Two coefficients that are a turn: a new speed at right angles to the row."""
         for k, (name, row) in enumerate(self.rows):
             for j, i in _pairs(list(row.slopes)):
                 a, b = row.slopes[j], row.slopes[i]
@@ -168,7 +168,8 @@ class _Elimination:
             values.append((v, Linear({s: f for s, f in value.slopes.items() if not f.is_zero}, value.rest)))
         del self.rows[k]
         new = text(
-            "a new speed across '" + name + "', whose two coefficients have squares of constant sum: no division"
+            "a new speed that '" + name + "' leaves free; the squares of its two coefficients add up to a constant, so "
+            "that nothing is divided by what can vanish"
         )
         self.found.lines.append(SpeedLine(speed, meaning.expr(self.context), new))
         for v, value in values:

@@ -217,4 +217,15 @@ class NoSlip(Condition):
 
     def multiplier(self, model: Surroundings) -> Words:
         """The force on the body along the direction."""
-        return ("the force on ", *model.frame_words(self.frame), " along the direction in which it does not slip")
+        on = model.frame_words(self.frame)
+        return ("the force on ", *on, " ", *self._direction(model), ", the direction in which it does not slip")
+
+    def _direction(self, model: Surroundings) -> Words:
+        """The direction in words: along an axis, or its components, and whose axes they are."""
+        held = [(letter, x) for letter, x in zip("xyz", self.along, strict=False) if x != 0]
+        if len(held) == 1 and held[0][1] in (1, -1):
+            words: Words = (f"along {'' if held[0][1] == 1 else '−'}{held[0][0]}",)
+        else:
+            parts = [p for x in self.along for p in (x, ", ")][:-1]
+            words = ("along (", *parts, ")")
+        return words if self.axes is None else (*words, " of ", *model.frame_words(self.axes))
