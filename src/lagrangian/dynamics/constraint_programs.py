@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+from lagrangian.dynamics.accelerations import condensed
 from lagrangian.dynamics.constrained import (
     drive,
     dual,
@@ -29,6 +30,7 @@ from lagrangian.dynamics.constrained import (
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.programs import _matrix, _once, _program, _start, _vector
 from lagrangian.dynamics.row_problem import RowSolution
+from lagrangian.dynamics.tape import make_tape
 from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
 from lagrangian.graph import Output, Program, Tangents, jvp, vjp
@@ -121,7 +123,9 @@ def closing_terms(model: Model, fixed: Collection[str] = ()) -> Program:
     held = [row for c, row in zip(model.coordinates, N, strict=True) if c.name in fixed]
     A = [*(vjp(graph, [row.rate], [graph.one], list(m.v)) for row in rows), *held]
     f = [*(row.residual or graph.zero for row in rows), *zeros(graph, len(held))]
-    outputs = {"f": _vector(f), "A": _matrix(A), "M": _matrix(m.mass_matrix()), "N": _matrix(N)}
+    H = m.inertia(m.groupings[0])  # for one search, M need not be the cheapest
+    M = condensed(graph, make_tape(graph, list(H.rows), m.v), H, m.v)
+    outputs = {"f": _vector(f), "A": _matrix(A), "M": _matrix(M), "N": _matrix(N)}
     return _program(model, "closing_terms", graph, outputs)
 
 

@@ -344,16 +344,12 @@ class Mechanics:
         velocities in ``fixed`` (numbers) stay as they are. ``drags`` are frictions that their multipliers press on.
         """
         H = self.inertia(links)
-        ways = [(H, self._linear(pairs), True), (H, self._linear(pairs), False)]
-        if len(self.v) <= DENSE:
-            gathered = dict(zip(self.v, self.gathered(pairs), strict=True))
-            ways.append((self._dense, gathered, False))
         attached = [AttachedRow.of(self.graph, row, value) for row, value in rows]
         names = [row.name for row, _ in rows]
         pressed = [AttachedDrag.of(self.graph, drag, names) for drag in drags]
         nodes = [a.node for a in (*attached, *pressed)]
         rates = [v for i, v in enumerate(self.v) if i not in fixed]
-        for form, linear, exchange in ways:
+        for form, linear, exchange in self._ways(H, pairs):
             seeds = list(dict.fromkeys((*form.rows, *linear, *nodes)))
             tape = make_tape(self.graph, seeds, rates, {*form.rows, *nodes} if exchange else None)
             if exchange and not tape.exchanged:
@@ -374,6 +370,14 @@ class Mechanics:
                 pressed,
             )
             yield from in_speeds_of_rows(problem)
+
+    def _ways(self, H: Quadratic, pairs: Pairs) -> Iterator[tuple[Quadratic, dict[int, int], bool]]:
+        """Forms of the inertia with their linear terms, and whether nodes are exchanged: M is made if it is asked for."""
+        linear = self._linear(pairs)
+        yield H, linear, True
+        yield H, linear, False
+        if len(self.v) <= DENSE:
+            yield self._dense, dict(zip(self.v, self.gathered(pairs), strict=True)), False
 
     @cached_property
     def _dense(self) -> Quadratic:

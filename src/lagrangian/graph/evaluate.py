@@ -11,8 +11,8 @@ infinity or NaN, never an exception. With mpmath, the same evaluation uses the r
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Mapping, Sequence
-from operator import itemgetter
 from typing import Any
 
 import mpmath
@@ -79,19 +79,19 @@ def _max(a: Any, b: Any) -> Any:
 
 
 _SHARED: Table = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "neg": lambda a: -a,
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "neg": operator.neg,
     "abs": abs,
     "min": _min,
     "max": _max,
-    "lt": lambda a, b: a < b,
-    "le": lambda a, b: a <= b,
-    "eq": lambda a, b: a == b,
+    "lt": operator.lt,
+    "le": operator.le,
+    "eq": operator.eq,
     "and": lambda a, b: bool(a) and bool(b),
     "or": lambda a, b: bool(a) or bool(b),
-    "not": lambda a: not a,
+    "not": operator.not_,
     "select": lambda c, a, b: a if c else b,
 }
 
@@ -226,7 +226,7 @@ def _plan(program: Program) -> Plan:
         node = nodes[i]
         if node[0] not in LEAVES:
             where = [place[k] for k in operands(node)] + ([literal[node[2]]] if node[0] == "powi" else [])
-            steps.append((node[0], itemgetter(*where) if len(where) > 1 else itemgetter(slice(where[0], where[0] + 1))))
+            steps.append((node[0], operator.itemgetter(*where) if len(where) > 1 else operator.itemgetter(slice(where[0], where[0] + 1))))
             place[i] = len(leaves) + len(steps) - 1
     return leaves, steps, {name: [place[i] for i in out.ids] for name, out in program.outputs.items()}
 

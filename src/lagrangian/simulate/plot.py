@@ -128,12 +128,13 @@ def _angles(model: Model) -> set[Any]:
             turned.append(frame.angle)
     turned += [f.args[0] for e in exprs for f in model.expand(e).atoms(sp.sin, sp.cos, sp.tan)]
     angles = {c.symbol for c in model.coordinates if c.unit in (None, "rad")}
-    return {q for q in angles if any(_alone(model.expand(a), q) for a in turned)}
+    written = {model.expand(a) for a in dict.fromkeys(turned)}
+    return {q for q in angles if any(_alone(a, q) for a in written)}
 
 
 def _alone(angle: sp.Expr, q: Any) -> bool:
     """Whether q occurs in an angle as a term of a sum, at most with a numerical factor."""
-    return bool(sp.diff(angle, q).is_number) and angle.has(q)
+    return angle.has(q) and bool(sp.diff(angle, q).is_number)
 
 
 # -- columns ----------------------------------------------------------------------------------------------------

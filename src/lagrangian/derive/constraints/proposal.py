@@ -65,7 +65,10 @@ def _ways(
     moving = f.atoms(AppliedUndef)
     turned = _within_functions(f)  # in these f is not a polynomial
     free = [q for q in free if q in moving and q not in turned]
+    bent = _in_powers(f)
     for q in free:
+        if q in bent:  # its slope has q, too
+            continue
         slope = bounded.diff(f, q)
         if slope != 0 and not slope.has(*coordinates, time):
             value = bounded.expand(bounded.cancel((level - f.subs(q, 0)) / slope))
@@ -95,6 +98,11 @@ def _within_functions(f: sp.Expr) -> set[sp.Basic]:
         else:
             open_parts += [(part, within or isinstance(node, sp.Function)) for part in node.args]
     return found
+
+
+def _in_powers(f: sp.Expr) -> set[sp.Basic]:
+    """The functions of time in the bases of squares, roots and quotients."""
+    return {q for power in f.atoms(sp.Pow) for q in power.atoms(AppliedUndef)}
 
 
 def _circles(
