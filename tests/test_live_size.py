@@ -99,6 +99,11 @@ def test_a_long_description_is_cut_below_the_name_and_whole_in_the_picture() -> 
     assert system.look().scene.description.startswith(words.removesuffix(" …"))
 
 
+def test_letters_with_a_number_have_subscripts_below_the_name_of_a_system() -> None:
+    words = live._subtitle(built_in.picture("lecture-3a").scene)
+    assert words.startswith("Cart m₁ ") and "cart m₂" in words and not re.search(r"\b[A-Za-z]\d", words)
+
+
 def test_a_positive_coordinate_without_a_start_begins_as_it_is_drawn() -> None:
     system = lg.System("ball on a spring")
     r = system.coordinate("r", positive=True)

@@ -43,6 +43,8 @@ NEVER_ZERO = ("kg", "m", "kg m^2")
 LONGEST_SUBTITLE = 480
 """At most so many characters of what is seen stand below the name of a system."""
 
+SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
 MAX_FUNCTIONS = 60_000
 """Functions in JavaScript of more characters are left out as far as WebAssembly replaces them."""
 
@@ -88,6 +90,7 @@ def _subtitle(scene: Scene) -> str:
     words = scene.description.removeprefix(f"{scene.name}: ").partition(" Coordinates: ")[0]
     if len(words) > LONGEST_SUBTITLE:  # the picture's own description has all of it
         words = re.sub(r"[;.,]?[^;.]*\Z", " …", words[:LONGEST_SUBTITLE], count=1)
+    words = re.sub(r"\b([A-Za-z])_?(\d{1,2})\b", lambda name: name[1] + name[2].translate(SUBSCRIPTS), words)
     return words[:1].upper() + words[1:]
 
 

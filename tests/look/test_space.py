@@ -227,3 +227,10 @@ def test_a_limb_in_a_ball_joint_is_not_called_hinged() -> None:
     words = system.look().description.lower()
     assert words.startswith("a boom hinged on the ground; an arm on a ball joint on the boom; a foot ")
     assert words.count("hinged") == 1
+
+
+def test_the_advice_for_a_length_that_is_too_short_draws_it() -> None:
+    advice = [x.partition("[look] ")[2] for x in picture("stewart-platform").missing if "too short" in x]
+    assert advice == ['pose = { platform_x = "0.2 m" }', 'pose = { platform_y = "0.2 m" }']
+    there = built_in.system("stewart-platform").look(pose={"platform_x": 0.2, "platform_y": 0.2})
+    assert not any("too short" in x for x in there.missing)

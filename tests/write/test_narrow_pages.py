@@ -37,3 +37,14 @@ def test_no_formula_is_wider_than_the_screen_of_a_telephone(tmp_path: Path) -> N
             assert opened.evaluate(WIDER) == [], name
             assert opened.evaluate("document.documentElement.scrollWidth") == 320, name
         browser.close()
+
+
+def test_a_keyboard_reaches_what_slides_on_a_narrow_screen() -> None:
+    """Tables and long matrices; a formula that breaks is no stop on the way through the page."""
+    page = derivation("double-pendulum").to_html()
+    boxes = re.findall(r'<div class="(?:table|formula)"[^>]*>', page)
+    tables = [box for box in boxes if 'class="table"' in box]
+    reached = [box for box in boxes if 'tabindex="0" role="group" aria-label="' in box]
+    assert tables and set(tables) < set(reached)
+    assert 'aria-label="Table: symbol, what it is, value"' in "".join(tables)
+    assert 0 < len(reached) - len(tables) < len(boxes) - len(tables)

@@ -372,7 +372,7 @@ class Mechanics:
             yield from in_speeds_of_rows(problem)
 
     def _ways(self, H: Quadratic, pairs: Pairs) -> Iterator[tuple[Quadratic, dict[int, int], bool]]:
-        """Forms of the inertia with their linear terms, and whether nodes are exchanged: M is made if it is asked for."""
+        """Forms of the inertia with their linear terms, and whether nodes are exchanged. M is made last."""
         linear = self._linear(pairs)
         yield H, linear, True
         yield H, linear, False

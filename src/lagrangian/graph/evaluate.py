@@ -226,7 +226,8 @@ def _plan(program: Program) -> Plan:
         node = nodes[i]
         if node[0] not in LEAVES:
             where = [place[k] for k in operands(node)] + ([literal[node[2]]] if node[0] == "powi" else [])
-            steps.append((node[0], operator.itemgetter(*where) if len(where) > 1 else operator.itemgetter(slice(where[0], where[0] + 1))))
+            taken = where if len(where) > 1 else [slice(where[0], where[0] + 1)]
+            steps.append((node[0], operator.itemgetter(*taken)))
             place[i] = len(leaves) + len(steps) - 1
     return leaves, steps, {name: [place[i] for i in out.ids] for name, out in program.outputs.items()}
 

@@ -19,6 +19,9 @@ from lagrangian.page.scene import Disc
 
 Array = NDArray[np.float64]
 
+SEEN = 40.0
+"""A length that is seen well [px], which the advice for one that is too short asks for."""
+
 MANY = 9
 """So many angles of like legs are not drawn."""
 
@@ -101,7 +104,9 @@ class SpaceMeasures:
             at = at + float(board.q[i]) * e
             length = float(np.linalg.norm(end - start))
             if length < 14.0:
-                board.lacks(f"coordinate {names[i]} is not drawn, because it is too short here", "[look] pose")
+                seen = board.scale * float(np.linalg.norm(board.view @ e))  # pixels of a metre
+                way = f'pose = {{ {names[i]} = "{SEEN / max(seen, 1e-3 * board.scale):.1g} m" }}'
+                board.lacks(f"coordinate {names[i]} is not drawn, because it is too short here", f"[look] {way}")
                 continue
             curved_arrow(board, [start, end], "coordinate", (names[i],), kind="coordinate", layer=GROUND + 2)
             n = np.array([start[1] - end[1], end[0] - start[0]]) / length

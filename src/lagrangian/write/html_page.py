@@ -6,6 +6,7 @@ focus. Every step can be folded; in print all steps are open. A formula that is 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from html import escape as _escape
 from importlib.resources import files
@@ -55,6 +56,9 @@ SHORT_COLUMNS = 36
 
 BREAKS = ((1, 2), (LOOSE,), (3, LOOSE + 1), (4, LOOSE + 2), (5, LOOSE + 3))
 """The levels of breaks within a term, the best first: in its outer sums, between its factors, then further inside."""
+
+LONGEST_PIECE = 26
+"""A piece of a formula with more characters may be wider than a telephone's screen."""
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
 
@@ -258,7 +262,8 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
                 yield f'<p class="{role}"><a href="#{link}">{inline(text)}</a></p>'
                 return
             lead = '<span class="lead">Why:</span> ' if role == "why" else ""
-            yield f"<p{f' class={role}' if role else ''}>{lead}{inline(text)}</p>"
+            said = inline(text)
+            yield f"<p{f' class={role}' if role else ''}{_reached(said, 'Sentence')}>{lead}{said}</p>"
         case Display():
             yield _display(block, anchors)
         case Boxed(displays):
@@ -282,7 +287,7 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
 def _preformatted(blocks: tuple[Block, ...]) -> str:
     """Formulas as lines of preformatted text, because a browser takes long for mathematics of this length."""
     shown = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
-    return f"<pre>{escape_lines(shown)}</pre>"
+    return f'<pre tabindex="0" role="group" aria-label="Long formula">{escape_lines(shown)}</pre>'
 
 
 def escape_lines(listed: list[str]) -> str:
@@ -293,7 +298,23 @@ def escape_lines(listed: list[str]) -> str:
 def _display(block: Display, anchors: bool) -> str:
     identity = f' id="{block.anchor}"' if anchors and block.anchor else ""
     note = f' <span class="note">{inline(block.note)}</span>' if block.note else ""
-    return f'<div class="formula"{identity}>{_chain(block.sides)}{note}</div>'
+    chain = _chain(block.sides)
+    return f'<div class="formula"{identity}{_reached(chain, "Formula")}>{chain}{note}</div>'
+
+
+_PIECE, _TAGS = re.compile(r"<math.*?</math>", re.DOTALL), re.compile(r"<[^>]*>")
+_UNSEEN = re.compile(r"[\s\u2009\u2061-\u2063]")
+
+
+def _plain(html: str) -> str:
+    """The text within elements."""
+    return _TAGS.sub("", html)
+
+
+def _reached(inner: str, name: str) -> str:
+    """Attributes by which a keyboard reaches what slides on a narrow screen: a formula that cannot break."""
+    wide = any(len(_UNSEEN.sub("", _plain(piece))) > LONGEST_PIECE for piece in _PIECE.findall(inner))
+    return f' tabindex="0" role="group" aria-label="{name}"' if wide else ""
 
 
 def _chain(sides: tuple[Math, ...]) -> str:
@@ -318,7 +339,9 @@ def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
         equations.append(
             f'<div class="equation"{identity}><div class="terms">{_kept(sides, EQUALS)}</div>{number}</div>'
         )
-    yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(equations)}</div>'
+    joined = "".join(equations)
+    reached = ' tabindex="0"' if _reached(joined, "") and "tabindex" not in joined else ""
+    yield f'<div class="result" role="group" aria-label="Equations of motion"{reached}>{joined}</div>'
     if kinds:
         shown = "".join(
             f'<li><span class="swatch {_colour(k)}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds
@@ -371,4 +394,6 @@ def _table(table: TableBlock) -> str:
         + "</tr>"
         for row_ in table.rows
     )
-    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+    said = _plain(head.replace("</th>", ", ")).strip(" ,").replace('"', "&quot;")
+    attributes = f'class="table" tabindex="0" role="group" aria-label="Table: {said}"'
+    return f"<div {attributes}><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>"
