@@ -248,3 +248,8 @@ def test_every_step_leads_to_the_page() -> None:
         assert f'id="{anchor}"' in html
     assert d.to_text().count("--why shows the reason") == 7
     assert "--why" not in d.to_text(brief=True)
+
+
+@pytest.mark.parametrize(("name", "free"), [("lecture-3a", 2), ("lecture-3b", 2), ("pendulum", 0)])
+def test_where_nothing_holds_a_mass_its_force_is_said_to_be_0(name: str, free: int) -> None:
+    assert derivation(name).why.to_text().count("Nothing holds it along x: there R is 0") == free

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from typing import Any, cast
 
 import sympy as sp
@@ -96,6 +97,7 @@ def _body(why: Reasoning, hold: Holding, *, alone: bool) -> Iterator[Item]:
         yield text(f"{capital(described)}, and what holds it:")
     else:
         yield text(f"{title}: {described}, and what holds it:")
+    free: list[str] = []
     for m, R in zip(why.moving, why.reactions, strict=True):
         if m.body is not body:
             continue
@@ -104,6 +106,11 @@ def _body(why: Reasoning, hold: Holding, *, alone: bool) -> Iterator[Item]:
             yield formula(
                 component(letter, why, m, axis), *_newton(why, m, axis, reaction), note=_still_note(m, axis, reaction)
             )
+            free += [AXES[axis]] if not m.turning and _vanishes(why, reaction) else []
+    if free:
+        yield text(
+            f"Nothing holds it along {and_(free)}: there ", Name("R"), " is 0, as the equations of motion will say."
+        )
     yield from _pull(why, hold)
     yield from _without_acceleration(why, body)
 
@@ -155,6 +162,10 @@ def _newton(why: Reasoning, m: Moving, axis: int, reaction: Form) -> Iterator[Le
     yield short(why, reaction)
 
 
+MOST_ADDED = 4
+"""With more equations of motion it is not tried whether a force is a sum of them."""
+
+
 def _plane(m: Moving) -> Moving:
     """The same with one component, whose name is x_1 rather than x_x1."""
     return Moving(m.body, m.turning, m.velocity[:1], (), (), (), (), ())
@@ -164,6 +175,20 @@ def _still_note(m: Moving, axis: int, reaction: Form) -> Text | None:
     if not m.turning and not m.velocity[axis].parts and reaction.parts:
         return text(f"it does not move along {AXES[axis]}")
     return None
+
+
+def _vanishes(why: Reasoning, reaction: Form) -> bool:
+    """Whether a constraint force is 0 on every motion: a sum of left-hand sides minus Ξ, each 0, 1 or −1 times."""
+    if reaction.is_zero or len(why.laws) > MOST_ADDED or why.derived.shares.rows:
+        return False
+    laws = [law.left - law.Xi for law in why.laws]
+    for signs in product((0, 1, -1), repeat=len(laws)):
+        rest = reaction
+        for sign, law in zip(signs, laws, strict=True):
+            rest = rest - law if sign > 0 else rest + law if sign < 0 else rest
+        if any(signs) and rest.is_zero:
+            return True
+    return False
 
 
 def _pull(why: Reasoning, hold: Holding) -> Iterator[Item]:
