@@ -279,3 +279,13 @@ def test_a_spring_linearized_alone_is_one_mistake_and_gravity_is_not_blamed() ->
     rows = "m*l^2*p'' + m*g*l*sin(p) - k*a^2*(q - p) = 0\nm*l^2*q'' + m*g*l*sin(q) + k*a^2*(q - p) = 0"
     (mistake,) = s.derive().check(rows).mistakes
     assert mistake.element == "spring 'k'" and "sin θ was replaced by θ" in str(mistake.what)
+
+
+def test_of_two_terms_the_one_with_a_factor_too_much_is_told() -> None:
+    """J θ″ = L² F: rather L stands squared than the equation was multiplied by L without its first term."""
+    s = lg.System("beam with a jet")
+    theta, J, L, F = s.coordinate("theta"), s.parameter("J"), s.parameter("L"), s.input("F")
+    s.rigid_body(s.parameter("m"), J, at=s.origin, frame=theta, name="beam")
+    s.force(F, deflection=L * theta, name="jet")
+    name, words = only(s.derive(), "J*theta'' = L^2*F")
+    assert name in {"squared", "force_arm", "foreign_factor"} and "multiplied" not in words, words

@@ -26,18 +26,20 @@ MOST_DIVISORS = 40
 
 @dataclass(frozen=True, eq=False)
 class Undivided:
-    """A term of equation ``row`` that was divided (or ``multiplied``) by ``only`` where the others were by ``by``."""
+    """A term of equation ``row`` that was divided (or ``multiplied``) by ``only`` where ``others`` were by ``by``."""
 
     row: int
     term: RightTerm
     by: sp.Expr
     only: sp.Expr
     multiplied: bool
+    others: int
 
     @property
     def cost(self) -> float:
         """How unlikely it is that this was the mistake."""
-        return 1.8 + self.term.cost + (0.0 if self.only == 1 else 0.4) + (0.6 if self.multiplied else 0.0)
+        alone = 0.8 if self.others == 1 else 0.0  # of two terms the other one may as well have a factor too much
+        return 1.8 + self.term.cost + (0.0 if self.only == 1 else 0.4) + (0.6 if self.multiplied else 0.0) + alone
 
     def mistake(self, truth: Reference) -> Mistake:
         """The mistake in words."""
@@ -80,9 +82,9 @@ def _under(pool: Pool, a: Alignment) -> Iterator[Undivided]:
         if k_only := _share(pool, times[k], by):
             done, only = k_only
             multiplied = sp.fraction(by)[1] != 1
-            yield Undivided(
-                i, right.terms[k], 1 / by if multiplied else done, 1 / only if multiplied else only, multiplied
-            )
+            by_all, by_one = (1 / by, 1 / only) if multiplied else (done, only)
+            others = len(pool.sites.rows[i]) - len(sp.Add.make_args(bounded.expand(right.terms[k].expr)))
+            yield Undivided(i, right.terms[k], by_all, by_one, multiplied, others)
 
 
 def _divisor(pool: Pool, a: Alignment, j: int) -> sp.Expr | None:

@@ -49,10 +49,11 @@ def _in_elements(s: Ingredients, a: sp.Symbol, b: sp.Symbol) -> Iterator[Variant
         T = s.kinetic(element)
         V = s.expand(element.potential(s.model))
         what = text(b, " stands in place of ", a, f" in {element.title}.")
+        in_T, in_V = put(T, {a: b}), put(V, {a: b})
         if T.has(a):
-            yield Variant(what=what, T=put(T, {a: b}) - T, element=element)
+            yield Variant(what=what, T=in_T - T, element=element, doubt=int(not in_T.has(b)))
         if V.has(a):
-            yield Variant(what=what, V=put(V, {a: b}) - V, element=element)
+            yield Variant(what=what, V=in_V - V, element=element, doubt=int(not in_V.has(b)))
         if element.ledger == "Ξ":
             shares = s.shares(element)
             changed = {i: put(x, {a: b}) - x for i, x in shares.items() if x.has(a)}
