@@ -38,7 +38,7 @@ _RATE_OF = re.compile(r"(?<!\w)d(?P<two>2|\^2|²)?_?(?P<of>[^\W\d_]\w{0,20}?)_?d
 _RATE = re.compile(r"^[ \t]*+(?P<rate>d_?(?P<of>[^\W\d_]\w{0,20}))(?=[ \t]*+=(?!=)[ \t]*+[^ \t\[])", re.MULTILINE)
 _COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
 _IS = r"(?:=|:=|:|is|are|denotes|means|stands[ ]for|<-|->)"
-_VALUE = rf"d[ ]?{_NAME}[ ]?/[ ]?dt|{_NAME}['’′]{{0,2}}"
+_VALUE = rf"d[ ]?{_NAME}[ ]?/[ ]?dt|der\({_NAME}\)|{_NAME}['’′]{{0,2}}"
 _OF_LIST = rf"their[ ](?:rates|velocities|speeds|derivatives)|{_VALUE}(?:[ ]?,[ ]?(?:{_VALUE}))*"
 _SAID = re.compile(
     rf"(?<![\w.])(?P<new>{_LIST})[ \t]*+{_IS}[ \t]*+(?:the[ ]|rate[ ]of[ ])*(?P<own>{_OF_LIST})(?![\w(^*/+-]|[ ]*{_IS})"
@@ -49,7 +49,7 @@ _FORMULA = re.compile(
     re.MULTILINE,
 )
 """A definition that stands in a comment alone."""
-_DERIVED = re.compile(rf"d[ ]?(?P<of>{_NAME})[ ]?/[ ]?dt")
+_DERIVED = re.compile(rf"d[ ]?(?P<of>{_NAME})[ ]?/[ ]?dt|der\((?P<in>{_NAME})\)")
 
 
 def with_program_names(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -107,7 +107,7 @@ def _commented(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
         above: list[str] = []
         for match in islice(_SAID.finditer(comment["said"]), MOST):
             new = re.findall(_NAME, match["new"])
-            own = [_DERIVED.sub(lambda m: f"{m['of']}'", x.strip()) for x in match["own"].split(",")]
+            own = [_DERIVED.sub(lambda m: f"{m['of'] or m['in']}'", x.strip()) for x in match["own"].split(",")]
             if own[0].startswith("their "):
                 own = [f"{x}'" for x in above]
             new = new[-len(own) :]  # two pendula, th1, th2 = …

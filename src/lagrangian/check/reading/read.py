@@ -10,6 +10,7 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.indexed import counted_names, without_indices
@@ -22,6 +23,7 @@ from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines
 from lagrangian.check.reading.listed_values import without_values
 from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
+from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
@@ -164,7 +166,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     given = text
     lines = Lines(model)
     typed = Source(plainer(text), "the answer", place)
-    plain = _without_notations(typed.text, lines)
+    plain = _without_notations(typed, lines)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
@@ -217,9 +219,9 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     return Answer(made, notation, unknown, notes, said, unread, tuple(again))
 
 
-def _without_notations(text: str, lines: Lines) -> TracedText:
+def _without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
-    names = lines.names
+    names, text = lines.names, typed.text
 
     def taken(name: str) -> bool:
         return bool(names.scope.meanings(name)[0])
@@ -230,11 +232,11 @@ def _without_notations(text: str, lines: Lines) -> TracedText:
     )
     if commands:
         names.notes.setdefault(_left_out(text, commands))
-    tagless = solved_matrices(session)
+    tagless = solved_matrices(without_drawn_formulas(session, typed))
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
-        tagless = without_lists(without_program_marks(tagless, taken))
+        tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))

@@ -43,8 +43,9 @@ _HUMPED = re.compile(r"(?:[A-Z][a-z]{1,20}){2,6}[A-Z]?|[a-z]{2,20}(?:_[a-z]{2,20
 _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]"
     r"|(?:[dD]iff\w{0,9}|Derivative|\bD)[(\[](?:[^()\[\],\n]{0,40}(?:[(\[]t[)\]])?\s*,)?\s*[({]?\s*t\s*(?:,\s*(?:2|t)|\$\s*2)"
-    r"|diff\(t?\)\.diff"
+    r"|diff\(t?\)\.diff|\bd\^?[2²]\s*/\s*dt"
 )
+_BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -198,7 +199,7 @@ def carries(written: str) -> bool:
 
 def is_acceleration(written: str) -> bool:
     """Whether a text is an acceleration alone."""
-    return _ACCELERATES.search(written) is not None and _OPERATOR.search(written) is None
+    return _ACCELERATES.search(written) is not None and _OPERATOR.search(_BY_TIME.sub("", written)) is None
 
 
 def _entries(written: str) -> Iterator[str]:

@@ -1,0 +1,123 @@
+"""Formulas that programs draw over several lines: SymPy's and Maxima's, cut into pieces or whole.
+
+Oracle: SymPy draws the equations of the cart with a pole and of the pendulum, of which one has a wrong twin; the drawn
+ones by hand are copies of what Maxima prints.
+"""
+
+from typing import Any
+
+import pytest
+import sympy as sp
+
+from built_in import derivation
+from lagrangian import ParseError
+from lagrangian.check.reading.layout import LayoutError, in_line
+
+t, M, m, l, J, g, b, F, L = sp.symbols("t M m l J g b F L")
+x, theta = sp.Function("x")(t), sp.Function("theta")(t)
+
+
+def cart(sign: int) -> tuple[sp.Expr, sp.Expr]:
+    """The two equations, which are zero; with -1 the weight has the wrong sign."""
+    first = (M + m) * x.diff(t, 2) + m * l * sp.cos(theta) * theta.diff(t, 2) + b * x.diff(t) - F
+    second = (J + m * l**2) * theta.diff(t, 2) + m * l * sp.cos(theta) * x.diff(t, 2) - sign * m * g * l * sp.sin(theta)
+    return first - m * l * sp.sin(theta) * theta.diff(t) ** 2, second
+
+
+def drawn(thing: Any, wide: bool = True) -> str:
+    """What SymPy's pprint shows, whole or in pieces as in a window of 80 columns."""
+    return sp.pretty(thing, use_unicode=True, wrap_line=not wide, num_columns=80)
+
+
+def right(written: str, name: str = "cart-pole") -> bool:
+    """Whether an answer is judged right."""
+    return derivation(name).check(written).right
+
+
+@pytest.mark.parametrize("wide", [True, False])
+@pytest.mark.parametrize("form", ["equations", "matrix", "list", "fractions", "solution", "said"])
+def test_what_sympy_draws_is_read(form: str, wide: bool) -> None:
+    def answer(sign: int) -> str:
+        first, second = cart(sign)
+        if form == "equations":
+            return f"{drawn(sp.Eq(first + F, F), wide)}\n\n{drawn(sp.Eq(second, 0), wide)}"
+        if form == "matrix":
+            return f"In [3]: LM.eom\nOut[3]:\n{drawn(sp.Matrix([first, second]), wide)}"
+        if form == "list":
+            return f">>> pprint([e1, e2])\n{drawn([first, second], wide)}"
+        if form == "fractions":
+            rest = (second / (J + m * l**2)).expand() - theta.diff(t, 2)
+            solved = sp.factor_terms(rest).subs(theta.diff(t, 2), 0)
+            assert sp.simplify(second / (J + m * l**2) - theta.diff(t, 2) - solved) == 0
+            return f"{drawn(sp.Eq(first, 0), wide)}\n\n{drawn(sp.Eq(theta.diff(t, 2), sp.simplify(-solved)), wide)}"
+        if form == "solution":
+            found = sp.solve([first, second], [x.diff(t, 2), theta.diff(t, 2)])
+            return f"sol = solve([e1, e2], [xdd, thetadd])\n{drawn(sp.factor(found), wide)}"
+        return f"The first equation is:\n{drawn(sp.Eq(first, 0), wide)}\n\n(2)\n\n{drawn(sp.Eq(0, second), wide)}"
+
+    assert right(answer(1))
+    assert not right(answer(-1))
+
+
+@pytest.mark.parametrize("wide", [True, False])
+def test_roots_and_nested_fractions_are_put_on_one_line(wide: bool) -> None:
+    length = sp.sqrt(x**2 + l**2)
+    made = in_line(drawn(sp.Eq(m * x.diff(t, 2) / 2, -M * (1 - l / length) * x / (1 + b / J)), True).split("\n"))
+    assert made.replace(" ", "").replace("⋅", "*").startswith("((m*d^2/dt^2(x(t)))/(2))=")
+    assert "sqrt(l^2 + x^2(t))" in made
+
+
+MAXIMA = """
+(%i4) eom;
+                2
+           2   d                    d
+(%o4)     L  m --- (theta) + b      -- (theta) + L g m sin(theta) = 0
+                 2                  dt
+               dt
+"""
+QUOTIENT = """
+  2
+ d                 b theta' + L g m sin(theta)
+ --- (theta)  =  - ---------------------------
+   2                           2
+ dt                           L  m
+"""
+
+
+@pytest.mark.parametrize("shown", [MAXIMA, QUOTIENT])
+def test_what_maxima_draws_is_read(shown: str) -> None:
+    assert right(shown, "pendulum")
+    assert not right(shown.replace("L g m", "L L m"), "pendulum")
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["  2", "m  + x", "y"],
+        ["x = ──────", "      2   "],
+        ["    ⎛ a", "x = ⎝ b ⎞"],
+        ["x = ⎛  ⎞", "    ⎝  ⎠"],
+        ["  a     2", "x = ───   ", "  b  "],
+        ["⎛" * 40, "⎝" * 40],
+        ["─", "─", "─"],
+    ],
+)
+def test_signs_that_do_not_fit_together_are_never_guessed(lines: list[str]) -> None:
+    with pytest.raises(LayoutError):
+        in_line(lines)
+
+
+def test_a_fraction_that_cannot_be_put_together_is_an_error_at_its_place() -> None:
+    with pytest.raises(ParseError, match="drawn over several lines") as error:
+        right(
+            "m*L^2*theta'' + b*theta' = 0\n\n        m g L sin(theta)  x\nq = - ────────────────\n    2     m L^2",
+            "pendulum",
+        )
+    assert error.value.place is not None
+    assert error.value.place.line == 3
+
+
+def test_rules_under_headings_are_no_fractions() -> None:
+    assert right("Equation\n────────\n\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
+    assert right("Equation\n────────\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
+    assert right("Equation\n--------\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")

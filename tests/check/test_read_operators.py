@@ -1,0 +1,50 @@
+"""D and D2 as operators that differentiate by time, and der of Modelica.
+
+Oracle: the equations of the pendulum and of the cart with a pole in the grammar of model files; each has a wrong twin.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+PENDULUM = "m*L^2*D(D(theta)) + b*D(theta) + m*g*L*sin(theta) = 0"
+
+
+def right(written: str, name: str = "pendulum") -> bool:
+    """Whether an answer is judged right."""
+    return derivation(name).check(written).right
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        PENDULUM,
+        f"{PENDULUM}\nwhere D is d/dt",
+        f"{PENDULUM}, where D() is the time derivative.",
+        f"D(z) = dz/dt\n{PENDULUM}",
+        "m*L^2*D2(theta) + b*D(theta) + m*g*L*sin(theta) = 0\nwhere D(z) = dz/dt and D2(z) = d²z/dt²",
+        "m*L^2*D(D(theta))(t) + b*D(theta)(t) + m*g*L*sin(theta(t)) = 0;",
+        "m*L^2*(D@@2)(theta)(t) + b*D(theta)(t) + m*g*L*sin(theta(t)) = 0;",
+        "D(m*L^2*D(theta)) + b*D(theta) + m*g*L*sin(theta) = 0",
+        "T = m*L^2*D(theta)^2/2\ndT/dD(theta) = m*L^2*D(theta)\n"
+        "m*L^2*D2(theta(t)) + b*D(theta(t)) + m*g*L*sin(theta) = 0",
+        "w = D(theta)\nm*L^2*D(w) + b*w + m*g*L*sin(theta) = 0",
+        "m*L^2*der(w) = -b*w - m*g*L*sin(theta);\n/* with w = der(theta) */",
+        "der(theta) = w;\nm*L^2*der(w) = -b*w - m*g*L*sin(theta); // Modelica",
+    ],
+)
+def test_operators_differentiate_by_time(written: str) -> None:
+    assert right(written)
+    wrong = written.replace("m*g*L", "m*g")
+    assert wrong != written
+    assert not right(wrong)
+
+
+def test_a_name_of_the_answer_is_no_operator() -> None:
+    assert not right("D = b\nm*L^2*D(D(theta)) + D(theta) + m*g*L*sin(theta) = 0")
+
+
+def test_a_bracket_behind_an_unknown_d_is_not_taken_for_a_derivative() -> None:
+    with pytest.raises(ParseError):
+        right("m*L^2*theta'' + D(theta' - 0) + m*g*L*sin(theta) = 0")
