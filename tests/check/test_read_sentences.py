@@ -149,3 +149,22 @@ def test_sessions_of_maxima_and_sets_of_maple_are_read() -> None:
         "        m2*(diff(x1(t),t,t) + diff(x2(t),t,t)) + k*x2(t) = F};\n"
     )
     twins(maple, "+ k*", "- k*", "two-carts")
+
+
+@pytest.mark.parametrize(
+    "unread",
+    [
+        "N = ReferenceFrame('N'); P = Point('P')",
+        "T = kinetic § energy",
+        "(see the figure) = 3 § 4",
+    ],
+)
+def test_what_cannot_be_read_is_told_where_the_equations_do_without_it(unread: str) -> None:
+    twins(f"{unread}\n{CART}\n{POLE}", "+ b x'", "- b x'")
+    assert not right(f"{unread}\n{CART}")
+
+
+def test_an_equation_that_cannot_be_read_is_never_passed_over() -> None:
+    assert not right(f"{CART}\n{POLE}\nm x'' § = 3")
+    with pytest.raises(ParseError, match="§"):
+        derivation("cart-pole").check(f"J = § m l^2\n{CART}\n{POLE.replace('- m g', '+ m g')}")

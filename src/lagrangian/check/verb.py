@@ -114,6 +114,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
                 return _told(verdict, other, decides.notes)
     decides = own[-1]
     verdict = check.check(derivation, decides.lines, hint=hint)
+    if answer.doubt is not None and not verdict.right:
+        raise answer.doubt
     if asked := unexplained(derivation, answer, verdict):
         raise question(asked)
     return _told(verdict, answer, decides.notes)

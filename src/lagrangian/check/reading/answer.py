@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 import sympy as sp
 
-from lagrangian.errors import Place
+from lagrangian.errors import ParseError, Place
 from lagrangian.records import dataclass, field
 
 Kind: TypeAlias = Literal[
@@ -79,6 +79,8 @@ class Answer:
     unread: frozenset[str] = frozenset()
     """The names, in the form of `lagrangian.read.letters.key`, in parts that were not read and may explain them."""
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
+    doubt: ParseError | None = field(default=None, repr=False, compare=False)
+    """The error of parts that were not read and may say what names of the system mean: no reason to call it wrong."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

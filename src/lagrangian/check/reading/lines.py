@@ -73,7 +73,8 @@ class Lines:
         self._chain = 0
         self._matrices: set[str] = set()
         self.remarks: list[ParseError] = []
-        """The errors of lines of words, which matter only if the equations beside them are not complete."""
+        self.doubts: list[ParseError] = []
+        """The errors of lines that matter only beside incomplete equations, and of those that may redefine a name."""
         self.unread: set[str] = set()
         """The names in parts of the answer that were not read."""
 
@@ -106,7 +107,7 @@ class Lines:
         self._forget(lines)
         for error in self.remarks[:MAX_ERRORS]:
             at = error.place.line if error.place is not None and error.place.line else 1
-            self.names.notes.setdefault(f"Line {at} was not read: its words are not needed beside the equations.")
+            self.names.notes.setdefault(f"Line {at} has a part that was not read: the equations do without it.")
         return lines
 
     def _complete(self) -> bool:

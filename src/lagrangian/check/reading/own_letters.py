@@ -56,6 +56,8 @@ def _used_as_names(
         for j, others in enumerate(statements):
             if j == k or not any(map(subjects.accelerates, others)):
                 rated = any(x == written and changing for side in others for x, changing in names_in(side))
+                if j != k and _is_used_for_rate(others, written):
+                    yield key(written)
                 if j != k and rated and (kind == "D" or not any(map(_squares, sides[1:]))):
                     yield key(written)
                 continue
@@ -63,6 +65,13 @@ def _used_as_names(
             used = any(x == written for side in others for x, _ in names_in(side))
             if used and (alone is None or alone[0] != written):
                 yield key(written)
+
+
+def _is_used_for_rate(sides: Sequence[Tree], written: str) -> bool:
+    """Whether a statement says with a name what the rate of another is: w1' = (tau - T)/J1."""
+    alone = only_name(sides[0]) if len(sides) == 2 else None
+    used = alone is not None and any(x == written and not changing for x, changing in names_in(sides[1]))
+    return used and alone is not None and alone[1] == 1
 
 
 def _squares(side: Tree) -> bool:

@@ -72,7 +72,7 @@ _LISTED = (
     "die der das ist sind lautet lauten gilt folgt ergibt sich also daraus damit somit mit wobei und für "
     "wird dann nun aus dem den des eine einer bzw sowie nach erhält gleichung bewegungsgleichung "
     "est sont avec donc alors où obtient équation "
-    "my our it if as an or by your its"
+    "my our it if as an or by your its no not do zu im de la le"
 )
 LINKING = frozenset(_LISTED.split())
 """Words of English, German and French that are seldom names."""

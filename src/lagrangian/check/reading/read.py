@@ -18,7 +18,7 @@ from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_layout import with_open_text
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
-from lagrangian.check.reading.line_forms import Statement
+from lagrangian.check.reading.line_forms import Statement, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines
 from lagrangian.check.reading.listed_values import without_values
@@ -32,7 +32,7 @@ from lagrangian.check.reading.program_marks import without_program_marks, withou
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_long_names, without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
-from lagrangian.check.reading.remarks import is_remark
+from lagrangian.check.reading.remarks import is_remark, may_redefine
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
 from lagrangian.check.reading.said_values import SaidValues, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
@@ -69,7 +69,7 @@ _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
-_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
+_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
 _VECTOR = re.compile(r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s{0,9}=(?P<value>[^=]*+)\Z")
 _UNIT_VECTOR = re.compile(
     r"(?<!\w)(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
@@ -216,7 +216,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unknown, unread = tuple(lines.names.unknown.values()), frozenset(lines.unread)
-    return Answer(made, notation, unknown, notes, said, unread, tuple(again))
+    doubt = together(lines.doubts) if lines.doubts else None
+    return Answer(made, notation, unknown, notes, said, unread, tuple(again), doubt)
 
 
 def _without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -318,8 +319,7 @@ def _parsed(
         written = row.text.strip() if latex is not None else with_points(row.text.strip())
         own = Source(written, source.what, source.place, partial(_place, source, latex, start))
         whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
-        line = _line_at(source.text if latex is None else latex.text, row.start)
-        remark = partial(is_remark, whole, line, words_of)
+        remark = partial(is_remark, whole)
         try:
             found.append(replace(_statement(own, parser, lines), remark=remark))
         except ParseError as error:
@@ -330,6 +330,7 @@ def _parsed(
             stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
             if stated and error.code != "E703" and remark():
                 lines.remarks.append(error)
+                lines.doubts += [error] if may_redefine(whole, words_of) else []
                 continue
             (errors if stated or error.code == "E703" else words).append(error)
             if len(errors) >= MAX_ERRORS or error.code == "E703":
@@ -351,12 +352,6 @@ def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words:
     except ParseError:
         return []
     return found
-
-
-def _line_at(text: str, at: int) -> str:
-    """The line of a text in which a place is."""
-    end = text.find("\n", at + len(text[at:]) - len(text[at:].lstrip()))
-    return text[text.rfind("\n", 0, at + 1) + 1 : end if end >= 0 else len(text)]
 
 
 def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:

@@ -171,7 +171,7 @@ def _is_word(written: str, words: Words) -> bool:
     """Whether this is a word of a sentence: no name, no function and no product of names."""
     if words.is_name(written) or function_of(written) is not None or written in _CALLS:
         return False
-    if written.lower() in LINKING and len(written) > 1:
+    if written.lower() in LINKING and len(written) > 1 and not words.is_product(written):
         return True
     bare = re.sub(r"[\W\d_]", "", written)
     return len(bare) >= _SHORTEST and bare == written and not words.readable(written) and not words.is_product(written)

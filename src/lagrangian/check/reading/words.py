@@ -186,7 +186,8 @@ class Words:
             return extra
         if _GREEK_LETTER.fullmatch(part):
             return True  # 2λx
-        return key(part) in self._alone and key(part) != key(word) and not self.is_product(part)
+        alone = key(part) in self._alone or key(undotted(part)[0]) in self._alone
+        return alone and key(part) != key(word) and not self.is_product(part)
 
     def notes(self) -> Iterator[str]:
         """How words were split, in one sentence."""
