@@ -13,7 +13,7 @@ import pytest
 import built_in
 import lagrangian as lg
 from effort import at_most
-from lagrangian.check.reading import Answer, labels, parse_answer, programs, prose, read
+from lagrangian.check.reading import Answer, labels, parse_answer, programs, prose, read, stands_for
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex_macros import written_out
 from lagrangian.errors import ParseError
@@ -63,6 +63,7 @@ FORMS = {
     "_CALLED": (labels._CALLED, "ad" + BLANK + "y"),
     "_DEFINED at newlines": (read._DEFINED, "\n" * N + "y"),
     "_DEFINED at blanks": (read._DEFINED, "y" + BLANK + "y"),
+    "_IN_BRACKETS": (stands_for._IN_BRACKETS, "y" + BLANK + "z = 1"),
     "_LINE_OF_CODE": (programs._LINE_OF_CODE, BLANK + "y"),
     "_INSIDE": (prose._INSIDE, "(" + "so" * (N // 2) + ")"),
     "_INSIDE with blanks": (prose._INSIDE, "(" + "so " * (N // 3) + ")"),

@@ -42,7 +42,8 @@ class Planted:
         return f"{self.kind} of {' or '.join(self.elements)}"
 
 
-GONE = r"missing|left out|forgotten|without|does not|is not counted|no share|lacks|ignored|not squared|counts? 0|only"
+GONE = r"missing|left out|forgotten|without|does not|is not counted|no share|lacks|ignored|not squared|counts? 0"
+GONE += "|only|alone"
 SIGN = r"sign|minus|negative|against|subtract|opposite|direction"
 NUMBER = r"half|twice|½|number|times|counts|factor|quarter|squared"
 OTHER = r"in place of|exchanged|stands|instead|taken|taken as|not the|belongs|as if|is not|another|relative|absolute"
@@ -50,7 +51,8 @@ OTHER = r"in place of|exchanged|stands|instead|taken|taken as|not the|belongs|as
 
 MIXED = ((0, "no", GONE), (-1, "sign of the", SIGN), (sp.S.Half, "half the", NUMBER))
 MOVED = OTHER + "|counted in|equation of|where it does no work"
-LOST = GONE + "|arm|projection|" + OTHER
+RULE = GONE + "|product rule|chain rule|not differentiated"
+LOST = GONE + "|arm|projection|counted whole, whatever its direction|" + OTHER
 
 
 def put(d: Mapping[Any, Any], key: Any, value: Any) -> dict[Any, Any]:
@@ -121,11 +123,7 @@ def _of_motion(m: Mechanism) -> Iterator[Planted]:
         whole = sp.expand(s.moving[n])
         mixed = sp.Add(*[x for x in sp.Add.make_args(whole) if sum(x.has(w) for w in rates) > 1])
         if mixed != 0:
-            for k, kind, words in (
-                (0, "no mixed products in v²", GONE),
-                (-1, "sign of the mixed products in v²", SIGN),
-                (sp.Rational(1, 2), "half the mixed products in v²", NUMBER),
-            ):
+            for k, kind, words in MIXED:
                 new = whole + (k - 1) * mixed
                 yield _step(s.put("moving", n, new), f"{kind} mixed products in v²", n, words + "|" + SIGN)
         pieces = [(c, x) for c in (0, 1) for x in sp.Add.make_args(sp.expand(b.at[c])) if x.has(*m.q)]
@@ -311,4 +309,9 @@ def _of_operator(m: Mechanism) -> Iterator[Planted]:
             if part != 0:
                 rows = list(right)
                 rows[i] = sp.expand(rows[i] - part)
-                yield Planted(f"d/dt ∂T/∂{p}' without what {x}' adds", names, GONE + "|product rule|chain rule", rows)
+                yield Planted(
+                    f"d/dt ∂T/∂{p}' without what {x}' adds",
+                    names,
+                    RULE,
+                    rows,
+                )

@@ -5,7 +5,6 @@ The wrong equations come from `physical_mistakes`, which derives them by SymPy a
 
 from __future__ import annotations
 
-import itertools
 import random
 import re
 from functools import cache
@@ -48,15 +47,26 @@ def is_told(made: Planted, mistake: object) -> bool:
     return bool(not element or where or of_weight) and bool(re.search(made.words, words))
 
 
+def is_wrong(m: Mechanism, made: Planted) -> bool:
+    """Whether the equations change: those of the change of T, V and Ξ, in which Lagrange's operator is linear."""
+    right = m.steps()
+    if made.steps is None:
+        return any(sp.expand(a - b) != 0 for a, b in zip(made.rows, right.rows(), strict=True))
+    T, V = sp.expand(made.steps.T - right.T), sp.expand(made.steps.V - right.V)
+    for p in m.q:
+        inertia = sp.diff(sp.diff(T, sp.diff(p, t)), t) - sp.diff(T, p)
+        if sp.expand(inertia + sp.diff(V, p) - made.steps.Xi(p) + right.Xi(p)) != 0:
+            return True
+    return False
+
+
 def sampled(name: str, count: int, seed: str) -> tuple[int, list[str]]:
     """How many of some mistakes were told first and alone; the others in words. None is accepted."""
     m, derivation = mechanism(name)
-    every, right = list(planted(m)), m.steps().rows()
+    every = [x for x in planted(m) if is_wrong(m, x)]
     chooser = random.Random(f"{name} {seed}")
     missed: list[str] = []
-    shuffled = iter(chooser.sample(every, len(every)))
-    wrong = (x for x in shuffled if any(sp.expand(a - b) != 0 for a, b in zip(x.rows, right, strict=True)))
-    chosen = list(itertools.islice(wrong, count))
+    chosen = chooser.sample(every, min(count, len(every)))
     for made in chosen:
         text = written(m, made, chooser.choice(["plain", "collected", "energies"]))
         verdict = derivation.check(text)

@@ -79,7 +79,8 @@ _VALUED = re.compile(
     re.MULTILINE | re.IGNORECASE,
 )
 _IN_BRACKETS = re.compile(
-    rf"(?<![\w.*/^+])(?P<new>{_NAME})[ \t]*(?::|=|,|\bis\b|\bdenotes\b)?[ \t]+(?P<words>(?:{_WORD}[ \t]+){{1,6}})"
+    rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|=|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
+    rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})"
     rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
 )
 """A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
