@@ -32,6 +32,9 @@ from lagrangian.viewed import Brief
 MAX_CHANGES = 200
 """The largest number of changes that are tried."""
 
+MOST_CHOSEN = 3
+"""The largest number of new names for which all meanings are tried; more are renamed coordinates, in their order."""
+
 
 @dataclass(frozen=True, eq=False)
 class ProposedChange(Brief):
@@ -120,9 +123,10 @@ def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredL
         for f in new if expr is not None else ():
             if expr is not None and expr.has(f):
                 solved.setdefault(f, []).extend(_solutions(expr - c.symbol, f))
-    choices = [solved.get(f) or list(meanings(truth)) for f in new]
-    if len(new) > 3:
+    if len(new) > MOST_CHOSEN:
+        yield from _in_order(truth, new, lines)
         return
+    choices = [solved.get(f) or list(meanings(truth)) for f in new]
     used = {q for line in lines for q in truth.derivation.coordinates if line.expr.has(q) and line.kind != "definition"}
     tried: list[tuple[tuple[int, int], ProposedChange]] = []
     for k, picked in enumerate(islice(product(*choices), 4000)):
@@ -133,6 +137,16 @@ def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredL
         if missing == 0:
             tried.append(((sum(p in used for p in picked), k), ProposedChange(table, _meant(table), True)))
     yield from (change for _, change in sorted(tried, key=lambda x: x[0]))
+
+
+def _in_order(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
+    """New names for all coordinates, which the answer uses nowhere, in their order: y₁ … y₅ in place of x₁ … x₅."""
+    own = list(truth.derivation.coordinates)
+    if len(new) != len(own) or any(line.expr.has(*own) for line in lines):
+        return
+    by_length = sorted(new, key=lambda f: (len(str(f)), str(f)))  # y10 behind y9
+    table = dict(zip(by_length, own, strict=True))
+    yield ProposedChange(table, _meant(table), True)
 
 
 def _solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:

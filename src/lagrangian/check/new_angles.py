@@ -9,14 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
+from itertools import starmap
 from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.constrained import check_constrained
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Verdict
+from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 
 
@@ -26,10 +30,31 @@ def check_in_any_angle(truth: Reference, lines: Sequence[AnsweredLine], hint: in
     for put, note in _readings(truth, lines):
         verdict = check_constrained(truth, put, hint)
         verdict = replace(verdict, notes=(note, *verdict.notes))
+        onto = put if verdict.right else tuple(starmap(partial(_where_held, truth), zip(lines, put, strict=True)))
+        held = check_constrained(truth, onto, hint) if onto != put else verdict
+        if _count(held) > _count(verdict):
+            verdict = replace(held, notes=(note, *held.notes))
         if verdict.right:
             return verdict
         proposed = verdict if proposed is None else proposed
     return check_constrained(truth, lines, hint) if proposed is None else proposed
+
+
+def _count(verdict: Verdict) -> int:
+    """How many lines are right."""
+    return sum(finding.status.right for finding in verdict.findings)
+
+
+def _where_held(truth: Reference, was: AnsweredLine, now: AnsweredLine) -> AnsweredLine:
+    """An energy in the new angle as the statement that it is the system's where the constraints hold: T = ½ m l² φ̇².
+
+    That of V is differentiated by time, because its level is free.
+    """
+    if was.expr == now.expr or was.kind not in ("T", "V"):
+        return now
+    if was.kind == "T":
+        return replace(now, kind="equation", expr=now.expr - truth.T)
+    return replace(now, kind="equation", expr=bounded.diff(now.expr - truth.V, time))
 
 
 def _readings(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[tuple[tuple[AnsweredLine, ...], Text]]:

@@ -84,5 +84,11 @@ def unfolded(truth: Reference, lines: Sequence[AnsweredLine]) -> Unfolded:
     def implied(exprs: Sequence[sp.Expr]) -> tuple[AnsweredLine, ...]:
         return tuple(replace(stated[0], kind="equation", name=_IMPLIED, expr=x) for x in exprs)
 
-    kept = tuple(replace(x, expr=without) if x.kind == "L" else x for x in lines)
-    return Unfolded(kept, implied(slopes), implied(follow))
+    pushing = dict(zip((c.name for c in model.coordinates), pushed, strict=True))
+    kept: list[AnsweredLine] = []
+    for x in lines:
+        if x.kind == "slope" and x.name in pushing and x.expr.has(*own):  # ∂L/∂x = … + 2 λ x
+            kept.append(replace(x, expr=x.expr - pushing[x.name]))
+        else:
+            kept.append(replace(x, expr=without) if x.kind == "L" else x)
+    return Unfolded(tuple(kept), implied(slopes), implied(follow))

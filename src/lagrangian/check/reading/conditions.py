@@ -26,6 +26,13 @@ CONDITION = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 """A condition, whose values are numbers or names."""
+_CASE = re.compile(
+    rf"^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?[ \t]*(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
+    r"[ \t]*(?:⇒|⟹|=+>|→|-+>)",
+    re.MULTILINE,
+)
+"""A special case, from which an arrow leads to what it would mean: check: m2 = m3 ⇒ y'' = 0."""
+_SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
 _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 
@@ -33,6 +40,7 @@ _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions, and special cases in the sentences of these, blanked out."""
     found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
+    found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     if not found:
         return text
     bare = text
@@ -49,6 +57,14 @@ def without_conditions(text: str, words: Words) -> str:
             words.names.notes.setdefault(f"'{told}' was not judged: it holds only under a condition.")
         return rest
     return bare
+
+
+def _is_case(said: str, words: Words) -> bool:
+    """Whether constants of the system are set equal to each other, or to 0."""
+    constants = {p.name for p in words.names.model.parameters}
+    pairs = [(m["left"], m["right"]) for m in _SAID.finditer(said)]
+    named = [words.names.scope.meanings(x)[0] for pair in pairs for x in pair if x != "0"]
+    return bool(named) and all(found and found[0] in constants for found in named)
 
 
 def _moving(text: str) -> Iterator[str]:

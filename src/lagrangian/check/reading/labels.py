@@ -29,8 +29,11 @@ _CALLED = re.compile(
     rf"[(\[]?\s*+{_SHORT}\s*+(?:[)\]][.:]?|[.:]){_NEXT}",
     re.IGNORECASE,
 )
-_STEP_NUMBER = re.compile(rf"\s*(?P<words>[^\W\d_]{{3,14}}\.?\s+){_SHORT}\s?[.:)]{{1,2}}{_NEXT}")
-"""A word with a number: Step 2. T = …, Paso 5. …"""
+_STEP_NUMBER = re.compile(
+    rf"\s*(?P<words>[^\W\d_]{{3,14}}\.?\s+){_SHORT}(?:\s?[.:)]{{1,2}}|\s[–—]){_NEXT}"
+    rf"|\s*(?:[Ss]tep|[Pp]art|[Ss]chritt|[Tt]eil|[ÉéEe]tape|[Pp]aso|[Pp]asso)\s+{_SHORT}\s+-{_NEXT}"
+)
+"""A word with a number: Step 2. T = …, Paso 5. …, Step 4 - …"""
 _COMBINED = re.compile(
     r"\s*+[(\[]?\s?+(?:\d?[·*]?[IVX]{1,4}|\d{1,2})(?:\s?+[-+−–]\s?+(?:\d?[·*]?[IVX]{1,4}|\d{1,2})){1,6}+\s?+[)\].:]{1,2}"
     r"(?=\s+(?:=+>|[^\s*/^=+]))"
@@ -78,7 +81,8 @@ _AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_
 _AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")
 _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _DONE = re.compile(
-    r"(?<=[\w\u0307\u0308)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z"
+    r"(?<=[\w\u0307\u0308)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?"
+    r"|[.,;][ \t]*(?:OK|ok|Ok|okay|[Cc]orrect|[Ff]ine|[Gg]ood|[Pp]asst|[Ss]timmt)[ \t]*[!.]*)\s*\Z"
 )
 _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|←)\s[^=]*\Z")
 """What is done to an equation next, | : m, and what points at it, <- here; a side behind = is not part of it."""
@@ -122,7 +126,9 @@ def numbering(text: str, words: Words) -> Numbering:
     lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
     marks = [m[1] for line in lines if (m := _LETTER_BEHIND.search(line[-30:]))]
     in_order = len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
-    return Numbering(before, behind, in_order, frozenset(written if len(written) > 1 and (named or lettered) else ()))
+    told = len(written) > 1 and (named or lettered)
+    beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
+    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()))
 
 
 def before(line: str, words: Words, numbers: Numbering) -> str:

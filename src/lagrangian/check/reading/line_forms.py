@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
 from lark import Tree
@@ -12,8 +12,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Value
-from lagrangian.check.reading.nodes import start_of
+from lagrangian.check.reading.names import Names, Value
+from lagrangian.check.reading.nodes import only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
@@ -34,6 +34,47 @@ def together(errors: Sequence[ParseError]) -> ParseError:
     placed = {(e.place.line or 0, e.place.column or 0) if e.place is not None else (0, 0): e for e in reversed(errors)}
     first, *others = [placed[at] for at in sorted(placed)]
     return first.with_others(others)
+
+
+def listed_names(names: Sequence[str]) -> str:
+    """Several names as the subject of a sentence, with its verb: a, b and c are."""
+    whole = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return f"{whole} {'are' if len(names) > 1 else 'is'}"
+
+
+def says_constant(statement: Statement, names: Names) -> bool:
+    """Whether a statement only says that the rate of a constant of the system is 0, which is true: Ω̇ = 0."""
+    named = [found for side in statement.sides if (found := only_name(side)) is not None]
+    others = [side for side in statement.sides if only_name(side) is None]
+    if len(named) != 1 or len(others) != 1 or [str(x) for x in others[0].scan_values(bool)] != ["0"]:
+        return False
+    token, primes = named[0]
+    found, dots = names.scope.meanings(token)
+    constant = bool(found) and found[0] in {p.name for p in names.model.parameters} and primes + dots > 0
+    if constant:
+        written = " ".join(statement.source.text.split())
+        names.notes.setdefault(f"'{written}' was not judged: {found[0]} is constant.")
+    return constant
+
+
+def without_expressions(
+    made: Mapping[int, Sequence[AnswerLine]], statements: Sequence[Statement], names: Names
+) -> tuple[AnswerLine, ...]:
+    """The lines of all statements, in their order, without expressions that accelerate and have no equals sign, if
+    there is an equation with one for every coordinate: … ⇒ m l² φ̈ + m g l sin φ, before the result. Notes tell them."""
+    moving = {k: sum(x.kind == "equation" and _moves(x) for x in lines) for k, lines in made.items()}
+    stated = sum(count for k, count in moving.items() if len(statements[k].sides) > 1)
+    aside = {k for k, count in moving.items() if count and len(statements[k].sides) == 1}
+    if stated < len(names.model.coordinates):
+        aside = set[int]()
+    for k in sorted(aside):
+        written = " ".join(statements[k].source.text.split())
+        names.notes.setdefault(f"'{written}' was not judged: it is an expression without an equals sign.")
+    return tuple(line for k in sorted(made) if k not in aside for line in made[k])
+
+
+def _moves(line: AnswerLine) -> bool:
+    return accelerates(sp.sympify(line.residual))
 
 
 def is_general(value: sp.Expr) -> bool:

@@ -16,10 +16,13 @@ from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
     is_general,
+    listed_names,
     made_line,
     matrix_rows,
+    says_constant,
     solves,
     together,
+    without_expressions,
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
@@ -93,15 +96,15 @@ class Lines:
             try:
                 self._line(i)
             except ParseError as error:
-                if complete and error.code != "E703" and statements[i].remark():
-                    self.remarks.append(error)
+                if complete and says_constant(statements[i], self.names):
                     continue
-                (aside if self._is_general(i, error) else found).append(error)
+                remark = complete and error.code != "E703" and statements[i].remark()
+                (self.remarks if remark else aside if self._is_general(i, error) else found).append(error)
             if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
                 break
         for i, line in contradicting(self.names, [s.source for s in statements]):
             self._made.setdefault(i, []).append(line)
-        lines = tuple(line for i in range(len(statements)) for line in self._made.get(i, ()))
+        lines = without_expressions(self._made, statements, self.names)
         if found or (aside and not lines):
             raise together(found or aside)
         self._forget(lines)
@@ -122,9 +125,7 @@ class Lines:
         if error.code != "E701" or not new:
             return False
         written = " ".join(self._statements[i].source.text.split())
-        verb = "are" if len(new) > 1 else "is"
-        what = " and ".join([", ".join(new[:-1]), new[-1]] if len(new) > 1 else new)
-        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {what} {verb}.")
+        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
         return True
 
     def _explains(self, written: str) -> bool:
@@ -249,9 +250,7 @@ class Lines:
         written = " ".join((text[begin:] if end < 0 else text[begin:end]).split())
         new = self._new_in(value)
         names = [u.name for u in self.names.unknown.values() if u.symbol in new]
-        what = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
-        verb = "are" if len(names) > 1 else "is"
-        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {what} {verb}.")
+        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(names)}.")
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
         value = reader.finite(value, side)

@@ -125,6 +125,8 @@ def stated_remarks(text: str) -> str:
     for start, end in _apart(text):
         if _states(text, start, end):
             letters[start] = letters[end] = ";"
+            if text[end - 1] == "!":  # (Ω̇ = 0!)
+                letters[end - 1] = " "
             if text[end + 1 : end + 2] == ":":  # drum (psi = phi/n): J psi'' = …
                 letters[end + 1] = " "
     return "".join(letters)

@@ -10,6 +10,7 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.derived_lines import with_derivatives
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
@@ -245,7 +246,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     if _LATEX.search(said.text):
         said = with_open_text(without_sets(said))
     else:
-        said = with_stated_values(said, taken)
+        said = with_stated_values(with_derivatives(said), taken)
         own = {key(name) for name in lines.model.symbols}
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])

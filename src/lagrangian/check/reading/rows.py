@@ -24,6 +24,7 @@ from lagrangian.check.reading.prose import (
     without_remarks,
     without_tail,
 )
+from lagrangian.check.reading.sketches import without_sketches
 from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.records import dataclass
@@ -77,7 +78,10 @@ _RATES = re.compile(
     r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
 )
 """A rate behind its name, where the name of another follows: xd = x' xdd = x''."""
-_NEXT = r"(?<=[\w)\]'’′²³])[ \t]{2,}(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_]\w{0,8}['′*]?[ \t]*=(?!=))"
+_NEXT = (
+    r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]{2,}"
+    r"(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_](?:\w|[\u0307\u0308]){0,8}['′*]?[ \t]*=(?!=))"
+)
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = (
     r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
@@ -90,7 +94,8 @@ _BETWEEN = re.compile(
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_conditions(without_headings(_STARRED.sub("T* ", text)), words)
+    text = without_headings(_STARRED.sub("T* ", without_sketches(text, words)))
+    text = without_conditions(text, words)
     text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)

@@ -60,7 +60,8 @@ class Subjects:
         """The subject of a statement and its sides, the subject first; it may be on the left or right, a Ξ anywhere."""
         if len(sides) == 1:
             return None, sides
-        if (found := only_name(sides[0])) is not None and not found[1] and is_matrix(sides[1]):
+        found = only_name(sides[0])
+        if found is not None and not found[1] and not undotted(found[0])[1] and is_matrix(sides[1]):
             return Subject("definition", str(found[0]), found[0]), sides  # M = [a, b; c, d], even if M is a mass, too
         moving = any(self.accelerates(side) for side in sides)
         subjects = [self.of(side, moving=moving) for side in sides]

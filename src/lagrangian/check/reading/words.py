@@ -102,6 +102,8 @@ class Words:
         """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
         if self.names.known(word) or key(undotted(word)[0]) in self._own:
             return True
+        if word[:1] == "d" and undotted(word)[1] and self.is_name("d"):
+            return False  # dφ̇ is d φ̇, where d is a damper
         return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
 
     def is_name(self, word: str) -> bool:

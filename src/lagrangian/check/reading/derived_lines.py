@@ -1,0 +1,47 @@
+"""Says which derivative a line goes on with, where it writes d/dt alone, or an arrow and the acceleration alone.
+
+∂T/∂ẋ = m ẋ  ⇒  d/dt = m ẍ          d/dt(∂T/∂ẋ) = m ẍ
+∂L/∂q̇ = L q̇     d/dt → L q̈          d/dt(∂L/∂q̇) = L q̈
+∂T/∂ẏ = m ẏ → m ÿ;  ∂V/∂y = m g     d/dt(∂T/∂ẏ) = m ÿ
+
+Both mean the derivative by time of what stands in front on the same line, which is judged as such.
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.prose import moves
+from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.read.letters import undotted
+
+_BY = r"[^\W\d](?:\w|[\u0307\u0308]){0,24}['’′]?"
+_PARTIAL = re.compile(rf"(?P<slope>(?:∂|d)(?P<of>[TLVDℒ])\*?\s?/\s?(?:∂|d)(?P<by>{_BY}))\s*=(?![=>])")
+_ARROW = r"(?:=+>|⇒|⟹|→|⟶|-+>|➔|➜)"
+_ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?d\s?/\s?dt[ \t]*(?:{_ARROW}|=(?!=)|:(?=[ \t]))")
+"""d/dt of nothing, with what stands between it and its value."""
+_GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S|$)")
+"""A value behind an arrow."""
+_TWICE = re.compile(r"['’′]{2}|[\u0308ẍÿẅ¨]|ddot|dd\b")
+
+
+def with_derivatives(text: TracedText) -> TracedText:
+    """Return a plain text in which every derivative by time says of what it is one."""
+    edits: list[tuple[int, int, str]] = []
+    for line in re.finditer(r"[^\n]+", text.text):
+        slopes = list(_PARTIAL.finditer(text.text, *line.span()))
+        ends = [*(m.start() for m in slopes[1:]), line.end()]
+        for slope, end in zip(slopes, ends[: len(slopes)], strict=True):
+            found = _ALONE.search(text.text, slope.end(), end) or _value(text.text, slope.end(), end)
+            if found is not None and (moves(slope["by"]) or undotted(slope["by"])[1]):
+                start, stop = (
+                    found.span() if "value" not in found.groupdict() else (found.start(), found.start("value"))
+                )
+                edits.append((start, stop, f"; d/dt({slope['slope']}) = "))
+    return text.edited(edits)
+
+
+def _value(text: str, start: int, end: int) -> re.Match[str] | None:
+    """An arrow with an expression that accelerates behind it, and no equals sign."""
+    found = _GIVES.search(text, start, end)
+    return found if found is not None and _TWICE.search(found["value"]) is not None else None
