@@ -67,6 +67,11 @@ def test_a_sentence_of_latex_gives_names_their_values(said: str, old: str, new: 
     twins(f"\\begin{{align}}{rows}\\end{{align}}\n{said}", old, new)
 
 
+def test_a_greek_letter_has_the_value_that_a_sentence_of_latex_gives_it() -> None:
+    rows = r"$$mL^2\ddot\theta + b\dot\theta + m g L\kappa = 0$$"
+    twins(f"{rows}\nI write $\\kappa$ for $\\sin\\theta$.", r"\sin", r"\cos", "pendulum")
+
+
 def test_a_wrong_answer_is_judged_with_the_values_that_words_give() -> None:
     verdict = derivation("cart-pole").check(
         f"{CART}\nD theta'' + m l x'' cos theta + m g l sin theta = 0\nD is J + m l^2."

@@ -51,7 +51,7 @@ from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
-from lagrangian.read.letters import key
+from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
 
 MAX_ANSWER = 60_000
@@ -159,7 +159,8 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
 def _completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
     """An answer with the values of names as statements behind it."""
     marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
-    return text.rstrip() + "".join(f"\n\n{marks[0]}{name} = {value}{marks[1]}" for name, value in values.items())
+    spelled = {x: f"\\{x}" if latex and re.match(r"[^\W\d_]*", x)[0] in SPELLED.values() else x for x in values}  # type: ignore[index]
+    return text.rstrip() + "".join(f"\n\n{marks[0]}{spelled[x]} = {value}{marks[1]}" for x, value in values.items())
 
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
