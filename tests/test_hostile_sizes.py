@@ -3,10 +3,14 @@
 import pytest
 
 import lagrangian as lg
+from built_in import derivation
 from effort import at_most
 from lagrangian import ModelError, bounded
 from lagrangian.bounded import questions
+from lagrangian.check import hardness
+from lagrangian.check.changes.ring import SumRing
 from lagrangian.derive.algebra import algebra
+from lagrangian.model import is_hard
 
 HEAD = """
 name = "hostile"
@@ -106,3 +110,21 @@ def test_a_system_without_finite_forces_is_told_so() -> None:
 def test_a_coordinate_that_moves_a_body_by_next_to_nothing_is_derived() -> None:
     flat = HEAD + '[[particle]]\nmass = "m"\nat = ["(q^3+a)/(1+q^2+w^3)^20", "(w+q)^9/(a+b*q+c*w)^30"]\n'
     assert _or_a_word(lg.loads(flat).derive) is not None
+
+
+def test_an_answer_to_long_equations_is_checked_in_a_bounded_number_of_calls(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = derivation("double-pendulum")
+    assert not is_hard(own.model)  # what it is described by is short
+    assert not own.check("theta1'' = 0").right
+    monkeypatch.setattr(hardness, "WRITTEN", 20)
+    monkeypatch.setattr(questions, "QUESTION", 2_000)
+    with pytest.raises(ModelError, match="checking the answer takes more than 2000 steps"):
+        own.check("theta1'' = 0")
+
+
+def test_a_slope_of_a_maximum_of_many_is_found_without_proofs() -> None:
+    model = lg.loads(FILES["max"]).model
+    ring = SumRing(model)
+    value = ring.of(model.elements[-1].potential(model))
+    with at_most(400_000):
+        assert ring.slope(value, model.coordinates[0].symbol)

@@ -17,6 +17,7 @@ from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
 from lagrangian.check.eliminated import without_forces
 from lagrangian.check.energy_theorem import is_energy_theorem, note_on
+from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
@@ -35,21 +36,15 @@ from lagrangian.check.stated import StatedQuantity, equations_follow, given, jud
 from lagrangian.check.stated_coordinates import in_stated_coordinates
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
-from lagrangian.model import is_hard
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
 _log = logging.getLogger(__name__)
 
-LONG = 1_500
-"""The total size of its lines above which an answer counts as hard, see `bounded.hard`."""
 
-
-def _hard(derivation: Derived, lines: Sequence[AnsweredLine], **_: object) -> bool:
-    return is_hard(derivation.model) or bounded.hard((line.expr for line in lines), LONG)
-
-
-@bounded.answered("checking the answer", _hard, "shorten the lines of the answer, and the expressions of the system")
+@bounded.answered(
+    "checking the answer", hard_to_check, "shorten the lines of the answer, and the expressions of the system"
+)
 def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, explain: bool = True) -> Verdict:
     """Return what is right and what is wrong in an answer, line by line and as a whole.
 

@@ -32,6 +32,9 @@ SMALLEST, LARGEST = 0.6, 1.7
 ATTEMPTS = 8
 """So many choices of coordinates are tried before they are only renamed."""
 
+LONG = 1_000
+"""Of equations with more operations, which take long to derive, one choice is tried."""
+
 
 @dataclass(frozen=True)
 class SystemVariant(Brief):
@@ -54,6 +57,7 @@ def variant_of(model: Model, seed: int) -> SystemVariant:
     """
     model = _running(model, "duration", "initial")
     size = _size(model)
+    attempts = ATTEMPTS if size <= LONG else 1
     undrawn = _undrawn(model)
 
     def fits(made: Model) -> bool:
@@ -61,12 +65,12 @@ def variant_of(model: Model, seed: int) -> SystemVariant:
 
     dice = Dice(seed, 1)
     base, moved = model, None
-    for move in moves(model, dice)[:ATTEMPTS]:
+    for move in moves(model, dice)[:attempts]:
         made = _tried(lambda move=move: _lettered(model, {}, {}, {}, move))
         if made is not None and fits(made) and not _alike(model, made):
             base, moved = made, move
             break
-    turned, remade = _measured(base, seed, fits)
+    turned, remade = _measured(base, seed, fits, attempts)
     names = parameter_letters(turned, Dice(seed, 3))
     dice = Dice(seed, 4)
     values = {p.name: new_value(p, dice) for p in turned.parameters}
@@ -83,9 +87,9 @@ def _title(name: str) -> str:
     return ", ".join(kept) or name
 
 
-def _measured(model: Model, seed: int, fits: Any) -> tuple[Model, list[Remeasured]]:
+def _measured(model: Model, seed: int, fits: Any, attempts: int) -> tuple[Model, list[Remeasured]]:
     """The model in other coordinates, at least in other names."""
-    for attempt in range(ATTEMPTS):
+    for attempt in range(attempts):
         dice = Dice(seed, 2, attempt)
         names = coordinate_letters(model, dice)
         remade = remeasured(model, names, dice)

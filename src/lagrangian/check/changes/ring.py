@@ -120,7 +120,7 @@ class SumRing:
         inner = self._held.get(by, by)
         if not held.has(inner):
             return {}
-        return self.of(cast("sp.Expr", bounded.diff(held, inner).xreplace(self._back)))
+        return self.of(cast("sp.Expr", bounded.replaced(bounded.diff(held, inner), self._back)))
 
     def fold(self, value: Sum) -> Sum:
         """The same with cos A cos B + sin A sin B = cos(A − B), sin² + cos² = 1 and the like, wherever they occur."""
