@@ -173,3 +173,26 @@ def test_an_equation_that_cannot_be_read_is_never_passed_over() -> None:
     assert not right(f"{CART}\n{POLE}\nm x'' § = 3")
     with pytest.raises(ParseError, match="§"):
         derivation("cart-pole").check(f"J = § m l^2\n{CART}\n{POLE.replace('- m g', '+ m g')}")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "But F must be replaced by 2 F everywhere.",
+        "where k is half of the spring constant",
+        "plus m1 g",
+        "(with k replaced by k/2)",
+        "The right-hand side counts times two.",
+    ],
+)
+def test_words_that_may_change_an_equation_are_told(words: str) -> None:
+    right = "m1*x1'' + k*(x1 - x2) = -F\nm2*x2'' - k*(x1 - x2) = F\n"
+    notes = derivation("lecture-3a").check(right + words).notes
+    assert any("Words on line 3 may change an equation" in str(note) for note in notes)
+    notes = derivation("lecture-3a").check(right + "These are the equations, differentiated twice.").notes
+    assert not any("may change" in str(note) for note in notes)
+
+
+def test_a_term_behind_dots_and_a_word_is_not_left_out() -> None:
+    with pytest.raises(ParseError, match="line 2"):
+        derivation("lecture-3a").check("m1*x1'' + k*(x1 - x2) = -F\nm2*x2'' - k*(x1 - x2) = F ... plus m2 g")

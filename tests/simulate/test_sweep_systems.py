@@ -152,7 +152,7 @@ def test_a_run_that_fails_is_counted_and_told_and_harms_no_other(oscillator: lg.
     assert failures[0].values == {"k": -4e6}
     assert "not finite" in str(failures[0])
     assert sum(runs.counts.values()) == 3
-    assert "1 the derivative" in repr(runs)
+    assert "2 of 3: the end was reached; 1 of 3: the derivative" in repr(runs)
 
 
 def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:

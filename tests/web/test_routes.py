@@ -101,13 +101,20 @@ def test_a_verdict_is_that_of_the_command(
 def test_a_preview_reads_an_answer_and_does_not_judge_it(kind_app: Served) -> None:
     found = kind_app.ask("preview", {"model": CART, "answer": "T = 7*m*x'^2\n\nm*x'' = F"}).json()
     assert [(line["line"], line["kind"]) for line in found["lines"]] == [(1, "T"), (3, "equation")]
-    assert set(found) == {"lines"}
+    assert set(found) == {"lines", "notes"}
+    assert found["notes"] == []
     assert "<msup><mi>T</mi><mo>*</mo></msup>" in found["lines"][0]["html"]
 
 
 def test_a_preview_tells_where_it_cannot_read_on(kind_app: Served) -> None:
-    error = kind_app.ask("preview", {"model": CART, "answer": "m*x'' = F\nk*x = m*("}).json()["error"]
+    error = kind_app.ask("preview", {"model": CART, "answer": "k = m\nm*x'' = m*("}).json()["error"]
     assert (error["code"], error["line"]) == ("E701", 2)
+
+
+def test_a_preview_tells_what_it_leaves_out(kind_app: Served) -> None:
+    found = kind_app.ask("preview", {"model": CART, "answer": "m*x'' = F\nk*x = m*("}).json()
+    assert [line["line"] for line in found["lines"]] == [1]
+    assert len(found["notes"]) == 1 and found["notes"][0].startswith("Line 2 ")
 
 
 @pytest.mark.slow

@@ -15,6 +15,8 @@ from lagrangian.cli.run_summary import figures
 from lagrangian.derivation import Derivation
 from lagrangian.derive import Derived, pages
 from lagrangian.errors import Error
+from lagrangian.page.formula import text
+from lagrangian.page.plain import plain
 from lagrangian.simulate import plot
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.structured.choose import derive_in_form
@@ -128,11 +130,12 @@ def check_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
 
 
 def preview_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
-    """Read an answer without judging it: each line as mathematics."""
+    """Read an answer without judging it: each line as mathematics, and notes on what was not read."""
     arguments = Arguments(given, (*MODEL, "answer"))
     words = arguments.text("answer")
     model = opened(arguments).model
-    return {"lines": lines_of_answer(model, parse_answer(words, model, name="answer"))}
+    answer = parse_answer(words, model, name="answer")
+    return {"lines": lines_of_answer(model, answer), "notes": [plain(text(note)) for note in answer.notes]}
 
 
 def simulate_job(given: dict[str, Any], part: Part) -> dict[str, Any]:

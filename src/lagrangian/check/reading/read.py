@@ -9,6 +9,7 @@ from functools import partial
 
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
+from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.derived_lines import with_derivatives
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
@@ -214,7 +215,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     others += [x for x, asked in less_likely if asked and reading == LIKELIEST]
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
-    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes)
+    doubtful = [note] if (note := changing_words(given)) else []
+    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unknown, unread = tuple(lines.names.unknown.values()), frozenset(lines.unread)

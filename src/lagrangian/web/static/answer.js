@@ -106,6 +106,7 @@ function show(answer, verb) {
   const findings = answer.data?.lines ?? [];
   byId("answer-lines").replaceChildren(...answer.lines.map((/** @type {any} */ line) => lineOf(line, findings)));
   judged = verb === "check" ? writing.text : null;
+  byId("answer-state").textContent = (answer.notes ?? []).join(" ");
   if (verb !== "check") return;
   writing.mark(findings.map((/** @type {any} */ f) => ({
     line: f.line, kind: f.right ? "right" : "wrong", words: f.verdict,

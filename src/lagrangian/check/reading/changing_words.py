@@ -1,0 +1,35 @@
+"""Finds words that may change an equation and that no statement holds: F must be replaced by 2 F; … plus the weight.
+
+Nothing is read out of such words: a note says on which lines they stand, so that nobody takes them for judged.
+"""
+
+from __future__ import annotations
+
+import re
+
+_CHANGES = re.compile(
+    r"\b(?:replaced? (?:by|with)|"
+    r"(?:half|twice|double|triple)(?: of)? (?:the|that|this|its)|times (?:two|three|four|ten|\d+)|else add|"
+    r"(?:to|must|should) (?:add|subtract))\b|"
+    r"(?:^|\.\.\.|…)[ \t]{0,9}(?:plus|minus)\b",
+    re.IGNORECASE | re.MULTILINE,
+)
+_DERIVED = re.compile(r"\b(?:differentiat|deriv)\w{0,5}\b", re.IGNORECASE)
+"""What is done twice or must be done without changing a value."""
+_MOST = 5
+"""The largest number of lines that a note names."""
+
+
+def changing_words(text: str) -> str | None:
+    """Return a note about the lines of an answer whose words may change an equation, or None."""
+    lines = [
+        number
+        for number, line in enumerate(text.split("\n"), 1)
+        if _CHANGES.search(line) is not None and _DERIVED.search(line) is None
+    ]
+    if not lines:
+        return None
+    more = ", …" if len(lines) > _MOST else ""
+    told = ", ".join(map(str, lines[:_MOST])) + more
+    which = f"line {told}" if len(lines) == 1 else f"lines {told}"
+    return f"Words on {which} may change an equation; they were not judged, only what stands as an equation was."
