@@ -16,7 +16,6 @@ from lagrangian.derivation import Derivation
 from lagrangian.derive import Derived, pages
 from lagrangian.errors import Error
 from lagrangian.page.formula import text
-from lagrangian.page.plain import plain
 from lagrangian.simulate import plot
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.structured.choose import derive_in_form
@@ -135,7 +134,7 @@ def preview_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     words = arguments.text("answer")
     model = opened(arguments).model
     answer = parse_answer(words, model, name="answer")
-    return {"lines": lines_of_answer(model, answer), "notes": [plain(text(note)) for note in answer.notes]}
+    return {"lines": lines_of_answer(model, answer), "notes": [str(text(note)) for note in answer.notes]}
 
 
 def simulate_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
