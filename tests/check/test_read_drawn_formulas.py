@@ -35,7 +35,9 @@ def right(written: str, name: str = "cart-pole") -> bool:
 
 
 @pytest.mark.parametrize("wide", [True, False])
-@pytest.mark.parametrize("form", ["equations", "matrix", "list", "fractions", "solution", "said"])
+@pytest.mark.parametrize(
+    "form", ["equations", "matrix", "list", "fractions", pytest.param("solution", marks=pytest.mark.slow), "said"]
+)
 def test_what_sympy_draws_is_read(form: str, wide: bool) -> None:
     def answer(sign: int) -> str:
         first, second = cart(sign)
@@ -84,7 +86,16 @@ QUOTIENT = """
 """
 
 
-@pytest.mark.parametrize("shown", [MAXIMA, QUOTIENT])
+LEIBNIZ = """
+      2
+   2 d θ     dθ
+m⋅L ⋅─── + b⋅── + L g m sin(θ) = 0
+       2     dt
+     dt
+"""
+
+
+@pytest.mark.parametrize("shown", [MAXIMA, QUOTIENT, LEIBNIZ])
 def test_what_maxima_draws_is_read(shown: str) -> None:
     assert right(shown, "pendulum")
     assert not right(shown.replace("L g m", "L L m"), "pendulum")
@@ -100,6 +111,7 @@ def test_what_maxima_draws_is_read(shown: str) -> None:
         ["  a     2", "x = ───   ", "  b  "],
         ["⎛" * 40, "⎝" * 40],
         ["─", "─", "─"],
+        ["    d      ", "m x ──(x)", "      2    ", "    dt     "],
     ],
 )
 def test_signs_that_do_not_fit_together_are_never_guessed(lines: list[str]) -> None:
@@ -115,6 +127,27 @@ def test_a_fraction_that_cannot_be_put_together_is_an_error_at_its_place() -> No
         )
     assert error.value.place is not None
     assert error.value.place.line == 3
+
+
+def test_what_goes_on_is_never_read_without_it() -> None:
+    first = drawn(sp.Eq(m * L**2 * theta.diff(t, 2) + b * theta.diff(t), 0)).split("\n")
+    rest = ["                2", "                ⎛", "+ g⋅m⋅L⋅sin(θ) ⎜x", "                ⎝", "    ⎠"]
+    assert len(first) == len(rest)
+    with pytest.raises(ParseError):
+        right("\n".join(first) + "\n\n" + "\n".join(rest), "pendulum")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x = ─ ⎛\n    b ⎝\n\n" * 800,
+        "\n".join(["a" * 3_000, "x = " + "─" * 2_990, *["a" * 30] * 70]) + "\n\n",
+        "⎛\n⎝\n\n" * 2_000,
+    ],
+)
+def test_drawings_are_looked_at_up_to_a_bounded_size(text: str) -> None:
+    with pytest.raises(ParseError):
+        right(text, "pendulum")
 
 
 def test_rules_under_headings_are_no_fractions() -> None:

@@ -15,14 +15,17 @@ import re
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.reading.layout import BARS, LayoutError, cells, in_line
-from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.quantities.source import Source
 from lagrangian.records import dataclass
 
-MOST, MOST_PIECES, HIGHEST, WIDEST = 100, 40, 80, 4_000
-"""The most drawings, pieces of one, lines of one, and columns."""
+MOST_PIECES, HIGHEST, WIDEST, WINDOW = 40, 80, 4_000, 60
+"""The most pieces of a drawing, lines and columns of one, and the columns of the narrowest window that cuts one."""
+LARGEST, TOTAL = 60_000, 1_000_000
+"""The most places of a drawing, and of all that are tried in one answer."""
 
 _DRAWN = re.compile("[─━⎛⎡⎧╲]")
+_TALL = re.compile("[⎛⎡⎧╲↪]")
 _HYPHENS = re.compile(r"-{2,}")
 _RAISED = re.compile(r"[ \t]*+\w{1,3}(?:[ \t]++\w{1,3}){0,40}+[ \t]*")
 """A line of powers alone."""
@@ -34,6 +37,7 @@ _SAID = re.compile(r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2
 _BAR = re.compile("[─━]+")
 _FRAME = re.compile("[\u2502\u2503\u250c-\u254b]")
 _ARROW = "↪"
+_ON_ONE_LINE = "write it on one line, (a)/(b); in SymPy, print() in place of pprint()"
 _ROUND = str.maketrans("⎛⎜⎝⎞⎟⎠", "⎡⎢⎣⎤⎥⎦")
 
 
@@ -46,6 +50,24 @@ class _Drawing:
     lines: tuple[str, ...]
 
 
+class _SpaceError(Exception):
+    """Drawings are larger than what is looked at."""
+
+
+@dataclass
+class _Space:
+    """How many places of drawings may still be looked at."""
+
+    left: int = TOTAL
+
+    def take(self, lines: Sequence[str]) -> None:
+        """Count the places of a drawing; raise if they are too many."""
+        size = len(lines) * max(map(len, lines), default=0)
+        if size > min(LARGEST, self.left):
+            raise _SpaceError
+        self.left -= size
+
+
 def without_drawn_formulas(written: TracedText, typed: Source) -> TracedText:
     """Return an answer in which such formulas are on one line each; ``typed`` is the answer as it was written.
 
@@ -54,25 +76,27 @@ def without_drawn_formulas(written: TracedText, typed: Source) -> TracedText:
     text = written.text
     if not (_DRAWN.search(text) or _HYPHENS.search(text) or any(map(_RAISED.fullmatch, text.split("\n")))):
         return written
-    edits: list[tuple[int, int, str]] = []
-    waiting = list(_drawings(text))[::-1]
-    while waiting and len(edits) < MOST:
-        drawing = waiting.pop()
-        made, taken = _made(drawing, waiting[::-1])
+    edits: list[Edit] = []
+    space = _Space()
+    drawings = list(_drawings(text))
+    at = 0
+    while at < len(drawings):
+        drawing = drawings[at]
+        place = written.origins[drawing.start] if written.origins else drawing.start
+        try:
+            made, count = _made(drawings, at, space)
+        except _SpaceError:
+            what = "formulas that are drawn over several lines take too much space"
+            raise typed.error(what, place, fix=_ON_ONE_LINE, code="E703") from None
         if made is not None:
-            end = waiting[-taken].end if taken else drawing.end
-            del waiting[len(waiting) - taken :]
-            edits.append((drawing.start, end, f"{made}\n"))
-        elif _is_fraction(drawing.lines):
-            raise typed.error(
-                "a formula that is drawn over several lines, whose parts do not fit together",
-                written.origins[drawing.start] if written.origins else drawing.start,
-                fix="write it on one line, (a)/(b); in SymPy, print() in place of pprint()",
-            )
+            edits.append((drawing.start, drawings[at + count - 1].end, f"{made}\n"))
+        elif count > 1 or _is_fraction(drawing.lines) or _is_piece(drawing.lines):
+            what = "a formula that is drawn over several lines, whose parts do not fit together"
+            raise typed.error(what, place, fix=_ON_ONE_LINE)
         elif _BAR.search(text, drawing.start, drawing.end) is None:
-            round_ones = text[drawing.start : drawing.end].translate(_ROUND)
-            edits.append((drawing.start, drawing.end, round_ones))
-    return written.edited([e for e in edits if e[2] != text[e[0] : e[1]]])
+            edits.append((drawing.start, drawing.end, text[drawing.start : drawing.end].translate(_ROUND)))
+        at += count
+    return written.edited(e for e in edits if e[2] != text[e[0] : e[1]])
 
 
 def _drawings(text: str) -> Iterator[_Drawing]:
@@ -89,25 +113,46 @@ def _drawings(text: str) -> Iterator[_Drawing]:
         at += len(line) + 1
 
 
-def _made(drawing: _Drawing, behind: Sequence[_Drawing]) -> tuple[str | None, int]:
-    """A drawing on one line, and how many of those behind it are pieces of it."""
-    pieces = [drawing]
-    for following in behind[:MOST_PIECES]:
+def _made(drawings: Sequence[_Drawing], at: int, space: _Space) -> tuple[str | None, int]:
+    """The drawing at a place on one line, and how many drawings are its pieces.
+
+    What goes on in a drawing of the same height is never read without it: then there is no line.
+    """
+    pieces = [drawings[at]]
+    rows = _joined(pieces)
+    made = _one(rows, space)
+    for following in drawings[at + 1 : at + MOST_PIECES]:
         arrows = all(x.rstrip().endswith(_ARROW) for x in pieces[-1].lines)
-        if len(following.lines) != len(drawing.lines) or (not arrows and not _DRAWN.search("".join(drawing.lines))):
+        if len(following.lines) != len(rows) or not (arrows or _DRAWN.search("".join(rows))):
             break
-        if not arrows:
-            above, below = _one(_joined(pieces)), _one(following.lines)
-            whole = above is not None and not _OPEN_END.search(above) and _balanced(above)
-            if whole and below is not None and not _GOES_ON.match(below):
-                break
+        if not arrows and (_is_plain_matrix(rows) or not _is_drawn(following.lines)):
+            break
+        if not arrows and not _goes_on(made, _one(following.lines, space), rows):
+            break
         pieces.append(following)
-    while pieces:
-        made = _one(_joined(pieces))
-        if made is not None and _balanced(made):
-            return made, len(pieces) - 1
-        pieces.pop()
-    return None, 0
+        space.take(rows)
+        rows = _joined(pieces)
+        made = None if all(x.rstrip().endswith(_ARROW) for x in following.lines) else _one(rows, space)
+    return (made if made is not None and _balanced(made) else None), len(pieces)
+
+
+def _goes_on(above: str | None, below: str | None, rows: Sequence[str]) -> bool:
+    """Whether a drawing without arrows, which is ``above`` on one line, goes on in the one below it."""
+    if above is None or _OPEN_END.search(above) or not _balanced(above):
+        return above is not None or _is_wide(rows)
+    if below is None:
+        return _is_wide(rows)
+    return _GOES_ON.match(below) is not None or (_is_wide(rows) and "=" in below and "=" not in above)
+
+
+def _is_drawn(lines: Sequence[str]) -> bool:
+    """Whether lines have pieces of a drawing, or powers on a line of their own."""
+    return _DRAWN.search("".join(lines)) is not None or any(map(_RAISED.fullmatch, lines))
+
+
+def _is_wide(rows: Sequence[str]) -> bool:
+    """Whether a drawing may be cut at the edge of a window."""
+    return max(len(x.rstrip()) for x in rows) >= WINDOW
 
 
 def _joined(pieces: Sequence[_Drawing]) -> list[str]:
@@ -124,14 +169,17 @@ def _joined(pieces: Sequence[_Drawing]) -> list[str]:
     return rows
 
 
-def _one(lines: Sequence[str]) -> str | None:
+def _one(lines: Sequence[str], space: _Space) -> str | None:
     """A drawing on one line; None if it is none, or says nothing."""
     text = "\n".join(lines)
     drawn, hyphens = _DRAWN.search(text) is not None, _HYPHENS.search(text) is not None
-    raised = any(map(_RAISED.fullmatch, lines))
+    raised, tall = any(map(_RAISED.fullmatch, lines)), _TALL.search(text) is not None
     if not (drawn or hyphens or raised) or (_is_plain_matrix(lines) and drawn):
         return None
     for ascii_bars in (False, True) if hyphens and not drawn else (False,):
+        if len(lines) * max(map(len, lines)) > LARGEST and not (tall or _is_fraction(lines)):
+            return None
+        space.take(lines)
         try:
             made = in_line(lines, ascii_bars=ascii_bars)
         except LayoutError:
@@ -157,6 +205,12 @@ def _is_rule(lines: Sequence[str]) -> bool:
 
 def _balanced(written: str) -> bool:
     return all(written.count(a) == written.count(b) for a, b in ("()", "[]", "{}"))
+
+
+def _is_piece(lines: Sequence[str]) -> bool:
+    """Whether tall round brackets or roots stand in a drawing without an equals sign, which may belong to another."""
+    text = "".join(lines)
+    return "=" not in text and re.search("[⎛⎝╲]", text) is not None and re.search(r"[+⋅·*-]", text) is not None
 
 
 def _is_fraction(lines: Sequence[str]) -> bool:

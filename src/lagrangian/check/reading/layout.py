@@ -25,7 +25,7 @@ _LEFT = {"⎛": "⎛⎜⎝", "⎡": "⎡⎢⎣", "⎧": "⎧⎨⎩⎪"}
 _RIGHT = {"⎛": "⎞⎟⎠", "⎡": "⎤⎥⎦", "⎧": "⎫⎬⎭⎪"}
 _FAMILY = {c: first for first, pieces in _LEFT.items() for c in pieces}
 _CLOSED = {"(": ")", "[": "]", "{": "}"}
-_DERIVES = re.compile(r"[d∂](?P<power>\^2)?\Z")
+_DERIVES = re.compile(r"[d∂](?P<power>\^\(?2\)?)?[ ]?(?P<of>(?:[^\W\d]\w{0,23})?)\Z")
 _BY_TIME = re.compile(r"[d∂]t(?P<power>\^2)?\Z")
 TALL = "".join(_FAMILY)
 """The pieces of which tall brackets begin."""
@@ -238,8 +238,11 @@ class _Layout:
         above = self.inner(_Box(box.top, base, at, end), depth)
         below = self.inner(_Box(base + 1, box.bottom, at, end), depth)
         derives, by = _DERIVES.match(above), _BY_TIME.match(below)
-        if derives and by and derives["power"] == by["power"]:
-            return f" d{derives['power'] or ''}/dt{by['power'] or ''} "
+        if by:
+            if not derives or bool(derives["power"]) != bool(by["power"]):
+                raise LayoutError
+            power = by["power"] or ""
+            return f" d{power}{derives['of']}/dt{power} "
         if "=" in above or "=" in below:
             raise LayoutError
         return f"(({above})/({below}))"
