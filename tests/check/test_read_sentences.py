@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import pytest
 
+import lagrangian as lg
 from built_in import derivation
 from lagrangian import ParseError
 
@@ -196,3 +197,80 @@ def test_words_that_may_change_an_equation_are_told(words: str) -> None:
 def test_a_term_behind_dots_and_a_word_is_not_left_out() -> None:
     with pytest.raises(ParseError, match="line 2"):
         derivation("lecture-3a").check("m1*x1'' + k*(x1 - x2) = -F\nm2*x2'' - k*(x1 - x2) = F ... plus m2 g")
+
+
+SLIDERS = """
+name = "two sliders"
+[coordinates]
+y1 = "first"
+y2 = "second"
+[parameters]
+M1 = "2 kg"
+M2 = "1 kg"
+k = "80 N/m"
+d = "2 N*s/m"
+[points]
+A = ["y1", "0"]
+B = ["y2", "0"]
+[[particle]]
+mass = "M1"
+at = "A"
+[[particle]]
+mass = "M2"
+at = "B"
+[[spring]]
+k = "k"
+deflection = "y2 - y1"
+[[damper]]
+b = "d"
+deflection = "y2"
+"""
+
+
+@pytest.mark.parametrize(
+    ("said", "old", "new"),
+    [
+        ("w2 is the velocity of mass 2, and c1, ..., c2 the accelerations of the masses.", "- d", "+ d"),
+        ("c1 and c2 are the accelerations of masses 1 and 2, and w2 the speed of mass 2.", "- d", "- 2*d"),
+        ("Here c1, c2 are the accelerations of the carts and w2 the velocity of cart 2.", "y2 - y1", "y2 + y1"),
+    ],
+)
+def test_names_told_by_enumeration_are_rates_of_masses_with_the_same_numbers(said: str, old: str, new: str) -> None:
+    written = f"M1*c1 = k*(y2 - y1)\nM2*c2 = -k*(y2 - y1) - d*w2\n\n{said}"
+    derived = lg.loads(SLIDERS).derive()
+    assert derived.check(written).right
+    try:
+        assert not derived.check(written.replace(old, new)).right
+    except ParseError as error:
+        assert "what is '" in str(error)
+
+
+@pytest.mark.parametrize("tag", ["(I)", "[II]", "(q)"])
+def test_a_letter_in_brackets_far_behind_an_equation_is_its_label(tag: str) -> None:
+    twins(f"{POLE}        {tag}\n{CART}\nI add {tag} to the other one.", "- m g", "+ m g")
+    assert not right(f"{POLE}\n{CART} * {tag}")
+    assert not right(f"{POLE}\n{CART}        (l)")
+    assert not right(f"{POLE}\n{CART.replace('F', 'q x - F')}        (q)")
+
+
+@pytest.mark.parametrize(
+    ("said", "old", "new"),
+    [
+        ("The cart's wheel turns by φ, and r·φ = l·θ.", "l·θ.", "M·θ."),
+        ("Let me use φ instead, so θ = r·φ/l.", "r·φ/l.", "r·φ/M."),
+    ],
+)
+def test_a_relation_in_a_sentence_says_what_a_coordinate_is(said: str, old: str, new: str) -> None:
+    said, old, new = (x.replace("r·", "2·") for x in (said, old, new))
+    turned = "(2·φ/l)"
+    rows = f"(M + m) x'' + 2·m·φ̈·cos{turned} - 4·m/l·φ̇²·sin{turned} + b x' = F\n"
+    rows += f"(J + m l^2)·2/l·φ̈ + m l x'' cos{turned} - m g l sin{turned} = 0"
+    twins(f"{said}\n{rows}", old, new)
+    assert not right(f"{said}\n{rows.replace('- m g l', '+ m g l')}")
+
+
+def test_a_coordinate_that_only_words_explain_is_asked_about() -> None:
+    rows = "(M + m) x'' + 2*m*φ''*cos(2*φ/l) - 4*m/l*φ'^2*sin(2*φ/l) + b x' = F\n"
+    rows += "(J + m l^2)*2/l*φ'' + m l x'' cos(2*φ/l) - m g l sin(2*φ/l) = 0"
+    with pytest.raises(ParseError, match="what is 'φ'"):
+        derivation("cart-pole").check(f"As second coordinate I use the angle φ through which a wheel turns.\n\n{rows}")

@@ -27,6 +27,7 @@ from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.relations import without_relations
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
@@ -291,16 +292,18 @@ def _elements(truth: Reference, index: int) -> tuple[str, ...]:
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: bool) -> Verdict | None:
     """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
     change, which without ``explain`` is not considered."""
-    glance = QuickTest(truth, spelling.lines)
+    whole, new = QuickTest(truth, spelling.lines), new_names(truth, spelling.lines)
     for change in candidates(truth, spelling.lines):
+        told = without_relations(new, change.put, spelling.lines)
+        glance = whole if told == [*spelling.lines] else QuickTest(truth, told)
         if not glance.may_be(change):
             continue
-        judged = _judged(truth, spelling.lines, change, compared=False)
+        judged = _judged(truth, told, change, compared=False)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
             continue
         if not change.plain and not explain:
             continue
-        if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
+        if not change.plain or not (new or _tells(spelling.lines)):
             findings = verdict.findings if explain else _judged(truth, spelling.lines).findings
             named = mistakes(truth, spelling.lines, findings)
             if named.certain or too_long(truth):
@@ -345,7 +348,8 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
     other = in_these(truth, change) if change is not None else None
     if change is None or other is None:
         return None
-    lines = tuple(line for line in spelling.lines if line.kind != "definition")
+    told = without_relations(list(change.table), change.put, spelling.lines)
+    lines = tuple(line for line in told if line.kind != "definition")
     return _in_these(other, lines, change, spelling, verdict)
 
 

@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.check.relations import related, solutions
 from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.coordinates import changed
@@ -122,7 +123,10 @@ def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredL
         expr = stated.get(c.name)
         for f in new if expr is not None else ():
             if expr is not None and expr.has(f):
-                solved.setdefault(f, []).extend(_solutions(expr - c.symbol, f))
+                solved.setdefault(f, []).extend(solutions(expr - c.symbol, f))
+    for f in new:
+        if f not in solved and (found := related(truth, f, lines)):
+            solved[f] = found
     if len(new) > MOST_CHOSEN:
         yield from _in_order(truth, new, lines)
         return
@@ -147,15 +151,6 @@ def _in_order(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[Answered
     by_length = sorted(new, key=lambda f: (len(str(f)), str(f)))  # y10 behind y9
     table = dict(zip(by_length, own, strict=True))
     yield ProposedChange(table, _meant(table), True)
-
-
-def _solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
-    """The value of the unknown, if the expression is linear in it."""
-    slope = expr.diff(unknown)
-    if slope == 0 or slope.has(unknown):
-        return []
-    rest = cast("sp.Expr", expr.xreplace({unknown: sp.S.Zero}))
-    return [bounded.expand(-rest / slope)]
 
 
 def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import sympy as sp
 
 from lagrangian.check.changes.ring import Monomial, SumRing
 from lagrangian.check.reference import Reference
@@ -32,8 +33,10 @@ class AtomSlopes:
         a = [compiled.input(x.acceleration) for x in c]
         moving = dict(zip((*q, *v), (*v, *a), strict=True)) | {compiled.input(time): g.one}
         ids: list[int] = []
-        for atom in ring.atoms:
-            node = compiled.node(truth.put(atom))
+        atoms = [truth.put(atom) for atom in ring.atoms]
+        nowhere = [k for k, atom in enumerate(atoms) if atom.has(sp.zoo, sp.nan, sp.oo)]  # 1/(r - r)
+        for k, atom in enumerate(atoms):
+            node = g.one if k in nowhere else compiled.node(atom)
             slopes = vjp(g, [node], [g.one], [*q, *v])
             ids += [node, *slopes, *jvp(g, [node, *slopes[n:]], moving)]
         compiled.ids = ids
@@ -48,6 +51,7 @@ class AtomSlopes:
             self.rate = values[:, 1 + 2 * n] * inverse
             self.by_v_rate = values[:, 2 + 2 * n :] * inverse[:, None] - self.by_v * self.rate[:, None]
         self._without_undefined()
+        self.value[nowhere] = np.nan
 
     def _without_undefined(self) -> None:
         """Give atoms that are not smooth somewhere the value NaN there, so that they spoil no other monomial."""

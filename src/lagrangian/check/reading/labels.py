@@ -97,6 +97,8 @@ _UNIT = re.compile(
 _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
 _ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefgh"), list("ABCDEFGH"))
 """How equations are numbered in letters."""
+_FAR_BEHIND = re.compile(rf"(?:[ ]{{2,}}|\t)[ \t]*[(\[]\s*(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*[)\]]{_END}")
+"""A letter or a Roman number in brackets, far from the equation in front of it."""
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
 
@@ -111,6 +113,8 @@ class Numbering:
     named: frozenset[str] = frozenset()
     """The names in brackets that only say which equation follows: the coordinates, each once, (r) …, (θ) …, or letters
     that are found nowhere else, (A) …, (B) …"""
+    tags: frozenset[str] = frozenset()
+    """The letters in brackets far behind equations that are found outside brackets nowhere."""
 
 
 def numbering(text: str, words: Words) -> Numbering:
@@ -128,7 +132,18 @@ def numbering(text: str, words: Words) -> Numbering:
     in_order = len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
     told = len(written) > 1 and (named or lettered)
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
-    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()))
+    far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
+    tags = frozenset(x for x in far if _is_tag(x, text, words))
+    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()), tags)
+
+
+def _is_tag(letter: str, text: str, words: Words) -> bool:
+    """Whether a letter is no name of the system or of the answer, and stands in brackets wherever it stands; I may be
+    the word."""
+    if words.known(letter) or function_of(letter) is not None:
+        return False
+    spoken = r"(?![ \t]+[a-z]{3})" if letter == "I" else ""
+    return re.search(rf"(?<![(\[\w]){letter}(?!\w){spoken}|(?<=[(\[]){letter}(?![\w)\]])", text) is None
 
 
 def before(line: str, words: Words, numbers: Numbering) -> str:
@@ -253,6 +268,8 @@ def behind(line: str, numbers: Numbering) -> str:
         line = _STEP.sub(lambda m: " " * len(m.group()), line)
     if numbers.lettered and (match := _LETTER_BEHIND.search(line)) is not None:
         line = blank(line, match.start(), len(line))
+    if (far := _FAR_BEHIND.search(line)) is not None and far["tag"] in numbers.tags and "=" in line[: far.start()]:
+        line = blank(line, far.start(), len(line))
     for form in (_DOTS, _TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):
         if match := form.search(line):
             line = blank(line, match.start(), len(line))

@@ -383,7 +383,7 @@ class Lines:
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
                 self._unjudged(left, right, reader)
         elif (found := only_name(a)) is not None and not found[1] and self.subjects.changes_coordinate(found[0], right):
-            return made_line("definition", None, right, str(found[0]), a, b, reader)
+            return made_line("definition", None, right, self.names.scope.meanings(found[0])[0][0], a, b, reader)
         elif (given := self.subjects.parameter(a, right) or self.subjects.parameter(b, left)) is not None:
             return made_line("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
         return made_line(kind, left, right, None, a, b, reader)

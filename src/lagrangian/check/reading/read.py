@@ -79,8 +79,6 @@ _UNIT_VECTOR = re.compile(
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
-
-
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
 _EXPLAINED = re.compile(
@@ -89,6 +87,12 @@ _EXPLAINED = re.compile(
     r"(?:(?:the|an?)[ \t])?(?P<word>[^\W\d_]{4,})"
 )
 """A name with words that say what it is: rho: radius of the drum."""
+
+_CHOSEN = re.compile(
+    r"\bcoordinates?\b[^.;=\n]{0,60}\bthe[ ](?:angle|distance|displacement|position)[ ]"
+    r"(?P<name>[^\W\d]\w{0,23}+)(?=[ ][a-z])"
+)
+"""A coordinate of the answer that words explain: as second coordinate the angle β through which the disc turns."""
 
 
 @dataclass(frozen=True)
@@ -219,7 +223,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
-    unknown, unread = tuple(lines.names.unknown.values()), frozenset(lines.unread)
+    unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
+    unknown = tuple(lines.names.unknown.values())
     doubt = together(lines.doubts) if lines.doubts else None
     return Answer(made, notation, unknown, notes, said, unread, tuple(again), doubt)
 

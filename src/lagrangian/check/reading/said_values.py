@@ -17,6 +17,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import islice, pairwise, product
 
+from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.spans import spans
 from lagrangian.check.reading.words import Words
 from lagrangian.read.letters import key
@@ -93,7 +94,11 @@ def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool)
         items = list(_items(sentence, names, words, latex=latex))
         for name, value, sure in (*_paired(items), *_rated(items, coordinates, words, latex=latex)):
             found[name][value] = found[name].get(value, False) or sure
-    return list(_readings({names[x]: said for x, said in found.items() if said}))
+    readings = list(_readings({names[x]: said for x, said in found.items() if said}))
+    if numbered := {} if latex else numbered_rates(text, unknown, words.names.model):
+        others = {x: v for y in readings if y.sure for x, v in y.values.items()}
+        readings.insert(0, SaidValues({**others, **numbered}, True))
+    return readings
 
 
 def _readings(found: dict[str, dict[str, bool]]) -> Iterator[SaidValues]:

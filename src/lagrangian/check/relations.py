@@ -1,0 +1,51 @@
+"""Equations of an answer that only relate a coordinate of its own to those of the system: r β = (R − r) θ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+
+
+def solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
+    """Return the value of the unknown at which an expression is 0, if the expression is linear in it."""
+    slope = expr.diff(unknown)
+    if slope == 0 or slope.has(unknown):
+        return []
+    rest = cast("sp.Expr", expr.xreplace({unknown: sp.S.Zero}))
+    return [bounded.expand(-rest / slope)]
+
+
+def related(truth: Reference, new: sp.Expr, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
+    """Return what the equations of positions alone say that a new name is, each value once."""
+    own = list(truth.derivation.coordinates)
+    said = [line.expr for line in lines if _relates(line, new)]
+    known = {*own, new}
+    values = [v for expr in said if expr.atoms(AppliedUndef) <= known for v in solutions(expr, new) if v.has(*own)]
+    return list(dict.fromkeys(values))
+
+
+def without_relations(
+    new: Sequence[sp.Expr], put: Callable[[sp.Expr], sp.Expr], lines: Sequence[AnsweredLine]
+) -> list[AnsweredLine]:
+    """Return the lines, in which the relations that hold once ``put`` has replaced the new names are definitions.
+
+    Any other relation stays an equation, which is judged.
+    """
+
+    def holds(line: AnsweredLine) -> bool:
+        return any(_relates(line, x) for x in new) and bounded.cancel(put(line.expr)) == 0
+
+    return [replace(line, kind="definition") if holds(line) else line for line in lines]
+
+
+def _relates(line: AnsweredLine, new: sp.Expr) -> bool:
+    """Whether a line is an equation of positions that names a coordinate of the answer."""
+    return line.kind == "equation" and line.expr.has(new) and not line.expr.has(sp.Derivative)
