@@ -231,7 +231,7 @@ deflection = "y2"
     ("said", "old", "new"),
     [
         ("w2 is the velocity of mass 2, and c1, ..., c2 the accelerations of the masses.", "- d", "+ d"),
-        ("c1 and c2 are the accelerations of masses 1 and 2, and w2 the speed of mass 2.", "- d", "- 2*d"),
+        ("c1 and c2 are the accelerations of masses 1 and 2, and w2 the speed of mass 2.", "1 and 2", "1 and 3"),
         ("Here c1, c2 are the accelerations of the carts and w2 the velocity of cart 2.", "y2 - y1", "y2 + y1"),
     ],
 )

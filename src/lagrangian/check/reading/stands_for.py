@@ -133,6 +133,9 @@ def with_stated_rates(written: TracedText, coordinates: Sequence[str], taken: Ca
         numbered = any(map(_number, coordinates)) and all(map(_number, names))
         of = [[c for c in coordinates if _number(c) == _number(x)] for x in names]
         own = [x[0] for x in of if len(x) == 1] if numbered else coordinates
+        told = re.findall(r"(?<![\w.])\d{1,2}(?!\w)", match.group()[match.end("rate") - match.start() :])[: len(names)]
+        if numbered and told and told != [_number(x) for x in names]:
+            continue  # c1 and c2 are the accelerations of masses 1 and 3
         if len(own) == len(names) and not any(map(taken, names)):
             edits.append(
                 (*match.span(), "; " + "; ".join(f"{a} = {b}{primes}" for a, b in zip(names, own, strict=True)))
