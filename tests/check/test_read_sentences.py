@@ -274,3 +274,8 @@ def test_a_coordinate_that_only_words_explain_is_asked_about() -> None:
     rows += "(J + m l^2)*2/l*φ'' + m l x'' cos(2*φ/l) - m g l sin(2*φ/l) = 0"
     with pytest.raises(ParseError, match="what is 'φ'"):
         derivation("cart-pole").check(f"As second coordinate I use the angle φ through which a wheel turns.\n\n{rows}")
+
+
+def test_a_bullet_behind_a_sentence_begins_a_statement() -> None:
+    assert right(f"The two steps were T and V. * {CART}\n  * {POLE}\nThe units agree.")
+    assert not right(f"The two steps were T and V. * {CART}\n  * {POLE.replace('- m g', '+ m g')}\nThe units agree.")

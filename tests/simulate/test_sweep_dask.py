@@ -173,13 +173,14 @@ def test_a_worker_that_hangs_does_not_hold_up_the_sweep(
     from lagrangian.integrate import remote
 
     monkeypatch.setattr(remote, "DELIVERY", 2.0)
+    with distributed.Client(cluster, set_as_default=False) as client:  # before the sweep: nothing else is said then
+        process_of_a_worker = next(iter(client.run(os.getpid).values()))
     hung: list[int] = []
 
     def hang(done: int, count: int) -> None:
         if not hung and done > count // 4:
-            with distributed.Client(cluster, set_as_default=False) as client:
-                hung.append(next(iter(client.run(os.getpid).values())))
-            os.kill(hung[0], signal.SIGSTOP)
+            hung.append(process_of_a_worker)
+            os.kill(process_of_a_worker, signal.SIGSTOP)
 
     try:
         there = system.sweep(5.0, GRID, **HOW, scheduler=cluster.scheduler_address, progress=hang)

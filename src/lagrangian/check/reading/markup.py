@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from lagrangian.check.reading.traced_text import TracedText
+
 _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
 _RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
 _CODE = re.compile(r"(?<!`)(`{1,2})(?!`)([^`\n]+)\1(?!`)")
@@ -32,6 +34,13 @@ def blank(text: str, start: int, end: int) -> str:
     return text[:start] + " " * (end - start) + text[end:]
 
 
+_BEHIND_SENTENCE = re.compile(
+    r"^(?P<sentence>[ \t]*+(?:[^\W\d_]{1,20}[,:]?[ ]){2,30}[^\W\d_]{1,20}[.!?])[ ](?=(?:[*•-]|\(\w{1,3}\))[ ][^\n]*=)",
+    re.MULTILINE,
+)
+"""A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
+
+
 def without_markup(text: str) -> str:
     """Return an answer without Markdown; what is not mathematics is blank."""
     for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE):
@@ -41,6 +50,11 @@ def without_markup(text: str) -> str:
     for form in (_BOLD, _CODE):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
+
+
+def sentences_apart(text: TracedText) -> TracedText:
+    """Return an answer in which a bullet or a label behind a sentence of words begins a line."""
+    return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n")
 
 
 def bullets(text: str) -> int:

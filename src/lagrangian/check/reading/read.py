@@ -24,7 +24,7 @@ from lagrangian.check.reading.line_forms import Statement, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines
 from lagrangian.check.reading.listed_values import without_values
-from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
+from lagrangian.check.reading.markup import all_bullets, bullets, sentences_apart, without_bullets, without_markup
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
@@ -259,7 +259,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
-    return on_one_line(plain)
+    return sentences_apart(on_one_line(plain))
 
 
 def _left_out(text: str, commands: Sequence[int]) -> str:
