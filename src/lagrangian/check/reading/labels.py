@@ -97,7 +97,9 @@ _UNIT = re.compile(
 _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
 _ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefgh"), list("ABCDEFGH"))
 """How equations are numbered in letters."""
-_FAR_BEHIND = re.compile(rf"(?:[ ]{{2,}}|\t)[ \t]*[(\[]\s*(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*[)\]]{_END}")
+_FAR_BEHIND = re.compile(
+    rf"(?<![ \t])(?:[ ]{{2}}|[ ]?\t)[ \t]*+[(\[]\s*+(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*+[)\]]{_END}"
+)
 """A letter or a Roman number in brackets, far from the equation in front of it."""
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
