@@ -279,3 +279,16 @@ def test_a_coordinate_that_only_words_explain_is_asked_about() -> None:
 def test_a_bullet_behind_a_sentence_begins_a_statement() -> None:
     assert right(f"The two steps were T and V. * {CART}\n  * {POLE}\nThe units agree.")
     assert not right(f"The two steps were T and V. * {CART}\n  * {POLE.replace('- m g', '+ m g')}\nThe units agree.")
+
+
+def test_a_matrix_drawn_with_its_name_on_a_middle_line_is_read() -> None:
+    def drawn(last: str) -> str:
+        return (
+            "    ⎡ M+m        m*l*cos(theta) ⎤\n"
+            "M = ⎢                           ⎥\n"
+            f"    ⎣ m*l*cos(theta)  {last} ⎦\n"
+            "M*[x''; theta''] + [b*x' - m*l*theta'^2*sin(theta); -m*g*l*sin(theta)] = [F; 0]"
+        )
+
+    assert right(drawn("J + m*l^2"))
+    assert not right(drawn("J - m*l^2"))

@@ -27,7 +27,7 @@ from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
-from lagrangian.check.relations import without_relations
+from lagrangian.check.relations import relations, without_relations
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
@@ -293,9 +293,10 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
     """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
     change, which without ``explain`` is not considered."""
     whole, new = QuickTest(truth, spelling.lines), new_names(truth, spelling.lines)
+    found = relations(new, spelling.lines)
     for change in candidates(truth, spelling.lines):
-        told = without_relations(new, change.put, spelling.lines)
-        glance = whole if told == [*spelling.lines] else QuickTest(truth, told)
+        told = without_relations(found, change.put, spelling.lines) if found else spelling.lines
+        glance = QuickTest(truth, told) if found else whole
         if not glance.may_be(change):
             continue
         judged = _judged(truth, told, change, compared=False)
@@ -348,7 +349,7 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
     other = in_these(truth, change) if change is not None else None
     if change is None or other is None:
         return None
-    told = without_relations(list(change.table), change.put, spelling.lines)
+    told = without_relations(relations(list(change.table), spelling.lines), change.put, spelling.lines)
     lines = tuple(line for line in told if line.kind != "definition")
     return _in_these(other, lines, change, spelling, verdict)
 

@@ -32,18 +32,21 @@ def related(truth: Reference, new: sp.Expr, lines: Sequence[AnsweredLine]) -> li
     return list(dict.fromkeys(values))
 
 
+def relations(new: Sequence[sp.Expr], lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """Return the lines that relate one of the new names to other positions."""
+    return [line for line in lines if any(_relates(line, x) for x in new)]
+
+
 def without_relations(
-    new: Sequence[sp.Expr], put: Callable[[sp.Expr], sp.Expr], lines: Sequence[AnsweredLine]
-) -> list[AnsweredLine]:
-    """Return the lines, in which the relations that hold once ``put`` has replaced the new names are definitions.
+    found: Sequence[AnsweredLine], put: Callable[[sp.Expr], sp.Expr], lines: Sequence[AnsweredLine]
+) -> tuple[AnsweredLine, ...]:
+    """Return the lines, in which those of the ``found`` relations that hold once ``put`` has replaced the new names are
+    definitions.
 
     Any other relation stays an equation, which is judged.
     """
-
-    def holds(line: AnsweredLine) -> bool:
-        return any(_relates(line, x) for x in new) and bounded.cancel(put(line.expr)) == 0
-
-    return [replace(line, kind="definition") if holds(line) else line for line in lines]
+    holding = {id(line) for line in found if bounded.cancel(put(line.expr)) == 0}
+    return tuple(replace(line, kind="definition") if id(line) in holding else line for line in lines)
 
 
 def _relates(line: AnsweredLine, new: sp.Expr) -> bool:
