@@ -153,3 +153,46 @@ def test_a_multiplier_with_another_factor_in_one_equation_is_one_mistake(trolley
     rows = "M*s'' + k*s = -2*lambda*(x-s)\nm*x'' = lambda*(x-s)\nm*y'' = 2*lambda*y - m*g"
     (mistake,) = trolley.check(rows).mistakes
     assert mistake.name == "multiplier_factor" and mistake.coordinate == "x"
+
+
+# -- lines that state a constraint or a derivative of it -------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def bob() -> lg.Derivation:
+    """A bob on a string of length l, in the coordinates of the plane."""
+    s = lg.System("bob on a string")
+    x, y = s.coordinates("x y")
+    m, l = s.parameters("m l")
+    s.particle(m, at=s.origin + (x, y), name="bob")
+    s.gravity()
+    s.constraint(x**2 + y**2 - l**2, name="string")
+    return s.derive()
+
+
+ROWS = "m x'' = 2 lambda x\nm y'' = 2 lambda y - m g\n"
+
+
+@pytest.mark.parametrize(
+    ("line", "kind", "said"),
+    [
+        ("x x'' + y y'' = 0", "constraint_acceleration_wrong", "with products of rates, x'^2 + y'^2, are missing"),
+        ("2 x x'' + 2 y y'' + 2 x'^2 = 0", "constraint_acceleration_wrong", "the term 2*y'^2 is missing"),
+        ("x x'' + y y'' - x'^2 - y'^2 = 0", "constraint_acceleration_wrong", "have the wrong sign"),
+        ("x x' - y y' = 0", "constraint_rate_wrong", "the term -y*y' has the wrong sign"),
+        ("x^2 + y^2 = l", "constraint_wrong", "in the term -l, the factor l is missing"),
+    ],
+)
+def test_a_slip_in_a_constraint_or_its_derivative(bob: lg.Derivation, line: str, kind: str, said: str) -> None:
+    verdict = bob.check(ROWS + line)
+    (mistake,) = verdict.mistakes
+    assert mistake.name == kind and said in str(mistake.what), str(mistake.what)
+    assert [f.status.right for f in verdict.findings] == [True, True, False]
+
+
+def test_what_follows_from_a_wrong_constraint_is_no_mistake(bob: lg.Derivation) -> None:
+    rows = ROWS.replace("2 lambda y", "-2 lambda y")
+    verdict = bob.check(rows + "x^2 - y^2 = l^2\nx x'' - y y'' + x'^2 - y'^2 = 0")
+    (mistake,) = verdict.mistakes
+    assert mistake.name == "constraint_wrong" and "follow from it" in str(mistake.what)
+    assert [f.follows for f in verdict.findings] == [False, False, False, True]

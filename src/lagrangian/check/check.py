@@ -11,7 +11,6 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.beside import beside
 from lagrangian.check.candidates import too_long
-from lagrangian.check.constraint_mistakes import beside_constraints
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
@@ -20,8 +19,7 @@ from lagrangian.check.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
-from lagrangian.check.mistakes_beside_multipliers import mistakes_beside_multipliers
-from lagrangian.check.multipliers import with_own_multipliers
+from lagrangian.check.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.new_angles import check_in_any_angle
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.own_constraints import unfolded
@@ -73,7 +71,10 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
         read = unfolded(truth, written)
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
         verdict = energies_on_rows(truth, read.lines, verdict, hint)
-        return with_rows_put_in(truth, read.lines, _with_mistakes(truth, read.lines, verdict)) if explain else verdict
+        if not explain:
+            return verdict
+        named = named_beside_multipliers(truth, read.lines, verdict, lambda x: _judged(truth, x).findings)
+        return with_rows_put_in(truth, read.lines, named)
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
     if forces is not None:
@@ -85,35 +86,6 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
         read = _valued(truth, own.lines, own.written, hint, False)
         verdict = replace(read, notes=(*read.notes, own.note)) if read.right else verdict
     return replace(verdict, notes=(*told, *verdict.notes))
-
-
-def _with_mistakes(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
-    """The verdict on a wrong answer with multipliers, with the mistakes that its equations, taken one by one, show."""
-    read = with_own_multipliers(truth, lines) if verdict.status is Status.WRONG else None
-    if read is None:
-        return verdict
-    judged = _judged(truth, read.lines)
-    named = mistakes_beside_multipliers(truth, read.lines, judged.findings)
-    told = (*named.told, *beside_constraints(truth, lines, verdict.findings, judged.findings, read.mistakes))
-    if not told:
-        return verdict
-    better = {f.line.number: f for f in judged.findings}
-    better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in read.wrong}
-    findings = tuple(_without_forces(truth, better.get(f.line.number, f)) for f in verdict.findings)
-    return replace(
-        verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
-    )
-
-
-def _without_forces(truth: Reference, finding: Finding) -> Finding:
-    """A finding, without the terms that differ where a multiplier was eliminated: they are those of several rows."""
-    forces = [m.symbol for m in truth.derivation.multipliers.values()]
-    eliminated = finding.line.kind == "equation" and not finding.line.expr.has(*forces)
-    return replace(finding, differences=()) if eliminated and _lacks(finding, forces) else finding
-
-
-def _lacks(finding: Finding, forces: Sequence[sp.Expr]) -> bool:
-    return any(d.kind == "missing" and d.term.has(*forces) for d in finding.differences)
 
 
 def _valued(

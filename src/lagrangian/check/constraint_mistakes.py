@@ -9,9 +9,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.multipliers import wrong_constraints
+from lagrangian.check.constraint_slips import WrongConstraint
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.model import time
 from lagrangian.page.formula import text
 
@@ -22,20 +22,18 @@ LONGEST = 400
 def beside_constraints(
     truth: Reference,
     lines: Sequence[AnsweredLine],
-    findings: Sequence[Finding],
+    found: Sequence[WrongConstraint],
     judged: Sequence[Finding],
     of_multipliers: Sequence[Mistake],
 ) -> tuple[Mistake, ...]:
-    """The mistakes of the multipliers and of the constraints that an answer has wrong, ``findings``.
+    """The mistakes of the multipliers and of the constraints that an answer has wrong, ``found``.
 
     If the multiplier's factors are λ ∂g/∂ξ of the answer's own constraint g = 0, that constraint is the one mistake.
     ``judged`` say which equation each line is.
     """
-    told = wrong_constraints(truth, findings)
-    moving = [x for c in truth.model.coordinates for x in (c.rate, c.acceleration)]
-    wrong = [f.line for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
-    own = [line.expr for line in wrong if not line.expr.has(*moving)]
-    if not told or not own or any(bounded.cancel(g**2 - own[0] ** 2) != 0 for g in own[1:]):
+    own = [x for x in found if not x.follows]
+    told = tuple(x.mistake for x in own)
+    if not own or any(bounded.cancel(x.expr**2 - own[0].expr ** 2) != 0 for x in own[1:]):
         return (*of_multipliers, *told)
     if not of_multipliers or not _follow(truth, own[0], lines, judged):
         return (*told[:1], *of_multipliers)
@@ -43,8 +41,8 @@ def beside_constraints(
     return (Mistake(told[0].name, what, told[0].why, told[0].step, told[0].element, None, told[0].brief),)
 
 
-def _follow(truth: Reference, g: sp.Expr, lines: Sequence[AnsweredLine], judged: Sequence[Finding]) -> bool:
-    """Whether the one multiplier of an answer has the factors ∂g/∂ξ_i, all times the same."""
+def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine], judged: Sequence[Finding]) -> bool:
+    """Whether the one multiplier of an answer has the factors ∂g/∂ξ_i, all times the same; ∂g/∂ξ̇_i of a rate g = 0."""
     model = truth.model
     known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     accelerations = [c.acceleration for c in model.coordinates]
@@ -58,11 +56,12 @@ def _follow(truth: Reference, g: sp.Expr, lines: Sequence[AnsweredLine], judged:
     for expr, (i, c) in zip(rows, (coordinates[name] for name in said if name is not None), strict=True):
         names: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in known}
         symbols |= names
-        own, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
-        if len(symbols) > 1 or own == 0 or right == 0:
+        mine, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
+        if len(symbols) > 1 or mine == 0 or right == 0:
             return False
-        factor = sum((expr.diff(s) for s in names), sp.S.Zero) * right / own
-        pairs.append((cast("sp.Expr", factor), bounded.diff(g, c.symbol)))
+        factor = sum((expr.diff(s) for s in names), sp.S.Zero) * right / mine
+        moved = (c.symbol, c.rate, c.acceleration)[own.order]
+        pairs.append((cast("sp.Expr", factor), bounded.diff(own.expr, moved)))
     if len(symbols) != 1 or len(pairs) < 2 or sum(bounded.size(x) for p in pairs for x in p) > LONGEST:
         return False
     a, b = next(((w, x) for w, x in pairs if w != 0 and x != 0), (sp.S.Zero, sp.S.Zero))

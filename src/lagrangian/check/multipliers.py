@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -34,8 +34,6 @@ LONGEST = 60
 WHY = text(
     "The force of a constraint f = 0 enters the equation of ξ as λ·∂f/∂ξ: one λ for all equations, and ∂f/∂ξ for each."
 )
-
-WHY_CONSTRAINT = text("Put in a position that the sketch shows, and see whether the line holds there.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,25 +227,3 @@ def _mistake(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, right: 
         kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * right, " belongs there.")
     brief = text("The multiplier does not stand in the equation of ", q, " as it should.")
     return Mistake(kind, what, WHY, 6, title, name, brief)
-
-
-def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Mistake, ...]:
-    """The lines that say of positions alone what the constraints do not."""
-    model = truth.model
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
-    moving = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
-    elements = list(dict.fromkeys(m.element.title for m in truth.derivation.multipliers.values()))
-    told: list[Mistake] = []
-    for f in findings:
-        expr = f.line.expr
-        if f.line.kind != "equation" or f.status is not Status.WRONG or expr.has(*moving):
-            continue
-        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= known:
-            continue
-        which = elements[0] if len(elements) == 1 else "the constraints"
-        what = text(
-            f"{f.line.title[:1].upper()}{f.line.title[1:]} does not hold for the positions that {which} allows."
-        )
-        element = elements[0] if len(elements) == 1 else None
-        told.append(Mistake("constraint_wrong", what, WHY_CONSTRAINT, 1, element, None, what))
-    return tuple(told)

@@ -95,7 +95,7 @@ class OwnTerm:
     def _said(self) -> tuple[str, Text]:
         t = self.term
         if self.instead is not None:
-            return _replaced(t, self.instead[0])
+            return term_replaced(t, self.instead[0])
         if self.forgotten:
             like = " is missing: there is one like it with sine and cosine the other way round."
             return "term_forgotten", text("The term ", t, like)
@@ -112,7 +112,7 @@ class OwnTerm:
         return "factor_of_a_term", text("The term ", t, " should be ", number * t, ".")
 
 
-def _replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
+def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
     """The name and the words for a term in place of another, or for one that is missing."""
     if term == 0:
         return "term_forgotten", text("The term ", right, " is missing.")
