@@ -196,3 +196,29 @@ def test_what_follows_from_a_wrong_constraint_is_no_mistake(bob: lg.Derivation) 
     (mistake,) = verdict.mistakes
     assert mistake.name == "constraint_wrong" and "follow from it" in str(mistake.what)
     assert [f.follows for f in verdict.findings] == [False, False, False, True]
+
+
+# -- the special case in which what nothing explains would be right --------------------------------------------------
+
+ON_CIRCLE = "x = l sin theta\ny = -l cos theta\n"
+FORCE = "lambda = -m/(2 l^2)*(g l cos theta + l^2 theta'^2)"
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("theta'' = -g/l sin theta\n" + FORCE.replace(" + l^2 theta'^2", ""), "at rest, but not in motion"),
+        ("theta'' = -g/l sin theta\n" + FORCE.replace("cos theta +", "cos theta -"), "Line 4 holds at rest"),
+        ("theta'' = -g/l cos theta\n" + FORCE, "with g = 0: what differs is what gravity adds"),
+        (
+            "m l theta'' cos theta = 2 lambda l sin theta\nm l theta'' sin theta = -m g - 2 lambda l cos theta",
+            "The equations hold at rest",  # without the squares of the rates
+        ),
+    ],
+)
+def test_what_nothing_explains_is_told_by_the_case_in_which_it_holds(
+    bob: lg.Derivation, answer: str, said: str
+) -> None:
+    assert bob.check(ON_CIRCLE + "theta'' = -g/l sin theta\n" + FORCE).right
+    (mistake,) = bob.check(ON_CIRCLE + answer).mistakes
+    assert mistake.name == "special_case" and said in str(mistake.what), str(mistake.what)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -102,8 +102,15 @@ class AnswerOnRows:
             other = dict(state)
             other.update({c.rate: float(source.uniform(-1.5, 1.5)) for c in self.coordinates})
             other.update({u.symbol: float(source.uniform(-1.5, 1.5)) for u in model.inputs})
-            groups = self.on_rows.of(state_groups(model, other))
-            if groups is not None:
-                other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
-                other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
-                yield self.at((other, groups))
+            if (found := self.changed((other, {}), {})) is not None:
+                yield found
+
+    def changed(self, here: tuple[State, Groups], values: Mapping[sp.Basic, float]) -> AnswerAt | None:
+        """The answer with other values of some letters, rates or inputs; None where no state on the rows is near."""
+        other = {**here[0], **values}
+        groups = self.on_rows.of(state_groups(self.truth.model, other))
+        if groups is None:
+            return None
+        other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
+        other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
+        return self.at((other, groups))

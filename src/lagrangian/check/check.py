@@ -30,6 +30,7 @@ from lagrangian.check.rounded import unrounded
 from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.rows_put_in import energies_on_rows, with_rows_put_in
+from lagrangian.check.special_cases import with_special_case
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.stated_coordinates import in_stated_coordinates
@@ -74,7 +75,7 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain
         if not explain:
             return verdict
         named = named_beside_multipliers(truth, read.lines, verdict, lambda x: _judged(truth, x).findings)
-        return with_rows_put_in(truth, read.lines, named)
+        return with_special_case(truth, with_rows_put_in(truth, read.lines, named))
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
     if forces is not None:

@@ -64,6 +64,8 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     names = sorted(used - known, key=str)
     if not own or len(names) > len(own) or len(names) > MOST or not rows:
         return None
+    if any(d.has(*names) for line in rows for d in line.expr.atoms(sp.Derivative)) if names else False:
+        return None  # a name that moves is a coordinate of the answer's own
     exprs = [line.expr for line in rows]
     possible = list(islice(_readings(truth, rows, names, own), MOST_READINGS))
     matches = [_matched(truth, exprs, x, own) for x in possible]
