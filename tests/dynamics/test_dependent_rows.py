@@ -46,7 +46,8 @@ def test_the_third_of_three_rows_on_two_coordinates_is_left_out() -> None:
     s.constraint(x, name="a")
     s.constraint(y, name="b")
     s.constraint(x - y, name="c")
-    assert [n.where for n in s.notices] == ["constraint 'c'"]
+    (notice,) = s.notices
+    assert notice.where == "constraint 'c'" and "what 'a' and 'b' say together" in notice.text
     dyn = s.compile()
     assert dyn.forward([0.0, 0.0], [0.0, 0.0]) == pytest.approx([0.0, 0.0])
     assert dyn.multipliers([0.0, 0.0], [0.0, 0.0])["b"] == pytest.approx(9.81)
@@ -74,8 +75,10 @@ def test_positions_that_contradict_each_other_close_nowhere() -> None:
     s = bob()
     s.constraint(s["x"] - 1, name="a")
     s.constraint(s["x"] - 2, name="b")
-    with pytest.raises(lg.Error, match=r"E304.*'b' by 1"):
+    s.constraint(s["y"], name="c")
+    with pytest.raises(lg.Error, match=r"E304.*'b' by 1") as caught:
         s.compile().assemble(None)
+    assert caught.value.fix == "'b' contradicts 'a': leave one of them out, or change one so that both can hold"
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program, evaluate
 from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
 from lagrangian.model import Model
+from lagrangian.model.elements.conditions import Stated
 from lagrangian.model.rows import NamedCondition, named_conditions
 from lagrangian.values.multiplier_units import units_of_gaps
 from lagrangian.values.values import key_name
@@ -124,34 +125,45 @@ class Assembler:
         """The error that names the open rows, their gaps, and the fixed coordinates that prevent them from closing."""
         assert self.search is not None
         gaps = self.search.gaps(nearest[None, :], p, t)[0]
-        named: dict[tuple[str, str], float] = {}
+        named: dict[tuple[str, str], tuple[float, NamedCondition]] = {}
         units = units_of_gaps(self.model)
         for row, gap in zip([r for r in self.rows if r.condition.on_positions], gaps, strict=True):
             key = (row.element.name, units.get(row.name, ""))
-            named[key] = max(named.get(key, 0.0), abs(float(gap)))
+            if key not in named or named[key][0] < abs(gap):
+                named[key] = (abs(float(gap)), row)
             if not np.isfinite(gap):
                 return RunError(
                     f"no position was found that satisfies the constraints: '{row.name}' has no finite value near the "
                     "guess",
-                    fix="a guess at which every constraint can be evaluated",
+                    fix="start from positions at which every constraint can be evaluated",
+                    place=row.element.place,
                     code="E304",
                 )
-        worst = sorted(named.items(), key=lambda item: -item[1])
-        shown = ", ".join(f"'{name}' by {gap:.3g} {unit}".rstrip() for (name, unit), gap in worst[:4] if gap > 0)
-        freed = [name for name in self.fixed if self._closes_with([n for n in self.fixed if n != name], guess, p, t)]
-        if freed:
-            fix = f"do not hold {' or '.join(freed[:4])} fixed: without that, the loop closes"
-        elif len(self.fixed) > 1 and self._closes_with((), guess, p, t):
-            fix = "hold fewer coordinates fixed: with none of them, the loop closes"
-        elif self.fixed:
-            fix = f"look at the lengths: no position closes, even with {' or '.join(self.fixed[:4])} free"
-        else:
-            fix = "look at the lengths: no position with them closes the loop"
+        worst = sorted((item for item in named.items() if item[1][0] > 0), key=lambda item: -item[1][0])
+        shown = ", ".join(f"'{name}' by {gap:.3g} {unit}".rstrip() for (name, unit), (gap, _) in worst[:4])
+        rows = [row for _, (_, row) in worst]
         return RunError(
             f"no position was found that satisfies the constraints (open in the nearest position: {shown})",
-            fix=fix,
+            fix=self._cure(rows, guess, p, t),
+            place=rows[0].element.place,
             code="E304",
         )
+
+    def _cure(self, rows: Sequence[NamedCondition], guess: Array, p: Array, t: float) -> str:
+        """What would satisfy the open rows, the worst first."""
+        freed = [name for name in self.fixed if self._closes_with([n for n in self.fixed if n != name], guess, p, t)]
+        if freed:
+            return f"do not hold {' or '.join(freed[:4])} fixed: without that, a position is found"
+        if len(self.fixed) > 1 and self._closes_with((), guess, p, t):
+            return "hold fewer coordinates fixed: with none of them, a position is found"
+        repeated = dynamics.dependent_rows(self.model)
+        for row in rows:
+            if row.name in repeated:
+                others = dynamics.quoted(repeated[row.name])
+                return f"'{row.name}' contradicts {others}: leave one of them out, or change one so that both can hold"
+        what = "at the expressions and their values" if isinstance(rows[0].condition, Stated) else "at the lengths"
+        free = f", even with {' or '.join(self.fixed[:4])} free" if self.fixed else ""
+        return f"look {what}: no position was found in which all constraints hold{free}"
 
     def _closes_with(self, fixed: Sequence[str], guess: Array, p: Array, t: float) -> bool:
         other = assembler_of(self.model, fixed)
@@ -169,11 +181,13 @@ class Assembler:
         v, kept = self.closing.rates(q, v, p, t)
         wrong = ~kept
         if wrong.any():
-            names = [f"'{row.name}'" for row, bad in zip(self.rows, wrong, strict=True) if bad]
+            rows = [row for row, bad in zip(self.rows, wrong, strict=True) if bad]
+            names = [f"'{row.name}'" for row in rows]
             held = f" with {', '.join(self.fixed)} fixed" if self.fixed else ""
             raise RunError(
                 f"no rates satisfy the constraint{'s' if len(names) > 1 else ''} {', '.join(names[:6])}{held}",
                 fix="hold fewer coordinates fixed" if self.fixed else "look at constraints that contradict each other",
+                place=rows[0].element.place,
                 code="E305" if self.fixed else "E302",
             )
         return v

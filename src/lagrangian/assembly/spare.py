@@ -54,7 +54,8 @@ def check_slopes(model: Model, q: Array, p: Array, t: float = 0.0) -> None:
         if size < FLAT * float(np.nanmin(others)):
             raise RunError(
                 f"the constraint '{row.name}' has no slope where it holds, so that it restricts no rate",
-                fix="write what is 0 itself instead of a power of it, x = 0 for x^2 = 0, or start elsewhere",
+                fix="write what is 0 itself instead of a power of it, x for x^2, or start elsewhere",
+                place=row.element.place,
                 code="E309",
             )
 

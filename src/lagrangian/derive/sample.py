@@ -14,7 +14,8 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, vjp
-from lagrangian.model import Inductor, Model, MutualInductance, time
+from lagrangian.model import Element, Inductor, Model, MutualInductance, time
+from lagrangian.model.rows import rows_of
 from lagrangian.page.plain import plain
 
 TRIES = 60
@@ -90,22 +91,26 @@ class Sampler:
                 if found == count:
                     return
         culprit = without_value(self._model)
-        whose = f"{culprit} has" if culprit else f"the expressions of system '{self._model.name}' have"
+        whose = f"{culprit.title} has" if culprit else f"the expressions of system '{self._model.name}' have"
         raise ModelError(
             f"{whose} no finite real value at any of {TRIES} random states",
+            place=culprit.place if culprit else None,
             fix="check square roots, logarithms and divisions for arguments that are never allowed",
             code="E503",
         )
 
 
-def without_value(model: Model, *, values: bool = False) -> str | None:
-    """The first element whose energy or force has no finite real value at any random state, in words.
+def without_value(model: Model, *, values: bool = False) -> Element | None:
+    """The first element whose energy, force or constraint has no finite real value at any random state.
 
     With ``values``, parameters that have a value keep it.
     """
     for element in model.elements:
         acting = [x for action in element.works(model) for x in (action.effort, action.rate)]
-        sampler = Sampler(model, [element.kinetic(model), element.potential(model), *acting], values=values)
+        held = [
+            x for row in rows_of(model) if row.element is element for x in (row.rate, row.position) if x is not None
+        ]
+        sampler = Sampler(model, [element.kinetic(model), element.potential(model), *acting, *held], values=values)
         if not any(all(map(math.isfinite, sampler.at(sampler.draw(k)))) for k in range(TRIES)):
-            return element.title
+            return element
     return None

@@ -18,6 +18,7 @@ from lagrangian.dynamics.constraint_programs import (
     pushed_bias,
     residual,
 )
+from lagrangian.dynamics.dependent import quoted
 from lagrangian.dynamics.derivatives import PARAMETER, VARIED, derivatives, inverse_derivatives, singles, tangent
 from lagrangian.dynamics.describe import describe, placed
 from lagrangian.dynamics.description import Inputs
@@ -124,6 +125,7 @@ __all__ = [
     "projection",
     "pullback",
     "pushed_bias",
+    "quoted",
     "rates",
     "reaction",
     "regime",

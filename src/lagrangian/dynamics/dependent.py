@@ -18,6 +18,8 @@ from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import Graph, Output, Program, evaluate, reached
 
+Array = NDArray[np.float64]
+
 PLACES = 3
 """The number of random states at which a residual is computed."""
 
@@ -25,8 +27,25 @@ ROUNDING = 1e-8
 """A residual below this counts as zero."""
 
 
-Known = tuple[tuple[str, ...], Order]
-"""The names of the rows that are left out, and the order in which the others are eliminated."""
+SHOWN = 6
+"""The largest number of rows that a message names."""
+
+Repeated = Mapping[str, tuple[str, ...]]
+"""The names of rows that are left out, each with the names of the rows that say the same together."""
+
+Known = tuple[Repeated, Order]
+"""The rows that are left out, and the order in which the others are eliminated."""
+
+SHARE = 1e-9
+"""A row has no part in another one if its factor is below this at every state."""
+
+
+def quoted(names: Sequence[str]) -> str:
+    """The names in a sentence: 'a', 'b' and 'c'; of many, the first ones."""
+    listed = [f"'{name}'" for name in names]
+    if len(listed) > SHOWN:
+        listed = [*listed[:SHOWN], f"{len(listed) - SHOWN} more"]
+    return " and ".join(x for x in (", ".join(listed[:-1]), *listed[-1:]) if x)
 
 
 def without_dependent(
@@ -35,14 +54,15 @@ def without_dependent(
     v: Sequence[int],
     problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
     known: MutableMapping[tuple[str, ...], Known],
-) -> tuple[RowSolution, tuple[str, ...]]:
-    """The cheapest solution subject to the independent rows, and the names of the other rows.
+) -> tuple[RowSolution, Repeated]:
+    """The cheapest solution subject to the independent rows, and the other rows.
 
     ``known`` remembers the choice for the programs of a model, each of which needs a solution in a graph of its own.
     Raises `ModelError` (E302) if a row contradicts the others.
     """
     asked = tuple(row.name for row in rows)
-    found, left_out = None, ()
+    found = None
+    left_out: Repeated = {}
     if asked in known:
         left_out, order = known[asked]
         found = solution_in(order, problems([row for row in rows if row.name not in left_out]))
@@ -58,8 +78,8 @@ def dependent_among(
     v: Sequence[int],
     problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
     known: Mapping[tuple[str, ...], Known],
-) -> tuple[str, ...]:
-    """The names of the rows that are left out, from the first elimination that succeeds: none are compared.
+) -> Repeated:
+    """The rows that are left out, from the first elimination that succeeds: none are compared.
 
     Raises `ModelError` (E302) if a row contradicts the others.
     """
@@ -77,26 +97,27 @@ def _independent(
     rows: Sequence[ConstraintRow],
     v: Sequence[int],
     solve: Callable[[Sequence[ConstraintRow]], Solved],
-) -> tuple[Solved, tuple[str, ...]]:
-    """What ``solve`` makes of the rows that are independent, and the names of the others."""
+) -> tuple[Solved, Repeated]:
+    """What ``solve`` makes of the rows that are independent, and the others."""
     kept = list(rows)
+    left_out: dict[str, tuple[str, ...]] = {}
     while True:
         try:
             found = solve(kept)
             break
         except DependentRow as dependent:
-            if not _vanishes(graph, dependent, rows, v):
-                raise _contradiction(dependent.row, rows) from None
-            kept.remove(dependent.row)
-    names = {row.name for row in kept}
-    return found, tuple(row.name for row in rows if row.name not in names)
+            row = dependent.row
+            vanishes, names = _vanishes(graph, dependent, rows, v, kept)
+            if not vanishes:
+                raise _contradiction(row, names) from None
+            kept.remove(row)
+            left_out[row.name] = names
+    return found, {row.name: left_out[row.name] for row in rows if row.name in left_out}
 
 
-def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelError:
-    others = [f"'{other.name}'" for other in rows if other is not row]
-    listed = ", ".join(others[:6]) + (", …" if len(others) > 6 else "")
+def _contradiction(row: ConstraintRow, others: Sequence[str]) -> ModelError:
     return ModelError(
-        f"the constraint '{row.name}' contradicts {listed}",
+        f"the constraint '{row.name}' contradicts {quoted(others) or 'itself'}",
         fix="leave one of them out, or change it: no motion satisfies all of them",
         place=row.place,
         code="E302",
@@ -122,8 +143,15 @@ def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSoluti
     )
 
 
-def _vanishes(graph: Graph, dependent: DependentRow, rows: Sequence[ConstraintRow], v: Sequence[int]) -> bool:
-    """Whether the row's residual is zero at random states whose velocities satisfy all rows.
+def _vanishes(
+    graph: Graph,
+    dependent: DependentRow,
+    rows: Sequence[ConstraintRow],
+    v: Sequence[int],
+    kept: Sequence[ConstraintRow],
+) -> tuple[bool, tuple[str, ...]]:
+    """Whether the row's residual is zero at random states whose velocities satisfy all rows, and the names of the
+    other ``kept`` rows with α_i ≠ 0.
 
     If c = Σ α_i c_i with the other rows, then ċ − Σ α_i ċ_i = Σ α̇_i c_i, which is zero if they are satisfied.
     """
@@ -136,13 +164,34 @@ def _vanishes(graph: Graph, dependent: DependentRow, rows: Sequence[ConstraintRo
     names = {group: tuple(f"{group}{k}" for k in range(size)) for group, size in sizes.items()}
     program = Program("rows", graph, names, {"c": Output(tuple(ids), (len(ids),))}, {})
     rng = np.random.default_rng(1)
-    return all(_vanishes_at(program, sizes, rng, [graph.nodes[i][1:] for i in v]) for _ in range(PLACES))
+    tried = [_vanishes_at(program, sizes, rng, [graph.nodes[i][1:] for i in v]) for _ in range(PLACES)]
+    others = [row for row in kept if row is not dependent.row]
+    here, there = rows.index(dependent.row), [rows.index(row) for row in others]
+    shares = [_factors(A[here], A[there]) for _, A in tried if A is not None]
+    has_part = np.abs([np.zeros(len(others)), *shares]).max(axis=0) > SHARE
+    return all(vanishes for vanishes, _ in tried), tuple(
+        row.name for row, part in zip(others, has_part, strict=True) if part
+    )
 
 
-def _vanishes_at(program: Program, sizes: Mapping[str, int], rng: np.random.Generator, v: Sequence[Any]) -> bool:
+def _factors(row: Array, others: Array) -> Array:
+    """The factors α with row = Σ α_i others_i, 0 for what follows from the others before it."""
+    found, basis = np.zeros(len(others)), []
+    for k in range(len(others)):
+        if np.linalg.matrix_rank(others[[*basis, k]], tol=ROUNDING * (1.0 + np.abs(others).max())) > len(basis):
+            basis.append(k)
+    if basis:
+        found[basis] = np.linalg.lstsq(others[basis].T, row, rcond=None)[0]
+    return found
+
+
+def _vanishes_at(
+    program: Program, sizes: Mapping[str, int], rng: np.random.Generator, v: Sequence[Any]
+) -> tuple[bool, Array | None]:
+    """Whether the last entry of c is zero at a random state, and A of the others."""
     state = {group: rng.uniform(0.3, 1.4, size) for group, size in sizes.items()}
 
-    def values(velocities: NDArray[np.float64]) -> NDArray[np.float64]:
+    def values(velocities: Array) -> Array:
         for (group, k), x in zip(v, velocities, strict=True):
             state[group][k] = x
         return np.array(evaluate(program, {group: x.tolist() for group, x in state.items()})["c"])
@@ -153,5 +202,5 @@ def _vanishes_at(program: Program, sizes: Mapping[str, int], rng: np.random.Gene
         guess = rng.uniform(0.3, 1.4, len(v))
         found = values(guess - np.linalg.pinv(A, rcond=1e-9) @ (A @ guess + start))
     except RunError:  # no value there: nothing is known, so nothing is left out
-        return False
-    return bool(np.abs(found).max() < ROUNDING * (1.0 + np.abs(A).max() + np.abs(start).max()))
+        return False, None
+    return bool(np.abs(found).max() < ROUNDING * (1.0 + np.abs(A).max() + np.abs(start).max())), A

@@ -10,7 +10,7 @@ functions; a verdict on a state tells which regime follows.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -200,11 +200,11 @@ def _states(seen: Observed, model: Model, modes: Modes) -> list[_State]:
     return found
 
 
-def _check_split(model: Model, modes: Modes, left_out: Sequence[str]) -> None:
+def _check_split(model: Model, modes: Modes, left_out: Iterable[str]) -> None:
     """Refuse frictions whose shares of one force cannot be told."""
     stuck = [f for f, mode in zip(model.frictions, modes, strict=False) if not mode]
     if left_out and not set(pressing_rows(model)).isdisjoint(left_out):
-        raise undetermined(left_out[0])
+        raise undetermined(next(iter(left_out)))
     if stuck and left_out:
         names = " and ".join(f"'{name}'" for name in (*(f.name for f in stuck), *left_out))
         raise ModelError(

@@ -15,7 +15,7 @@ from functools import cached_property
 from lagrangian.dynamics.accelerations import Quadratic, by_columns, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.dependent import Known, without_dependent
+from lagrangian.dynamics.dependent import Known, Repeated, without_dependent
 from lagrangian.dynamics.drags import AttachedDrag, dragged_by
 from lagrangian.dynamics.floating import Float, transported_momenta
 from lagrangian.dynamics.inertia import AnyLink
@@ -296,8 +296,8 @@ class Mechanics:
         return self.settled[0]
 
     @cached_property
-    def settled(self) -> tuple[RowSolution, tuple[str, ...]]:
-        """The solution, and the names of rows that say again, whatever the state, what others say."""
+    def settled(self) -> tuple[RowSolution, Repeated]:
+        """The solution, and the rows that say again, whatever the state, what others say."""
         return without_dependent(self.graph, self.rows, self.v, self.constrained_problems, self.known)
 
     def constrained_problems(self, rows: Sequence[ConstraintRow]) -> Iterator[Problem]:

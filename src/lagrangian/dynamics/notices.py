@@ -17,16 +17,16 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.codes import Code
-from lagrangian.dynamics.dependent import dependent_among
+from lagrangian.dynamics.dependent import Repeated, dependent_among, quoted
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.friction import slips
 from lagrangian.dynamics.programs import mass_matrix
-from lagrangian.errors import ModelError, Notice
+from lagrangian.errors import ModelError, Notice, Place
 from lagrangian.graph import Graph, Program, evaluate
 from lagrangian.model import Body, Gravity, Kinetic, Model, Parameter, VelocityConstraint
 from lagrangian.model.body_checks import ConstantValues, Doubt, doubt
-from lagrangian.model.rows import rows_of
+from lagrangian.model.rows import named_conditions, rows_of
 from lagrangian.records import dataclass
 
 STATES = 20
@@ -55,22 +55,23 @@ def _found(model: Model) -> tuple[Notice, ...]:
         _decide(model, negative)
     return (
         *model.remarks,
-        *(Notice(d.code, _where(d.body), _said(d)) for d in found),
+        *(Notice(d.code, _where(d.body.title, d.body.place), _said(d)) for d in found),
         *_weightless(model),
         *_dependent(model),
         *_put_in(model),
     )
 
 
-def dependent_rows(model: Model) -> tuple[str, ...]:
-    """Return the names of rows that other rows imply; raises `ModelError` (E302) if rows contradict each other.
+def dependent_rows(model: Model) -> Repeated:
+    """Return the names of rows that other rows imply, each with the names of these rows; raises `ModelError` (E302) if
+    rows contradict each other.
 
     The answer does not depend on the values of parameters.
     """
 
-    def found() -> tuple[str, ...]:
+    def found() -> Repeated:
         if not model.constraints:
-            return ()
+            return {}
         graph = Graph()
         m = describe(slips(model), graph, Inputs.of(graph, model))
         return dependent_among(graph, m.rows, m.v, m.constrained_problems, m.known)
@@ -79,9 +80,12 @@ def dependent_rows(model: Model) -> tuple[str, ...]:
 
 
 def _dependent(model: Model) -> Iterator[Notice]:
-    for name in dependent_rows(model):
-        said = "it says again what the other constraints say, in every position: it is left out, its multiplier is 0"
-        yield Notice(Code.E306, f"constraint '{name}'", said)
+    repeated = dependent_rows(model)
+    for row in named_conditions(model):
+        if (others := repeated.get(row.name)) is not None:
+            what = f"says again what {quoted(others)} {'say together' if len(others) > 1 else 'says'}, in"
+            said = f"it {what if others else 'holds in'} every position: it is left out, its multiplier is 0"
+            yield Notice(Code.E306, _where(f"constraint '{row.name}'", row.element.place), said)
 
 
 def _put_in(model: Model) -> Iterator[Notice]:
@@ -131,12 +135,12 @@ def _weightless(model: Model) -> Iterator[Notice]:
         )
 
 
-def _where(body: Body) -> str:
-    """The body in words, with file and line if it is from a file."""
-    if body.place is None or body.place.line is None:
-        return body.title
-    file = body.place.file or ""
-    return f"{body.title} ({file + ', ' if file and not file.startswith('<') else ''}line {body.place.line})"
+def _where(title: str, place: Place | None) -> str:
+    """An element in words, with file and line if it is from a file."""
+    if place is None or place.line is None:
+        return title
+    file = place.file or ""
+    return f"{title} ({file + ', ' if file and not file.startswith('<') else ''}line {place.line})"
 
 
 def _said(doubt: Doubt) -> str:

@@ -69,6 +69,14 @@ def is_text(value: object) -> TypeGuard[str]:
     return isinstance(value, str)
 
 
+def titled(kind: str, name: object) -> str:
+    """A thing in words: ``spring 'k'``, or ``spring 2`` if that is the name that it got by its number."""
+    if not is_text(name) or not name:
+        return kind
+    before, _, number = name.rpartition(" ")
+    return name if before == kind and number.isdigit() else f"{kind} '{name}'"
+
+
 def check_name(name: str, what: str, *, place: Place | None = None) -> str:
     """Return ``name`` in its normal form (NFKC) or raise `ModelError`.
 

@@ -17,6 +17,22 @@ from lagrangian.read.toml_index import Index, Path
 MAX_BYTES = 1 << 20
 """The largest size of a model file in bytes (1 MiB)."""
 
+MEANT_SECTIONS = {
+    meant: section
+    for section, names in {
+        "velocity_constraint": "nonholonomic nonholonomic_constraint velocity velocity_constraints pfaffian knife_edge",
+        "constraint": "holonomic holonomic_constraint position_constraint distance closure loop rod",
+        "pin": "hinge revolute revolute_joint joint",
+        "ball": "spherical spherical_joint ball_joint",
+        "slider": "prismatic prismatic_joint guide",
+        "weld": "fixed fixed_joint rigid_connection",
+        "rolling": "roll no_slip rolling_contact wheel",
+        "rope": "cable string belt",
+    }.items()
+    for meant in names.split()
+}
+"""Names of constraints in books and other programs, and the sections that describe them here."""
+
 MAX_NESTING = 12
 _STRINGS = re.compile(
     r'"""(?:[^\\]|\\[\s\S])*?"{3,5}' + r"|'''[\s\S]*?'{3,5}" + r'|"(?:[^"\\\n]|\\.)*"' + r"|'[^'\n]*'|#[^\n]*"
@@ -170,7 +186,7 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     element = owner(path, data) or None
     if kind == "extra_forbidden":
         known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
-        meant = MEANT.get(str(name))
+        meant = (MEANT_SECTIONS if len(path) == 1 else MEANT).get(str(name))
         hint = f"Did you mean '{meant}'?" if meant in known else did_you_mean(str(name)[:64], known)
         listed = "known: " + ", ".join(known)
         return ParseError(

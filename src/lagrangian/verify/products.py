@@ -106,7 +106,9 @@ def verify_products(
         compiled = _compiled(model, functions, expected, found)
     except Error as error:  # a compiled function refused a state at which its formulas are finite
         culprit = without_value(model, values=True)
-        why = f"{culprit} has no finite real value with the values that parameters have" if culprit else str(error)
+        why = (
+            f"{culprit.title} has no finite real value with the values that parameters have" if culprit else str(error)
+        )
         return (Check(text("every compiled function can be evaluated"), False, why),)
     _log.info("verifying: the exported sources and the linearization")
     written = exported({name: functions.program(name) for name in functions.exported}, sources, expected, found)

@@ -90,7 +90,7 @@ def random_states(model: Model, forward: Program, count: int, seed: int) -> Iter
             yield state
         elif (missed := missed + 1) > TRIES:
             culprit = without_value(model, values=True)
-            whose = f"{culprit} has no finite real value" if culprit else f"system '{model.name}' has none"
+            whose = f"{culprit.title} has no finite real value" if culprit else f"system '{model.name}' has none"
             raise ModelError(
                 f"there are no finite accelerations at any of {TRIES} random states: {whose}",
                 fix="check square roots, logarithms and divisions for arguments that are never allowed",

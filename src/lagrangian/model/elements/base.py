@@ -18,7 +18,7 @@ from lagrangian.errors import ModelError, Place
 from lagrangian.model.elements.answers import ActsOn, Entry, Measure, MovingMass, Rows, Unit
 from lagrangian.model.elements.vectors import diagonal, norm
 from lagrangian.model.geometry import Frame, Point, is_listed
-from lagrangian.model.names import is_text, time
+from lagrangian.model.names import time, titled
 from lagrangian.model.symbols import Coordinate, Velocity
 from lagrangian.page.formula import Name
 from lagrangian.records import dataclass, field
@@ -201,9 +201,8 @@ class Element(Brief):
 
     @property
     def title(self) -> str:
-        """The element in words, such as ``spring 'k'``."""
-        kind = self.kind.replace("_", " ")
-        return f"{kind} '{self.name}'" if is_text(self.name) and self.name else kind
+        """The element in words, such as ``spring 'k'``; one that was numbered is ``spring 2``."""
+        return titled(self.kind.replace("_", " "), self.name)
 
     def named(self, name: str) -> Self:
         """Return the same element with another name."""
