@@ -118,6 +118,20 @@ def test_parameters_and_inputs_go_by_name_by_symbol_or_in_order() -> None:
         np.testing.assert_allclose(dyn.forward([0.4], [0.0], u, p), [expected], rtol=1e-14)
 
 
+def test_symbols_as_keys_and_one_input_alone_need_no_closer_look() -> None:
+    s = pendulum()
+    dyn = s.compile()
+    expected = dyn.forward([0.4], [0.0], [3.0], {"L": 0.5})
+    quick = dyn._kernel("forward").quick
+    for u, p in (
+        ({s["tau"]: 3.0}, {s["L"]: 0.5}),
+        ({s["tau"]: 3.0}, {s["L"]: 0.5, s["m"]: 2.0, s["g"]: 9.81}),
+        (3.0, {"L": 0.5}),
+    ):
+        np.testing.assert_array_equal(quick(([0.4], [0.0], u, p, 0.0)), expected)
+    assert quick(([0.4], [0.0], 3.0, {s["theta"]: 0.5}, 0.0)) is None
+
+
 @pytest.mark.parametrize(
     ("arguments", "fragments"),
     [

@@ -87,6 +87,7 @@ class Compiled(Differentiated):
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
             if name in _SOLVING:
                 self._admit(found)
+            found.also({x.symbol: x.name for x in (*self._model.inputs, *self._model.parameters)})
             self._kernels[name] = found
             self._quick[name] = found.quick
         return found

@@ -21,8 +21,8 @@ def verify(
         bool,
         typer.Option(
             "--exports",
-            help="Also run exports in Octave and other programs that are installed, hold a run and its files, and read "
-            "the printed page back.",
+            help="Also run exports in Octave and other programs that are installed, hold a run and its files, a "
+            "sweep's store, the picture and an animation, and read the printed page back.",
         ),
     ] = False,
     format: FormatOption = None,

@@ -63,7 +63,7 @@ class Slot:
     def __init__(self, place: int, group: InputGroup) -> None:
         self.place, self.size, self.scalar, self.values = place, len(group.entries), group.scalar, group.defaults
         self.shape = (self.size,)
-        self.places = {name: k for k, name in enumerate(group.entries)}
+        self.places: dict[Any, int] = {name: k for k, name in enumerate(group.entries)}
         self.pick = _picking(group.entries)
         self.only = group.entries[0] if self.size == 1 else None
         numbers = struct.Struct(f"{self.size}d")
@@ -73,7 +73,9 @@ class Slot:
         self.address = None if self.default is None else address(self.default)
 
     def one(self, given: Any) -> Sequence[float] | None:
-        """`plain`, sooner if the group has one entry, a float by its name."""
+        """`plain`, sooner if the group has one entry, a float by its name; that one may also be given alone."""
+        if type(given) is float:
+            return (given,)
         if type(given) is dict and len(given) == 1 and type(number := given.get(self.only)) is float:
             return (number,)
         return self.plain(given)
@@ -85,22 +87,28 @@ class Slot:
             if len(given) == self.size:
                 try:
                     given = self.pick(given)
-                except KeyError:  # there is an unknown entry instead of this one
-                    return None
+                except KeyError:  # the keys are symbols, or there is an unknown entry instead of this one
+                    given = self._filled(given)
             else:
-                filled: list[Any] = list(self.values)
-                for name, value in given.items():
-                    place = self.places.get(name)
-                    if place is None:
-                        return None
-                    filled[place] = value
-                given = filled
+                given = self._filled(given)
+            if given is None:
+                return None
         elif (kind is not list and kind is not tuple) or len(given) != self.size:
             return None
         for number in given:
             if type(number) is not float and type(number) not in PLAIN:  # the first is quicker
                 return None
         return given
+
+    def _filled(self, given: Mapping[Any, Any]) -> list[Any] | None:
+        """The values of a mapping, completed by the defaults; None if one of the names is unknown."""
+        filled: list[Any] = list(self.values)
+        for name, value in given.items():
+            place = self.places.get(name)
+            if place is None:
+                return None
+            filled[place] = value
+        return filled
 
 
 def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:

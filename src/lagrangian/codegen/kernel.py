@@ -96,6 +96,10 @@ class Kernel:
     def admit(self, look: Callable[[Array], Look | None]) -> None:
         self._quick.admit = look
 
+    def also(self, keys: Mapping[Any, str]) -> None:
+        """Let mappings of numbers use other keys beside the names of entries."""
+        self._quick.also(keys)
+
     @property
     def operations(self) -> int:
         """The number of operations per state; a fused product and sum, a division, and a call count as one each."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -147,6 +147,12 @@ class Quick:
                 stage.ask(look)
         stage.key = key
         return 0
+
+    def also(self, keys: Mapping[Any, str]) -> None:
+        """Let mappings use other keys beside the names of entries."""
+        for slot in (*self._state_groups, self._hoisted_groups):
+            if slot is not None:
+                slot.places.update({key: slot.places[name] for key, name in keys.items() if name in slot.places})
 
     def stage(self) -> Stage:
         """A stage for one state: a free one, or a new one."""

@@ -30,6 +30,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.records import dataclass, field
 from lagrangian.verify.changes import changes
+from lagrangian.verify.drawn import drawn_checks
 from lagrangian.verify.exports import Sources, exported
 from lagrangian.verify.foreign.checks import foreign_checks, not_run
 from lagrangian.verify.live_pages import live_page_checks
@@ -38,6 +39,7 @@ from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.recorded_runs import recorded_runs
 from lagrangian.verify.slopes import slopes
 from lagrangian.verify.states import Expected, State, cancelling, evaluated, random_states, relative
+from lagrangian.verify.swept import swept_runs
 
 _log = logging.getLogger(__name__)
 TOLERANCE = 1e-9
@@ -92,9 +94,9 @@ def verify_products(
 ) -> tuple[Check, ...]:
     """Return the checks of every compiled function, of the exported source and of the linearization.
 
-    ``exports``: exports to other programs are run in them, and a run and its files, and the page that moves, are
-    compared. Parameters keep their values. If a check cannot be made on this machine, ``holds`` is None and the figure
-    says why. Raises `ModelError` if no random state has finite accelerations.
+    ``exports``: exports to other programs are run in them, and a run and its files, a sweep's store, the picture, an
+    animation and the page that moves are compared. Parameters keep their values. If a check cannot be made on this
+    machine, ``holds`` is None and the figure says why. Raises `ModelError` if no random state has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
     if model.constraints and not (found := _on_rows(model, found)):
@@ -114,8 +116,8 @@ def verify_products(
     written = exported({name: functions.program(name) for name in functions.exported}, sources, expected, found)
     if exports:
         written += (*foreign_checks(model, found), *not_run(), *recorded_runs(model, functions, found[0]))
-        _log.info("verifying: the page that moves")
-        written += live_page_checks(model, found)
+        _log.info("verifying: the picture and the page that moves")
+        written += (swept_runs(model, found[0]), *drawn_checks(model, found), *live_page_checks(model, found))
     _log.info("verifying: the derivatives and the steps")
     dependent = bool(model.constraints) and any(depends(functions, state) for state in found)
     linear = slopes(model, functions.rhs, found, OnRows(model).of if dependent else None)

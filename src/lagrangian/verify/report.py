@@ -11,8 +11,8 @@ from lagrangian.page.report import Part, Report
 from lagrangian.verify.foreign.checks import RUNNERS
 
 NEVER = (
-    "Pictures, animations, stores of sweeps, and what is written on pages beside equations and values: the tests of "
-    "this package check them, with other systems than this."
+    "The pixels of PNG, GIF and videos, which show what SVG shows, labels of pictures, plots, and what is written on "
+    "pages beside equations and values: the tests of this package check them, with other systems than this."
 )
 """What no check is made of."""
 
@@ -20,8 +20,9 @@ NEVER = (
 def left_out(exports: bool) -> tuple[str, ...]:
     """What the checks do not look at, with or without the exports to other programs."""
     more = (
-        f"Exports to {', '.join(RUNNERS)}, the files of runs, the printed checklist, worksheets and the page that "
-        "moves: verify(exports=True) and `lagrangian verify --exports` look at them."
+        f"Exports to {', '.join(RUNNERS)}, the files of runs, stores of sweeps, the printed checklist, worksheets, "
+        "pictures, animations and the page that moves: verify(exports=True) and `lagrangian verify --exports` look at "
+        "them."
     )
     return (NEVER,) if exports else (more, NEVER)
 

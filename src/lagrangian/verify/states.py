@@ -68,13 +68,17 @@ def relative(difference: Any, *terms: Any) -> float:
 def random_states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
     """``count`` random states with finite accelerations; parameters keep their values.
 
-    Quaternions may have any length. Raises `ModelError` if `TRIES` states have no finite accelerations.
+    Quaternions may have any length; coordinates that are declared positive are. Raises `ModelError` if `TRIES` states
+    have no finite accelerations.
     """
     source, missed = random.Random(seed), 0
     quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.orientation}
     while count:
         state = {
-            "q": [source.gauss() if c.name in quaternions else source.uniform(-1, 1) for c in model.coordinates],
+            "q": [
+                source.gauss() if c.name in quaternions else source.uniform(0.01 if c.positive else -1, 1)
+                for c in model.coordinates
+            ],
             "v": [source.uniform(-1, 1) for _ in model.velocities],
             "a": [source.uniform(-1, 1) for _ in model.velocities],
             "u": [source.uniform(-1, 1) for _ in model.inputs],
