@@ -15,7 +15,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site, Words
 from lagrangian.check.verdict import Mistake
-from lagrangian.model import Model
+from lagrangian.model import Model, Spring
 from lagrangian.page.formula import Left, Text, text
 from lagrangian.records import dataclass
 
@@ -44,6 +44,7 @@ WHY_PART = {
 }
 WAY = "Go along the way from the fixed point to the body: every piece of it counts, with its direction."
 VELOCITY = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
+MEASURE = "Look at the sketch: how far is it, and does the number belong to this length or to another one?"
 DEFLECTION = "The deflection of a spring is the motion of one end relative to the other, less the rest length."
 DAMPER = "A damper feels the velocity of one end relative to the other."
 
@@ -127,7 +128,7 @@ KINDS: Mapping[str, KindWords] = {
     "piece_number": KindWords(
         "In {site}, {written} stands in place of {right}.",
         "A length in {brief} is not right.",
-        "The centre of mass of a uniform rod is at half its length; look at the sketch.",
+        MEASURE,
     ),
     "segment_left_out": KindWords(
         "In {site}, what {right} contributes is left out.", "Something is left out in {brief}.", WAY
@@ -149,7 +150,7 @@ KINDS: Mapping[str, KindWords] = {
     "segment_number": KindWords(
         "In {site}, {written} stands in place of {right}.",
         "A length in {brief} is not right.",
-        "The centre of mass of a uniform rod is at half its length; look at the sketch.",
+        MEASURE,
     ),
     "velocity_part_left_out": KindWords(
         "In {site}, {right} is left out.", "Something is left out in {brief}.", VELOCITY
@@ -235,6 +236,8 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     else:
         name, what, brief = _part(change, site, times)
         why = WHY_PART.get(site.step, WHY_PART[5])
+    if why == MEASURE and isinstance(site.element, Spring):
+        why = DEFLECTION
     if why == UNITS and _has_no_unit(change):
         why = ANGLES
     coordinate = model.coordinates[site.coordinate].name if site.coordinate is not None else None

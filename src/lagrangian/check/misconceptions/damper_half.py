@@ -8,7 +8,7 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 6
-WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, without the ½.")
+WHY = text("D = ½bδ̇² is differentiated by the rate: Ξ = −bδ̇·∂δ/∂ξ, without the ½, and with the factor of ξ in δ.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -18,4 +18,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         shares = s.shares(element)
         yield Variant(what=what, Xi={i: -x / 2 for i, x in shares.items()}, element=element)
         for i, x in shares.items() if len(shares) > 1 else ():
+            what = text(
+                f"{element.title[:1].upper() + element.title[1:]} adds half its force to the equation of ", s.q[i], "."
+            )
             yield Variant(what=what, Xi={i: -x / 2}, element=element, coordinate=i)

@@ -11,7 +11,7 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.page.formula import text
 
 STEP = 3
-WHY = text("h is the height of the centre of mass: for a uniform rod that is half its length.")
+WHY = text("h is the height of the centre of mass: measure how far from its parent that is, along the body.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -1,4 +1,4 @@
-"""The rate of a relative angle is taken for that of the body: θ̇₂ for θ̇₁ + θ̇₂."""
+"""One part of the rate of a body is taken for the whole: θ̇₂ for θ̇₁ + θ̇₂."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from lagrangian.model import time
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("A relative angle is measured from its parent, so that the body turns with the sum of both rates.")
+WHY = text(
+    "Everything that turns the body counts: a relative angle is measured from its parent, and a rope or a gear turns a "
+    "wheel from both of its sides."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -24,7 +27,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             turned = _omega(s, body, k)
             translation = half_square(s.expand(body.mass), moved) - s.translation(body) if moved else sp.S.Zero
             rotation = s.rotating(body, turned) - s.rotation(body) if turned else sp.S.Zero
-            what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", s.v[k], " alone.")
+            speed = turned[0] if turned else s.v[k]
+            what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", speed, " alone.")
             said = text(f"In the velocity of {body.title}, ", s.v[k], " alone stands in place of the sum of the rates.")
             for change, words in ((translation + rotation, what), (rotation, what), (translation, said)):
                 if change != 0:
