@@ -127,3 +127,38 @@ def test_a_wrong_solved_row_beside_right_equations() -> None:
     wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('- m^2', '+ m^2')}")
     kind, _, _ = told("cart-pole", f"{CART} = F\n{POLE} = 0\n{wrong}\n{POLE} = 0")
     assert kind == "denominator"
+
+
+PAIR = "(m1+m2)*x1'' + m2*x2r'' = 0\nm2*(x1'' + x2r'') + k*x2r = F\n"
+
+
+def test_solved_equations_that_follow_from_a_wrong_one_need_no_correction() -> None:
+    """Without m2 x1″ in the second equation, x2r″ = (F − k x2r)/m2, and x1″ follows as well."""
+    solved = "x2r'' = (F - k*x2r)/m2\nx1'' = -(F - k*x2r)/(m1+m2)"
+    verdict = derivation("lecture-3b").check(PAIR.replace("m2*(x1'' + x2r'')", "m2*x2r''") + solved)
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what) == "x1'' is missing in the equation of x2r."
+    assert [f.follows for f in verdict.findings] == [False, False, True, True]
+    (differing,) = verdict.findings[1].differences  # not as if it were solved: F and k x2r are there
+    assert str(differing.term) == "m2*Derivative(x1(t), (t, 2))"
+
+
+def test_a_slip_in_a_sum_of_fractions_is_told_as_it_is_written() -> None:
+    row = "x2r'' = F/m2 - k*x2r/m2 - k*x2r/m1"
+    _, _, said = told("lecture-3b", PAIR + row)
+    assert said == "In what is solved for x2r'' alone: the term F/m1 is missing."
+
+
+def test_a_wrong_ratio_of_a_spring_and_the_damper_beside_it_is_told_once() -> None:
+    s = lg.System("geared shaft")
+    a, b = s.coordinates("a b")
+    J, n, c, d, e = s.parameters("J n c d e")
+    for angle, name in ((a, "rotor"), (b, "arm")):
+        s.rigid_body(0, J, at=s.origin, frame=s.frame(angle, name=name), name=name)
+    s.spring(c, deflection=a / n - b, name="shaft")
+    s.damper(d, deflection=a / n - b, name="losses")
+    s.damper(e, deflection=a, name="bearing")
+    wrong = "V = c*(n*a - b)^2/2\nXi_a = -n*d*(n*a' - b')\nXi_b = d*(n*a' - b')\n"
+    rows = "J*a'' + n*d*(n*a' - b') + n*c*(n*a - b) = 0\nJ*b'' - d*(n*a' - b') - c*(n*a - b) = 0"
+    first, second = s.derive().check(wrong + rows).mistakes
+    assert "wrong side of the fraction line" in str(first.what) and "'bearing' is missing" in str(second.what)

@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.beside import beside
 from lagrangian.check.candidates import too_long
+from lagrangian.check.consequences import follow_from_above
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import Likeness, differences, likeness, paired
@@ -34,8 +35,9 @@ from lagrangian.check.special_cases import with_special_case
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.stated_coordinates import in_stated_coordinates
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
 from lagrangian.derive import Derived
+from lagrangian.derive.algebra import Form
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -235,23 +237,38 @@ def _equations(
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
     solved = {j: pair for j in wrong if (pair := multiplied(truth, lines[j].expr)) is not None}
     forms = {j: None if is_energy_theorem(truth, x := lines[j].expr) else truth.form(x) for j in wrong}
-    pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
     follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
+    follow |= dict.fromkeys(follow_from_above(truth, [line.expr for line in lines], wrong), True)
+    pairs: dict[int, Likeness | None] = {}
+    for later in (False, True):  # the same equations once more do not take the places of the first ones
+        some = [j for j in wrong if follow[j] is later]
+        pairs |= zip(some, paired([likeness(forms[j], truth.forms) for j in some], taken), strict=True)
     found = findings_of(truth, lines, comparison)
     for j in wrong:
         line, like, form = lines[j], pairs[j], forms[j]
-        right = truth.forms[like.index] if like is not None else None
+        others = [_differing(truth, form, truth.forms[like.index], like)] if like is not None else []
         if j in solved and like is not None:
             accelerations = [c.acceleration for c in truth.model.coordinates]
-            like = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
-            form, right = (truth.form(x) for x in solved[j])
-        if like is None or form is None or right is None:
+            alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
+            others.insert(0, _differing(truth, *(truth.form(x) for x in solved[j]), alone))
+        told = [x for x in others if x is not None]
+        if not told:
             found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
             continue
-        differing = differences(truth, form, right, like.factor, like.index)
-        name = name_of(truth, like.index)
-        found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, like.index))
+        # solved for its acceleration, or an equation that lacks another one
+        index, differing = min(told, key=lambda x: (not x[1], len(x[1])))
+        name = name_of(truth, index)
+        found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
     return found
+
+
+def _differing(
+    truth: Reference, form: Form | None, right: Form | None, like: Likeness
+) -> tuple[int, tuple[TermDifference, ...]] | None:
+    """The right equation that one is compared with, and the terms that differ; None for one without a normal form."""
+    if form is None or right is None:
+        return None
+    return like.index, differences(truth, form, right, like.factor, like.index)
 
 
 def _elements(truth: Reference, index: int) -> tuple[str, ...]:

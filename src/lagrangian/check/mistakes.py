@@ -47,6 +47,9 @@ FAR_TOGETHER = 2.6
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 
+SHOWN = 1e-9
+"""The size from which on a mistake is seen in an energy or a force."""
+
 
 @dataclass(frozen=True)
 class NamedMistakes:
@@ -263,7 +266,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
         if not chosen:
             others = [e for e in group if e is not best and len(e.told) == len(best.told) == 1]
             others = [e for e in others if reach(e) < reach(best) + SPARED]
-        chosen += [(t, best.under) for t in best.told if key(t) not in known]
+        new = [t for t in best.told if key(t) not in known]
+        chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
     every = [_mistake(pool.truth, t, a) for t, a in chosen]
     if len(every) == 1:
         every[0], others = _of_either(pool.truth, every[0], chosen[0], others)
@@ -277,6 +281,20 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     costs = [t.cost for t, _ in chosen]
     far = max(costs) > FAR or (len(costs) > 1 and sum(costs) > FAR_TOGETHER * len(costs))
     return NamedMistakes(told, more[:5], single, not far)
+
+
+def _is_part(pool: Pool, told: Told, of: Told) -> bool:
+    """Whether a mistake is what another one is in T*, in V or in Ξ: of a spring and a damper, the damper alone."""
+    k, j = pool.places[id(told.mistake)], pool.places[id(of.mistake)]
+    felt = False
+    for values in (pool.T, pool.V, pool.Xi):
+        own, whole = float(told.times) * values[k], float(of.times) * values[j]
+        if not np.abs(own).max() > SHOWN:
+            continue
+        if np.abs(own - whole).max() > SHOWN * np.abs(whole).max():
+            return False
+        felt = True
+    return felt and not (pool.felt[k] & ~pool.felt[j]).any()
 
 
 def _of_either(

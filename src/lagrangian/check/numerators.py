@@ -68,10 +68,13 @@ def solved_row(truth: Reference, expr: sp.Expr) -> SolvedRow | None:
 
 
 def _fraction(quotient: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Numerator and denominator as they were written, if all terms have the same denominator."""
+    """Numerator and denominator as they were written: a sum of fractions whose denominators are products has none."""
     parts = [sp.fraction(t) for t in sp.Add.make_args(quotient)]
-    if len({below for _, below in parts}) == 1:
+    denominators = {below for _, below in parts}
+    if len(denominators) == 1:
         return cast("sp.Expr", sp.Add(*[above for above, _ in parts])), cast("sp.Expr", parts[0][1])
+    if not any(below.has(sp.Add) for below in denominators):
+        return quotient, sp.S.One
     above, below = sp.fraction(bounded.together(quotient))
     return cast("sp.Expr", above), cast("sp.Expr", below)
 
