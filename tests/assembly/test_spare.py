@@ -7,6 +7,7 @@ import sympy as sp
 import built_in
 import lagrangian as lg
 from lagrangian import dynamics
+from lagrangian.assembly import spare as spare_module
 from lagrangian.assembly.assemble import consistent
 from lagrangian.assembly.spare import check_slopes, parts, spare_rows
 from redundant_systems import START, plate_on_cranks
@@ -110,7 +111,8 @@ def test_a_slope_that_is_small_everywhere_is_one():
 
 
 def test_slopes_are_checked_without_what_moves_a_state_onto_its_rows(monkeypatch):
-    """Corrections are long eliminations; the size of a row needs only A."""
+    """Corrections are long eliminations; the size of a row needs only A, and at one place no machine code."""
     monkeypatch.setattr(dynamics, "correction", lambda *_, **__: pytest.fail("a correction was made"))
+    monkeypatch.setattr(spare_module, "kernel_of", lambda *_: pytest.fail("machine code was made"))
     model = plate_on_cranks().model
     check_slopes(model, np.full(len(model.coordinates), 0.3), np.array([x.value for x in model.parameters], float))

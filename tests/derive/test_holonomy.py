@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrangian.derive.constraints import Holonomy, judge
+from lagrangian.derive.constraints import Holonomy, closed, judge
 from lagrangian.errors import ModelError
 from lagrangian.model import time as t
 from size import rest_slow
@@ -350,3 +350,18 @@ def test_a_verdict_reads_in_one_line() -> None:
     assert str(judge(CAR, [x, y, theta, phi], t)) == "nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)"
     assert str(judge(rates(dx - y * dy), [x, y], t)) == "holonomic: #GC = #DDOF = 1"
     assert isinstance(judge(KNIFE, [x, y, theta], t), Holonomy)
+
+
+def test_all_random_starts_move_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A parallelogram, which moves in one way where its rows hold: every step is one evaluation for all starts."""
+    calls: list[int] = []
+    once = closed.evaluate_together
+
+    def counted(program: Any, groups: Any) -> Any:
+        calls.append(max(len(x) for x in groups["q"]))
+        return once(program, groups)
+
+    monkeypatch.setattr(closed, "evaluate_together", counted)
+    rows = positions(x - sin(left), y - cos(left), x - sin(right), y - cos(right))
+    assert judge(rows, [x, y, left, right], t).growth == (1,)
+    assert calls[0] == closed.STARTS and len(calls) <= closed.STEPS and calls == sorted(calls, reverse=True)

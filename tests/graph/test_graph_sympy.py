@@ -3,6 +3,7 @@
 import math
 
 import mpmath
+import numpy as np
 import pytest
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
@@ -10,6 +11,7 @@ from sympy.physics.mechanics import dynamicsymbols
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, to_sympy
 from lagrangian.graph.graph import UNARY
+from lagrangian.graph.together import evaluate_together
 
 a, b = sp.symbols("a b", real=True)
 q = dynamicsymbols("q")
@@ -140,3 +142,19 @@ def test_the_ends_of_the_domains_are_ieee():
     assert numbers(g, g.pow(x, y), [-0.0, -1.0]) == -math.inf
     assert numbers(g, g.powi(x, -3), [0.0, 0.0]) == math.inf
     assert math.isnan(numbers(g, g.sqrt(x), [-1.0, 0.0], digits=30))
+
+
+def test_many_places_at_once_have_the_values_of_each():
+    """Conditions, poles, what is outside a domain and what overflows included."""
+    g = Graph()
+    x, y = g.input("x", 0), g.input("x", 1)
+    unary = [g.unary(name, x) for name in (*UNARY, "abs", "sign")]
+    binary = [op(x, y) for op in (g.add, g.sub, g.mul, g.div, g.pow, g.min, g.max, g.atan2)]
+    chosen = [g.select(g.or_(g.and_(g.lt(x, y), g.not_(g.eq(x, y))), g.le(y, g.zero)), x, g.neg(y))]
+    ids = (*unary, *binary, *chosen, *(g.powi(x, n) for n in (-3, -2, 3)), g.one, g.div(g.one, g.powi(y, 2)))
+    places = [(a, b) for a in (-2.5, -1.0, -0.0, 0.0, 0.4, 1.0, 3.0, 800.0, math.nan) for b in (-2.0, 0.0, 0.5, 3.0)]
+    program = Program("t", g, {"x": ("a", "b")}, {"y": Output(ids, (len(ids),)), "z": Output(ids[:1], ())})
+    found = evaluate_together(program, {"x": list(np.array(places).T)})
+    each = [evaluate(program, {"x": place}) for place in places]
+    np.testing.assert_allclose(found["y"], np.array([row["y"] for row in each], float), rtol=1e-14)
+    np.testing.assert_allclose(found["z"], np.array([row["z"] for row in each], float), rtol=1e-14)

@@ -149,9 +149,11 @@ def evaluate(program: Program, inputs: Mapping[str, Sequence[Any]], *, digits: i
     """
     values = {group: _entries(program, group, inputs) for group in program.inputs}
     if digits is None:
-        return _run(program, values, DOUBLE, float)
-    with mpmath.workdps(digits):
-        return _run(program, values, MANY_DIGITS, mpmath.mpf)
+        flat = computed(program, values, DOUBLE, float)
+    else:
+        with mpmath.workdps(digits):
+            flat = computed(program, values, MANY_DIGITS, mpmath.mpf)
+    return {name: _shaped(flat[name], out.shape) for name, out in program.outputs.items()}
 
 
 class Valuation:
@@ -199,14 +201,15 @@ def _entries(program: Program, group: str, inputs: Mapping[str, Sequence[Any]]) 
     return given
 
 
-def _run(
+def computed(
     program: Program, inputs: Mapping[str, Sequence[Any]], table: Table, number: Callable[..., Any]
-) -> dict[str, Any]:
+) -> dict[str, list[Any]]:
+    """The entries of every output, by a table of operations on what ``number`` makes of inputs and constants."""
     leaves, steps, ends = program.remembered("interpreted", lambda: _plan(program))
     value = [_leaf(node, inputs, number) for node in leaves]
     for op, read in steps:
         value.append(table[op](*read(value)))
-    return {name: _shaped([value[k] for k in ends[name]], out.shape) for name, out in program.outputs.items()}
+    return {name: [value[k] for k in places] for name, places in ends.items()}
 
 
 Plan = tuple[list[Node], list[tuple[str, Callable[[list[Any]], Sequence[Any]]]], dict[str, list[int]]]

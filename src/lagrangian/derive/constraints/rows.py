@@ -83,4 +83,4 @@ def _at_satisfied(sheet: Sheet, position: int, others: list[int], start: int) ->
     if not others:
         return False  # f does not depend on the coordinates, and is not 0
     there = satisfied(sheet, others, start, within=CLOSED, others=[position])
-    return None if there is None else bool(abs(there.others[0]) < ZERO)
+    return None if there is None else bool(abs(there[0]) < ZERO)

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from lagrangian.derive.constraints.pfaffian import Sheet
 from lagrangian.derive.constraints.spans import DIGITS, evaluated
 from lagrangian.graph import reached
-from lagrangian.records import dataclass
 
 STEPS = 40
 """The number of Newton steps from a start."""
@@ -28,52 +27,44 @@ LONGEST = 0.7
 NEAR = 1e-2
 """A residual below which only the rows that are clearly independent lead on."""
 
-DOUBLE = 1e-13
-"""The smallest residual that is asked of doubles."""
-
 HARDLY, CLEARLY = 1e-9, 1e-4
 """A singular value below the first part of the largest one is 0, above the second it is not. Between them is doubt."""
 
 
-@dataclass(frozen=True, eq=False)
-class SatisfiedAt:
-    """A position that satisfies rows: the slopes ∂f/∂q there (rows, coordinates), and the values of other nodes."""
-
-    slopes: NDArray[np.float64]
-    others: list[Any]
-
-
 def satisfied(
-    sheet: Sheet, positions: Sequence[int], start: int, *, within: float, others: Sequence[int] = ()
-) -> SatisfiedAt | None:
-    """Return a position at which the nodes ``positions`` are 0; None if none is found from the start of that number.
+    sheet: Sheet, positions: Sequence[int], start: int, *, within: float, others: Sequence[int]
+) -> list[Any] | None:
+    """Return the nodes ``others`` at a position at which the nodes ``positions`` are 0, with 50 digits.
 
-    The residuals are at most ``within``, with 50 digits where that is less than doubles can say. Steps have the
-    precision of doubles, so each of the last ones makes the residual smaller by at least ten digits. ``others`` are the
-    nodes to evaluate there.
+    None if none is found from the start of that number. The residuals are at most ``within``. Steps have the precision
+    of doubles, so each of the last ones makes the residual smaller by at least ten digits.
     """
-    digits = DIGITS if within < DOUBLE else None
     count, columns = len(positions), sheet.columns[:-1]
     slopes = [x for f in positions for x in sheet.differential(f)[:-1]]
     wanted = [*positions, *slopes, *others]
     with mpmath.workdps(DIGITS):
-        values = _drawn(sheet, wanted, random.Random(start))
+        values = drawn(sheet, wanted, random.Random(start))
         for _ in range(STEPS):
-            found = evaluated(sheet, wanted, values, digits)
+            found = evaluated(sheet, wanted, values)
             numbers = np.array(found, float)
             if not np.isfinite(numbers).all():
                 return None
             f, A = numbers[:count], numbers[count : count + len(slopes)].reshape(count, -1)
             if float(np.abs(f).max()) < within:
-                return SatisfiedAt(A, found[count + len(slopes) :])
-            step = np.linalg.pinv(A, rcond=CLEARLY if np.abs(f).max() < NEAR else HARDLY) @ f
-            step *= min(1.0, LONGEST / max(float(np.abs(step).max()), LONGEST))
-            for column, change in zip(columns, step, strict=True):
+                return found[count + len(slopes) :]
+            for column, change in zip(columns, newton_step(f, A), strict=True):
                 values[column] = values.get(column, mpmath.mpf(0)) - mpmath.mpf(float(change))
     return None
 
 
-def _drawn(sheet: Sheet, wanted: Sequence[int], draw: random.Random) -> dict[int, Any]:
+def newton_step(f: NDArray[np.float64], A: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what is subtracted from coordinates where rows are f (…, rows) and their slopes are A (…, rows, n)."""
+    rcond = np.where(np.abs(f).max(axis=-1) < NEAR, CLEARLY, HARDLY)
+    step = (np.linalg.pinv(A, rcond=rcond) @ f[..., None])[..., 0]
+    return step * (LONGEST / np.maximum(np.abs(step).max(axis=-1, keepdims=True), LONGEST))
+
+
+def drawn(sheet: Sheet, wanted: Sequence[int], draw: random.Random) -> dict[int, Any]:
     """Random values of the coordinates and of the constants without a value that the nodes ``wanted`` need."""
     columns = sheet.columns[:-1]
     values: dict[int, Any] = {}

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import random
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
 
 import mpmath
 
 from lagrangian.derive.constraints.pfaffian import Sheet
 from lagrangian.graph import NotAlgebraic, Output, PrimePoint, Program, evaluate, reached
 from lagrangian.graph.prime_field import Echelon
+
+T = TypeVar("T")
 
 DIGITS = 50
 """The number of decimal digits if exact computation is impossible."""
@@ -246,17 +248,22 @@ def _unit(row: list[Any]) -> list[Any] | None:
     return None if size == 0 else [x / size for x in row]
 
 
-def evaluated(sheet: Sheet, ids: Sequence[int], values: dict[int, Any], digits: int | None = DIGITS) -> list[Any]:
-    """Return nodes with 50 digits, or as doubles without ``digits``, given the values of the input nodes."""
-    groups: dict[str, list[Any]] = {}
+def evaluated(sheet: Sheet, ids: Sequence[int], values: Mapping[int, Any]) -> list[Any]:
+    """Return nodes with 50 digits, given the values of the input nodes."""
+    program, groups = asked(sheet, ids, values, mpmath.mpf(0))
+    return [mpmath.mpf(x) for x in evaluate(program, groups, digits=DIGITS)["x"]]
+
+
+def asked(sheet: Sheet, ids: Sequence[int], values: Mapping[int, T], nothing: T) -> tuple[Program, dict[str, list[T]]]:
+    """Return the program whose output ``x`` are nodes, and its inputs; ``nothing`` stands for those without a value."""
+    groups: dict[str, list[T]] = {}
     for i, value in values.items():
         _, group, k = sheet.graph.nodes[i]
         entries = groups.setdefault(group, [])
-        entries += [mpmath.mpf(0)] * (k + 1 - len(entries))
+        entries += [nothing] * (k + 1 - len(entries))
         entries[k] = value
     names = {group: tuple(f"{group}{k}" for k in range(len(e))) for group, e in groups.items()}
     key = (tuple(ids), tuple(names.items()))
     if key not in sheet.programs:
         sheet.programs[key] = Program("rows", sheet.graph, names, {"x": Output(tuple(ids), (len(ids),))})
-    found = evaluate(sheet.programs[key], groups, digits=digits)["x"]
-    return found if digits is None else [mpmath.mpf(x) for x in found]
+    return sheet.programs[key], groups

@@ -9,7 +9,7 @@ from lagrangian.codegen.emit import emit, emit_inline, plan
 from lagrangian.codegen.ir import Value
 from lagrangian.codegen.tape import lower
 
-from .printer import Printer, Vec
+from .printer import UNROLLED, Printer, Vec
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -103,7 +103,7 @@ class PrintedProgram:
             p.store(given, slot)
         elif given.slot == slot and given.values is None:
             return  # it is there already
-        elif given.values is not None or size <= 64:
+        elif given.values is not None or size <= UNROLLED:
             for k in range(size):
                 p.store(_entry(p, given, k), slot, k)
         else:

@@ -92,25 +92,23 @@ class Projector:
         p, f = self.p, self.f
         zero = Value(f, f.constant(0.0))
         p.map(lambda old: zero, self.moved, into=(self.moved,))
-        p.store(zero, self.gap)
-        if self.approach is not None:
-            self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=call)
-            p.store(p.load(self.first, p.size), self.gap)
-            self._add(self.first, x, flag, lost)
-        self._land(t, u, x, call)
-        if self.approach is not None:
-            p.store(0.0, self.rounds)
+        if self.approach is None:
+            self._land(t, u, x, call)
+            p.store(self._seen("rest"), self.gap)
+        else:
+            p.store(zero, self.gap)
+            p.store(zero, self.rounds)
+            p.store(float("inf"), self.second, p.size + SEEN.index("rest"))
             with p.forever() as leave:
                 rounds = p.load(self.rounds)
                 again = f.logic("and", flag, f.compare("ogt", self._seen("rest"), CLOSED))
-                again = f.logic("and", again, f.compare("olt", rounds, float(MORE_STEPS)))
+                again = f.logic("and", again, f.compare("ole", rounds, float(MORE_STEPS)))
                 leave(f.put(f"xor i1 {p.any(again)}, true"))
+                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=call)
+                p.store(f.select(f.compare("oeq", rounds, 0.0), p.load(self.first, p.size), p.load(self.gap)), self.gap)
                 p.store(rounds + 1.0, self.rounds)
-                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=True)
                 self._add(self.first, x, again, lost)
-                self._land(t, u, x, True)
-        else:
-            p.store(self._seen("rest"), self.gap)
+                self._land(t, u, x, call)
         if self.corrects:
             self._add(self.second, x, flag, lost)
 
