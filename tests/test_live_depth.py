@@ -30,7 +30,7 @@ console.log(JSON.stringify(asked));
 def in_node(question: str, scene: dict[str, Any]) -> Any:
     """What a question prints that is asked of the page's scripts about a scene."""
     folder = files("lagrangian.write") / "interactive"
-    names = ("depth.js", "picture.js", "history.js", "motion.js")
+    names = ("depth.js", "ground.js", "picture.js", "history.js", "motion.js")
     script = "\n".join((folder / name).read_text(encoding="utf-8") for name in names)
     done = subprocess.run([str(NODE), "-e", script + question], input=json.dumps(scene), capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
@@ -149,3 +149,26 @@ def test_a_trail_computes_every_sample_once_until_the_history_changes() -> None:
     first, again, changed = in_node(TRAILS, as_data(picture("double-pendulum").scene))
     assert first == again == [50, *4 * [pytest.approx(0.7)]]
     assert changed == [58, *4 * [9.0]]
+
+
+GROUND = """
+const scene = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const picture = new Picture(scene, () => {}), [ground] = picture.grids, handle = scene.handles[0];
+const floor = { kind: "floor", path: [["M", 0, 0], ["L", 43, 0], ["M", 3, 0], ["L", 0, 5], ["M", 13, 0], ["L", 10, 5]] };
+picture.r.set(picture.rest);
+const drawn = [];
+for (const far of [0, 4]) {
+  picture.r[3 * handle] = picture.rest[3 * handle] + far;
+  ground.lay(picture);
+  const xs = ground.part.path.map(([, x]) => x * ground.counts[0]);
+  drawn.push([Math.min(...xs), Math.max(...xs), ground.places(picture)[0][0]]);
+}
+console.log(JSON.stringify([drawn, ground.counts[0], picture.copies(floor, [1, 0], 60)]));
+"""
+
+
+def test_the_ground_of_a_page_reaches_where_bodies_go_and_its_strokes_stay_even() -> None:
+    (near, far), count, copies = in_node(GROUND, as_data(picture("rolling-disc").scene))
+    assert near[0] == 0 and near[2] < count <= near[1] <= count + 2
+    assert far[0] <= 0 and far[2] > count and far[1] >= far[2] + 2
+    assert all(moved % 10 == 0 for moved in copies) and len(copies) > 1

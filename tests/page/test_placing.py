@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hand_scenes import TURN, carts, pendulum
+from lagrangian.page.ground import laid_out
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.page.placing import axes, inside, placed, places
 from lagrangian.page.scene import Disc, Path, Placement, Scaling, ScenePart, Trace
@@ -119,3 +120,18 @@ def test_a_part_in_a_plane_in_space_has_oblique_axes_and_one_side() -> None:
     assert [numbers.tolist() for _, numbers in seen] == drawn
     behind = placed(ScenePart(square, "body", Placement(0, 2, across=1), facing=True), at)
     assert all(numbers.tolist() == [10.0, 20.0] for _, numbers in behind)
+
+
+def test_a_grid_reaches_two_squares_beyond_where_bodies_go() -> None:
+    """Squares of 1 m by 1 m from the origin, 4 along x and 2 along y; a body goes to x = 9.5 m."""
+    strokes = [((i / 4, 0), (i / 4, 1)) for i in range(5)] + [((0, i / 2), (1, i / 2)) for i in range(3)]
+    shape = Path(tuple((letter, spot) for ends in strokes for letter, spot in zip("ML", ends, strict=True)))
+    grid = ScenePart(shape, "thin", Placement(0, 1, across=2), kind="grid")
+    positions = np.array([[[0, 0, 0], [4, 0, 0], [0, 2, 0], [x, 1, 0.3]] for x in (1.0, 9.5)])
+    made = laid_out(grid, positions, (3,))
+    assert isinstance(made.shape, Path)
+    spots = np.array([numbers for _, numbers in made.shape.commands]) * (4, 2)
+    assert (spots.min(axis=0).tolist(), spots.max(axis=0).tolist()) == ([-1, -1], [12, 3])
+    assert laid_out(grid, positions[:1] + 1e4, (3,)).shape != shape and len(made.shape.commands) == 2 * (14 + 5)
+    far = laid_out(grid, positions * (1e4, 1, 1), (3,))
+    assert isinstance(far.shape, Path) and len(far.shape.commands) < 200

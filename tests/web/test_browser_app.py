@@ -76,6 +76,7 @@ def test_a_model_that_is_typed_shows_its_equations(page: Any) -> None:
     field = page.locator("#model-editor textarea")
     assert "Equations of motion" in page.locator("#derivation").inner_text()
     assert page.locator("#derivation .result .term").count() == 2
+    assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")  # only the derivation slides
     field.fill(field.input_value().replace("[simulate]", '[[damper]]\nb = "0.5 N*s/m"\ndeflection = "x"\n\n[simulate]'))
     page.wait_for_selector("#model-error:not([hidden])")
     text = field.input_value().replace('b = "0.5 N*s/m"', 'b = "b"')

@@ -14,6 +14,10 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 
 WIDER = """() => [...document.querySelectorAll('.formula, .result')].filter(e => !e.querySelector('mtable'))
     .filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.textContent)"""
+BRACKETS = """() => { const all = [...document.querySelectorAll("mtable.matrix")];
+  const drawn = (m) => m.previousElementSibling.getBoundingClientRect().height === 0 && getComputedStyle(m).borderLeftWidth !== "0px";
+  return all.every(drawn) ? all.length : 0; }"""
+"""The number of matrices if the brackets of all of them are as high as they are, with or without a font for formulas."""
 
 
 def test_a_long_term_can_break_before_a_function_but_not_before_its_parenthesis() -> None:
@@ -35,6 +39,7 @@ def test_no_formula_is_wider_than_the_screen_of_a_telephone(tmp_path: Path) -> N
             opened = browser.new_page(viewport={"width": 320, "height": 900})
             opened.goto(file.as_uri())
             assert opened.evaluate(WIDER) == [], name
+            assert opened.evaluate(BRACKETS) > 0, name
             assert opened.evaluate("document.documentElement.scrollWidth") == 320, name
         browser.close()
 

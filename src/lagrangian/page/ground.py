@@ -1,4 +1,4 @@
-"""Floors that reach as far as the frame: a line with hatching below it, continued on both sides."""
+"""The ground of a motion: hatched floors that reach as far as the frame, and grids that reach as far as bodies go."""
 
 from __future__ import annotations
 
@@ -15,8 +15,14 @@ Array = NDArray[np.float64]
 FLOOR = "floor"
 """The kind of parts that are extended."""
 
+GRID = "grid"
+"""The kind of parts that are laid out where bodies go: squares on the ground in space."""
+
 MOST = 2000
 """The largest number of strokes of the hatching."""
+
+IN_A_ROW = 40
+"""How many squares of a grid there are in a row before they become larger."""
 
 
 def extended(part: ScenePart, at: Array, frame: tuple[float, float, float, float]) -> ScenePart:
@@ -44,6 +50,35 @@ def extended(part: ScenePart, at: Array, frame: tuple[float, float, float, float
     commands: list[Command] = [("M", _pair(start + low * e)), ("L", _pair(start + high * e))]
     for a, b in _repeated(ticks, start, e, low, high):
         commands += [("M", _pair(a)), ("L", _pair(b))]
+    return replace(part, shape=Path(tuple(commands)))
+
+
+def laid_out(part: ScenePart, positions: Array, handles: tuple[int, ...]) -> ScenePart:
+    """Return a grid that reaches two squares beyond wherever bodies go over it; any other part as it is.
+
+    ``positions`` (frames, anchors, 3) [m] are those of the anchors, ``handles`` the anchors of the bodies. The axes of
+    a grid go from 0 to 1 along its two sides; its squares keep their size unless there would be very many.
+    """
+    place = part.placement
+    if part.kind != GRID or not isinstance(part.shape, Path) or place.at is None or not handles:
+        return part
+    strokes = _strokes(part.shape)
+    upright = sum(float(a[0]) == float(b[0]) for a, b in strokes)
+    counts = upright - 1, len(strokes) - upright - 1
+    ways = positions[:, list(handles)] - positions[:1, [place.at]]
+    reach: list[tuple[int, int]] = []
+    for count, end in zip(counts, (place.towards, place.across), strict=True):
+        side = positions[0, end] - positions[0, place.at]
+        along = count * (ways @ side) / float(side @ side)
+        reach.append((min(0, int(np.floor(along.min() - 2))), max(count, int(np.ceil(along.max() + 2)))))
+    every = -(-max(high - low for low, high in reach) // IN_A_ROW)
+    (left, right), (top, bottom) = ((every * (low // every), every * -(-high // every)) for low, high in reach)
+    n, m = counts
+    commands: list[Command] = []
+    for i in range(left, right + 1, every):
+        commands += [("M", (i / n, top / m)), ("L", (i / n, bottom / m))]
+    for i in range(top, bottom + 1, every):
+        commands += [("M", (left / n, i / m)), ("L", (right / n, i / m))]
     return replace(part, shape=Path(tuple(commands)))
 
 

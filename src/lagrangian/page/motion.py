@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.page.ground import extended
+from lagrangian.page.ground import extended, laid_out
 from lagrangian.page.placing import Drawn, placed, places
 from lagrangian.page.scene import Scene, ScenePart, Trace, drawing_order
 from lagrangian.records import dataclass
@@ -94,6 +94,7 @@ def motion(
     Every ``finer``-th place is a frame, the first and the last one too; ``times`` (frames,) are the times of the frames
     [s]. The paths of the scene's trail go through all places.
     """
+    scene = replace(scene, parts=tuple(laid_out(part, positions, scene.handles) for part in scene.parts))
     fine = restrained(scene, places(scene, positions))
     away = _away(scene, fine)
     still = np.ptp(fine, axis=0).max(axis=1) < 1e-6

@@ -2,8 +2,8 @@
 
 import { make, shape } from "./page.js";
 
-const WIDTH = 640;
-const HEIGHT = 380;
+/** The size of a plot in pixels; on a narrow screen it is small, so that its letters are not. */
+let [width, height] = [640, 380];
 const LEFT = 62;
 const RIGHT = 16;
 const TOP = 14;
@@ -50,27 +50,29 @@ function range(values) {
 /** Axes with their numbers. @param {any} picture @param {Quantity} x @param {Quantity} y
  *  @param {number[]} across @param {number[]} up */
 function axes(picture, x, y, across, up) {
-  const px = (/** @type {number} */ v) => LEFT + ((v - across[0]) / (across[1] - across[0])) * (WIDTH - LEFT - RIGHT);
-  const py = (/** @type {number} */ v) => HEIGHT - BOTTOM - ((v - up[0]) / (up[1] - up[0])) * (HEIGHT - TOP - BOTTOM);
-  for (const v of ticks(across[0], across[1], 6)) {
-    picture.append(shape("line", { class: "grid", x1: px(v), x2: px(v), y1: TOP, y2: HEIGHT - BOTTOM }),
-      shape("text", { x: px(v), y: HEIGHT - BOTTOM + 18, "text-anchor": "middle" }, figure(v)));
+  const px = (/** @type {number} */ v) => LEFT + ((v - across[0]) / (across[1] - across[0])) * (width - LEFT - RIGHT);
+  const py = (/** @type {number} */ v) => height - BOTTOM - ((v - up[0]) / (up[1] - up[0])) * (height - TOP - BOTTOM);
+  for (const v of ticks(across[0], across[1], width / 100)) {
+    picture.append(shape("line", { class: "grid", x1: px(v), x2: px(v), y1: TOP, y2: height - BOTTOM }),
+      shape("text", { x: px(v), y: height - BOTTOM + 18, "text-anchor": "middle" }, figure(v)));
   }
   for (const v of ticks(up[0], up[1])) {
-    picture.append(shape("line", { class: "grid", x1: LEFT, x2: WIDTH - RIGHT, y1: py(v), y2: py(v) }),
+    picture.append(shape("line", { class: "grid", x1: LEFT, x2: width - RIGHT, y1: py(v), y2: py(v) }),
       shape("text", { x: LEFT - 8, y: py(v) + 4, "text-anchor": "end" }, figure(v)));
   }
   picture.append(
-    shape("rect", { class: "frame", x: LEFT, y: TOP, width: WIDTH - LEFT - RIGHT, height: HEIGHT - TOP - BOTTOM }),
-    shape("text", { class: "name", x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 8, "text-anchor": "middle" }, labelled(x)),
-    shape("text", { class: "name", transform: `translate(14 ${(TOP + HEIGHT - BOTTOM) / 2}) rotate(-90)`, "text-anchor": "middle" },
+    shape("rect", { class: "frame", x: LEFT, y: TOP, width: width - LEFT - RIGHT, height: height - TOP - BOTTOM }),
+    shape("text", { class: "name", x: (LEFT + width - RIGHT) / 2, y: height - 8, "text-anchor": "middle" }, labelled(x)),
+    shape("text", { class: "name", transform: `translate(14 ${(TOP + height - BOTTOM) / 2}) rotate(-90)`, "text-anchor": "middle" },
       labelled(y)));
   return { px, py };
 }
 
-/** @param {string} words */
-const picture = (words) =>
-  shape("svg", { class: "plot", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": words });
+/** A new plot without anything in it yet. @param {string} words */
+function picture(words) {
+  [width, height] = matchMedia("(max-width: 45rem)").matches ? [360, 290] : [640, 380];
+  return shape("svg", { class: "plot", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": words });
+}
 
 /**
  * Curves over a quantity, each with its dash and colour, and a legend where there are several.
@@ -129,14 +131,14 @@ export function map(x, y, z, rows) {
     return [a - half, b + half];
   };
   const { px, py } = axes(made, x, y, side(x), side(y));
-  const width = Math.abs(px(Number(x.values[1])) - px(Number(x.values[0])));
-  const height = Math.abs(py(Number(y.values[1])) - py(Number(y.values[0])));
+  const w = Math.abs(px(Number(x.values[1])) - px(Number(x.values[0])));
+  const h = Math.abs(py(Number(y.values[1])) - py(Number(y.values[0])));
   const frame = made.querySelector(".frame");
   rows.forEach((row, i) => row?.forEach((v, j) => {
     if (v === undefined) return;
-    const left = px(Number(x.values[i])) - width / 2;
-    const top = py(Number(y.values[j])) - height / 2;
-    const cell = shape("rect", { class: v === null ? "cell failed" : "cell", x: left, y: top, width: width + 0.4, height: height + 0.4 },
+    const left = px(Number(x.values[i])) - w / 2;
+    const top = py(Number(y.values[j])) - h / 2;
+    const cell = shape("rect", { class: v === null ? "cell failed" : "cell", x: left, y: top, width: w + 0.4, height: h + 0.4 },
       shape("title", {}, `${x.name} = ${figure(Number(x.values[i]))}, ${y.name} = ${figure(Number(y.values[j]))}: ` +
         (v === null ? "failed" : `${figure(v)} ${z.unit}`)));
     if (v !== null) cell.setAttribute("fill", colour((v - low) / (high - low)));

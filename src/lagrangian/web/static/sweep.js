@@ -43,7 +43,7 @@ function build(lose) {
     ...Object.entries(KEPT).map(([name, words]) => make("option", { value: name }, words)));
   const start = model.data.coordinates[0]?.name ?? "";
   const of = make("input", { type: "text", value: start, "aria-label": "Of which quantity: a name or an expression", size: 14, spellcheck: "false" });
-  const duration = make("input", { type: "text", placeholder: "as the model says", "aria-label": "Duration", size: 12 });
+  const duration = make("input", { type: "text", placeholder: "as the model says", "aria-label": "Duration", size: 16 });
   const count = make("select", { "aria-label": "Values along each axis" },
     ...COUNTS.map((n) => make("option", { value: n, selected: n === 20 }, `${n} values each`)));
   const stop = make("button", { type: "button", disabled: true, onclick: () => running?.abort() }, "Stop");

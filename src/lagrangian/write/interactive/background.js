@@ -90,5 +90,5 @@ function whileOpen(id, controls, draw, stop) {
 
 /** The number in a field, with a comma or a point. */
 function numberIn(id) {
-  return Number(element(id).value.replace("−", "-").replace(",", "."));
+  return Number(element(id).value.replaceAll("−", "-").replace(",", "."));
 }

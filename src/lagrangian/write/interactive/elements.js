@@ -24,7 +24,7 @@ function digits(x, n = 3) {
   if (x === 0 || Math.abs(x) < 1e-12) return "0";
   const size = Math.abs(x);
   const text = size >= 1e5 || size < 1e-3 ? x.toExponential(n - 1).replace("e+", "e") : x.toFixed(Math.max(0, n - 1 - Math.floor(Math.log10(size))));
-  return (size < 0.01 ? text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "") : text).replace("-", "−");
+  return (size < 0.01 ? text.replace(/(\.\d*?)0+(?=e|$)/, "$1").replace(/\.(?=e|$)/, "") : text).replaceAll("-", "−");
 }
 
 function readColours() {

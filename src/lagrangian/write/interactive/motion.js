@@ -26,8 +26,10 @@ class Motion {
     const passed = run.measure(state.stored(0), state.span);
     picture.spread(passed);
     this.passed.edition = -1;
+    for (const ground of picture.grids) ground.forget();
     for (const { x, t } of passed) {
       picture.place(x, t);
+      for (const ground of picture.grids) ground.tread(picture);
       const wider = [...box];
       picture.cover(wider);
       if (Math.max(wider[2] - wider[0], wider[3] - wider[1]) < most) box = wider; // what goes further is followed
@@ -61,6 +63,7 @@ class Motion {
     this.follow(width, height);
     if (state.set.trail) state.data.trail.forEach((_, k) => this.drawTrail(k));
     this.place();
+    for (const ground of picture.grids) ground.lay(picture);
     picture.draw(context, colours, state.lit, width);
     if (this.held) this.drawHeld();
   }

@@ -29,6 +29,7 @@ SCRIPTS = (
     "run.js",
     "state.js",
     "depth.js",
+    "ground.js",
     "picture.js",
     "motion.js",
     "player.js",

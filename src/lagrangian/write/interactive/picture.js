@@ -10,6 +10,12 @@ function cornersOf({ disc, path }) {
   return [Math.min(...xs), Math.max(...xs)].flatMap((x) => [Math.min(...ys), Math.max(...ys)].map((y) => [x, y]));
 }
 
+/** How far the strokes of a floor are from each other: its longest line is not one of them. */
+function hatching(path) {
+  const starts = path.filter(([letter]) => letter === "M").slice(1).map(([, x]) => x);
+  return starts.length > 1 ? Math.abs(starts[1] - starts[0]) : 0;
+}
+
 /** About how far dots that move with a charge are from each other [px], and how often the most that flowed sends them round. */
 const DOTS = 26, ROUNDS = 2;
 
@@ -39,6 +45,7 @@ class Picture {
     this.r = new Float64Array(scene.positions.length * this.depth);
     this.rest = Float64Array.from(scene.positions.flat());
     this.parts = [...scene.parts].sort((a, b) => a.layer - b.layer);
+    this.grids = this.parts.filter((part) => part.kind === "grid").map((part) => new Ground(part));
     this.bounds = this.parts.filter((part) => part.kind !== "floor").map((part) => ({ part, corners: part.trace ? [] : cornersOf(part) }));
   }
 
@@ -115,7 +122,8 @@ class Picture {
     if (part.kind !== "floor" || !part.path) return [0];
     const xs = part.path.flatMap(([, ...n]) => n.filter((_, i) => i % 2 === 0));
     const ys = part.path.flatMap(([, ...n]) => n.filter((_, i) => i % 2 === 1));
-    const line = Math.max(...xs) - Math.min(...xs) - (Math.max(...ys) - Math.min(...ys));
+    const length = Math.max(...xs) - Math.min(...xs) - (Math.max(...ys) - Math.min(...ys)), step = hatching(part.path);
+    const line = step > 0 && step < length ? step * Math.floor(length / step + 1e-9) : length; // the strokes stay at equal distances
     const reach = line * Math.hypot(place[0], place[1]) * this.zoom;
     if (!(reach > 8)) return [0];
     const most = Math.min(60, Math.ceil((2 * width) / reach));

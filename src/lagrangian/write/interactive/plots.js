@@ -13,7 +13,7 @@ function ticks(low, high, wanted) {
 /** A number of an axis, with as many digits as its steps need. */
 function tickText(x, step) {
   if (x === 0) return "0";
-  if (Math.abs(x) >= 1e5 || Math.abs(step) < 1e-4) return x.toExponential(1).replace("e+", "e").replace("-", "−");
+  if (Math.abs(x) >= 1e5 || Math.abs(step) < 1e-4) return x.toExponential(1).replace("e+", "e").replaceAll("-", "−");
   return x.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace("-", "−");
 }
 
@@ -88,7 +88,8 @@ class Plot {
     for (const x of across.found) {
       context.strokeStyle = colours.line;
       this.segment(this.X(x), box.top + box.height, this.X(x), box.top + box.height + 4);
-      context.fillText(tickText(x, across.step), this.X(x), box.top + box.height + 7);
+      const text = tickText(x, across.step), half = context.measureText(text).width / 2;
+      context.fillText(text, Math.min(this.X(x), width - half - 1), box.top + box.height + 7);
     }
   }
 

@@ -28,7 +28,7 @@ class Sliders {
   listen(control) {
     const { range, field, group, index, row } = control;
     range.addEventListener("input", () => this.change(control, Number(range.value)));
-    field.addEventListener("change", () => this.change(control, Number(field.value.replace("−", "-").replace(",", "."))));
+    field.addEventListener("change", () => this.change(control, Number(field.value.replaceAll("−", "-").replace(",", "."))));
     range.addEventListener("dblclick", () => this.change(control, this.state.data[group].values[index]));
     for (const knob of row.querySelectorAll("[data-push]")) this.listenToPush(knob, index);
   }
