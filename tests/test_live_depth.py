@@ -154,7 +154,8 @@ def test_a_trail_computes_every_sample_once_until_the_history_changes() -> None:
 GROUND = """
 const scene = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const picture = new Picture(scene, () => {}), [ground] = picture.grids, handle = scene.handles[0];
-const floor = { kind: "floor", path: [["M", 0, 0], ["L", 43, 0], ["M", 3, 0], ["L", 0, 5], ["M", 13, 0], ["L", 10, 5]] };
+const path = [["M", 0, 0], ["L", 43, 0], ["M", 3, 0], ["L", 0, 5], ["M", 13, 0], ["L", 10, 5]];
+const floor = { kind: "floor", path };
 picture.r.set(picture.rest);
 const drawn = [];
 for (const far of [0, 4]) {

@@ -15,9 +15,10 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shuti
 WIDER = """() => [...document.querySelectorAll('.formula, .result')].filter(e => !e.querySelector('mtable'))
     .filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.textContent)"""
 BRACKETS = """() => { const all = [...document.querySelectorAll("mtable.matrix")];
-  const drawn = (m) => m.previousElementSibling.getBoundingClientRect().height === 0 && getComputedStyle(m).borderLeftWidth !== "0px";
+  const hidden = (m) => m.previousElementSibling.getBoundingClientRect().height === 0;
+  const drawn = (m) => hidden(m) && getComputedStyle(m).borderLeftWidth !== "0px";
   return all.every(drawn) ? all.length : 0; }"""
-"""The number of matrices if the brackets of all of them are as high as they are, with or without a font for formulas."""
+"""How many matrices there are, if all of them have brackets that need no font."""
 
 
 def test_a_long_term_can_break_before_a_function_but_not_before_its_parenthesis() -> None:

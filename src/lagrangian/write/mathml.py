@@ -27,9 +27,12 @@ from lagrangian.write.expression_tree import (
     numbered,
     tokens,
 )
-from lagrangian.write.lines import Line, lines
+from lagrangian.write.lines import Line, grid_columns, lines
 from lagrangian.write.names import phrases
 from lagrangian.write.unicode_math import bold
+
+NARROW = 30
+"""A matrix of more columns of letters is wider than the screen of a telephone."""
 
 _DOTS = ("", "˙", "¨", "⃛")
 _GAP = '<mspace width="0.17em"></mspace>'
@@ -138,7 +141,7 @@ def _leaf(math: Math) -> str:
             inner = _inner(of if isinstance(of, (Letter, Word, Power, Fence)) else Fence(of))
             return f'<mrow><mo form="prefix" lspace="0" rspace="0">{sign}</mo>{inner}</mrow>'
         case Grid(rows):
-            return f"<mrow><mo>[</mo>{_table(rows)}<mo>]</mo></mrow>"
+            return f"<mrow><mo>[</mo>{_table(rows, grid_columns(math) > NARROW)}<mo>]</mo></mrow>"
         case Cases(branches):
             shown = [(v, Word("otherwise") if c is None else c) for v, c in branches]
             body = "".join(
@@ -149,9 +152,9 @@ def _leaf(math: Math) -> str:
     raise TypeError(f"not a leaf: {math!r}")
 
 
-def _table(rows: tuple[tuple[Math, ...], ...]) -> str:
+def _table(rows: tuple[tuple[Math, ...], ...], wide: bool) -> str:
     cells = "".join("<mtr>" + "".join(f"<mtd>{_inner(x)}</mtd>" for x in line) + "</mtr>" for line in rows)
-    return f'<mtable class="matrix">{cells}</mtable>'
+    return f'<mtable class="matrix{" wide" if wide else ""}">{cells}</mtable>'
 
 
 def _power(base: Math, exponent: Math) -> str:
