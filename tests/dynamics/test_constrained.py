@@ -12,12 +12,13 @@ from floating_trees import QUADRUPED, pinocchio_model, states, system
 from hypothesis import given
 from hypothesis import strategies as st
 
+import built_in
 from lagrangian.dynamics import constraint_programs, programs
 from lagrangian.dynamics.constrained import dual, kept_by_steps, position_correction, velocity_correction
 from lagrangian.dynamics.describe import Inputs, described
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, jvp, vjp
+from lagrangian.graph import Graph, count_operations, jvp, vjp
 from lagrangian.model import Builder, Gravity, Particle, RigidBody
 from size import sized
 
@@ -323,3 +324,11 @@ def _cart():
     for c in (x, y):
         b.add(RigidBody(mass=1, inertia=1, at=b.origin + (c.symbol, 0), frame=b.frame(f"F{c.name}", sp.Integer(0))))
     return b
+
+
+def test_both_steps_of_a_projection_share_their_elimination():
+    position, velocity = constraint_programs.projection(built_in.system("four-bar").model)
+    assert position is not None and position.graph is velocity.graph
+    alone = [count_operations(p.graph, p.outputs["dx"].ids, hoist="p").operations for p in (position, velocity)]
+    both = [*position.outputs["dx"].ids, *velocity.outputs["dx"].ids]
+    assert count_operations(position.graph, both, hoist="p").operations < 0.75 * sum(alone)

@@ -11,10 +11,11 @@ constraints would do, so it never adds energy where the rows do not depend on ti
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from typing import TypeAlias
 
 from lagrangian.dynamics.guard import LEAST_MARGIN
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.dynamics.ordering import cheapest_solution
+from lagrangian.dynamics.ordering import Order, cheapest_solution, solution_in
 from lagrangian.dynamics.row_problem import Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Matrix, Vector, dot, times, zeros
@@ -33,29 +34,38 @@ def kept_by_steps(m: Mechanics) -> bool:
     return all(x == m.graph.zero for x in changes)
 
 
-def position_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vector, RowSolution] | None:
-    """Return δq and the solution that it comes from; None without rows on positions.
+Correction: TypeAlias = tuple[Vector, RowSolution, Order]
+"""A step, the solution that it comes from, and the order of its elimination."""
 
-    ``fixed``: coordinates (numbers) that stay as they are.
+
+def position_correction(m: Mechanics, fixed: Collection[int] = (), order: Order | None = None) -> Correction | None:
+    """Return δq; None without rows on positions.
+
+    ``fixed``: coordinates (numbers) that stay as they are. ``order``: that of an elimination with the same rows, which
+    this one then shares.
     """
     rows = position_rows(m)
     if not rows:
         return None
-    found = _correction(m, rows, [row.residual or m.graph.zero for row in rows], fixed)
-    return jvp(m.graph, m.motion.rates, dict(zip(m.v, found.vdot, strict=True))), found
+    found, order = _correction(m, rows, [row.residual or m.graph.zero for row in rows], fixed, order)
+    return jvp(m.graph, m.motion.rates, dict(zip(m.v, found.vdot, strict=True))), found, order
 
 
-def velocity_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vector, RowSolution] | None:
-    """Return δv and the solution that it comes from; None without rows. The rates of ``fixed`` coordinates stay."""
+def velocity_correction(m: Mechanics, fixed: Collection[int] = ()) -> Correction | None:
+    """Return δv; None without rows. The rates of ``fixed`` coordinates stay."""
     if not m.rows:
         return None
-    found = _correction(m, m.rows, [row.rate for row in m.rows], fixed)
-    return found.vdot, found
+    found, order = _correction(m, m.rows, [row.rate for row in m.rows], fixed)
+    return found.vdot, found, order
 
 
 def _correction(
-    m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int], fixed: Collection[int]
-) -> RowSolution:
+    m: Mechanics,
+    rows: Sequence[ConstraintRow],
+    values: Sequence[int],
+    fixed: Collection[int],
+    order: Order | None = None,
+) -> tuple[RowSolution, Order]:
     """The least δ with A δ = −values.
 
     A fixed coordinate whose rate is a velocity loses its column; any other fixed coordinate gets a row.
@@ -73,7 +83,9 @@ def _correction(
         for links in m.distinct_groupings:
             yield from m.problems(links, [], asked, nothing, held, strict=False)
 
-    return cheapest_solution(problems(), multipliers=False)[0]
+    if order is not None and (found := solution_in(order, problems())) is not None:
+        return found, order
+    return cheapest_solution(problems(), multipliers=False)
 
 
 def gap(m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int]) -> int:

@@ -16,6 +16,7 @@ from dataclasses import replace
 
 from lagrangian.dynamics.accelerations import condensed
 from lagrangian.dynamics.constrained import (
+    Correction,
     drive,
     dual,
     gap,
@@ -74,22 +75,23 @@ def projection(model: Model) -> tuple[Program | None, Program | None]:
 
     ``gap`` is the largest |row| before the correction, divided by the row's scale; ``margin`` is as in `multipliers`.
     The first program is None without rows on positions. Both are None if every step of a run satisfies the rows
-    without correction.
+    without correction. They are in one graph, and share the elimination if all rows are on positions.
     """
-    found: list[Program | None] = []
-    for position in (True, False):
-        graph, _, m = _start(model, state=True)
-        step = None if kept_by_steps(m) else (position_correction if position else velocity_correction)(m)
-        if step is None:
-            found.append(None)
-            continue
-        change, solution = step
+    graph, _, m = _start(model, state=True)
+    velocity = None if kept_by_steps(m) else velocity_correction(m)
+    if velocity is None:
+        return None, None
+    rows = position_rows(m)
+    position = position_correction(m, order=velocity[2] if len(rows) == len(m.rows) else None)
+
+    def made(step: Correction, *, position: bool) -> Program:
         rest = zeros(graph, len(m.v) if position else len(m.q))
-        dx = [*change, *rest] if position else [*rest, *change]
-        outputs = {"dx": _vector(dx), **_judged(m, solution, position=position)}
+        dx = [*step[0], *rest] if position else [*rest, *step[0]]
+        outputs = {"dx": _vector(dx), **_judged(m, step[1], position=position)}
         name = "position_projection" if position else "velocity_projection"
-        found.append(_program(model, name, graph, outputs, groups=("x",)))
-    return found[0], found[1]
+        return _program(model, name, graph, outputs, groups=("x",))
+
+    return None if position is None else made(position, position=True), made(velocity, position=False)
 
 
 def correction(model: Model, fixed: Collection[str] = (), *, position: bool = True) -> Program | None:

@@ -108,7 +108,7 @@ def identified(
             None if program is None else fingerprint(program, options, target)
             for program in (projection.position, projection.velocity)
         )
-        text += f" {list(known)} {projection.corrects}"
+        text += f" {list(known)} {projection.corrects} {projection.joint}"
     return text
 
 

@@ -86,8 +86,17 @@ class Projection:
             return None
         return replace(self.position, outputs={name: self.position.outputs[name] for name in ("dx", "gap")})
 
-    def landing(self, rates: Program) -> Program:
-        """The step after it: ``dx`` (nx,) and the outputs `SEEN`, about the state before and after that step."""
+    @property
+    def joint(self) -> bool:
+        """Whether one program can have both steps, which then share what they compute: they are in the same graph."""
+        found = self.approach
+        return found is not None and self.velocity is not None and found.graph is self.velocity.graph
+
+    def landing(self, rates: Program, *, joint: bool = False) -> Program:
+        """The step after it: ``dx`` (nx,) and the outputs `SEEN`, about the state before and after that step.
+
+        ``joint``: with the step on positions, too, as ``dq`` (nx,).
+        """
         graph = rates.graph if all(p.graph is rates.graph for p in self.programs) else Graph()
         position, velocity = (None if p is None else _outputs(p, graph) for p in (self.position, self.velocity))
         size = len(rates.inputs["x"])
@@ -102,6 +111,8 @@ class Projection:
         margins = [found["margin"][0] for found in (velocity, position) if found and "margin" in found]
         seen = {"rest": rest, "gap": gap, "left": left, **({"margin": margins[0]} if margins else {})}
         outputs = {"dx": Output(tuple(dx), (size,)), **{name: Output((i,), ()) for name, i in seen.items()}}
+        if joint and position:
+            outputs["dq"] = Output(tuple(position["dx"]), (size,))
         defaults = {k: v for program in self.programs for k, v in program.defaults.items()}
         return Program(f"{rates.name} projection", graph, {**rates.inputs, "t": ("t",)}, outputs, defaults)
 

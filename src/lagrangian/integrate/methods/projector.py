@@ -51,11 +51,13 @@ class Projector:
     ) -> None:
         self.p, self.f, self.lanes, self.corrects = p, p.f, lanes, projection.corrects
         self.end, self.lost = ends
-        approach, landing = projection.approach, projection.landing(rates)
+        # in WebAssembly both steps are one function: a page is small, and its functions are slow to compile
+        self.joint = projection.joint and p.f.module.target.imports
+        approach, landing = None if self.joint else projection.approach, projection.landing(rates, joint=self.joint)
         self.approach = None if approach is None else self._tapes(approach, "approach", own)
         self.landing = self._tapes(landing, "landing", own)
         self.tells = "margin" in landing.outputs
-        self.first, self.second = p.reserve(p.size + 1), p.reserve(p.size + len(SEEN))
+        self.first, self.second = p.reserve(p.size + 1), p.reserve(self.landing.count)
         self.moved = p.block()
         self.gap, self.size, self.shrunk, self.rounds = (p.reserve(1) for _ in range(4))
         self.worst = p.reserve(len(DRIFT))
@@ -92,25 +94,53 @@ class Projector:
         p, f = self.p, self.f
         zero = Value(f, f.constant(0.0))
         p.map(lambda old: zero, self.moved, into=(self.moved,))
-        if self.approach is None:
+        if self.joint:
+            self._jointly(t, u, x, flag, lost, call)
+        elif self.approach is not None:
+            self._approach(self.approach, t, u, x, flag, lost, call)
+        else:
             self._land(t, u, x, call)
             p.store(self._seen("rest"), self.gap)
-        else:
-            p.store(zero, self.gap)
-            p.store(zero, self.rounds)
-            p.store(float("inf"), self.second, p.size + SEEN.index("rest"))
-            with p.forever() as leave:
-                rounds = p.load(self.rounds)
-                again = f.logic("and", flag, f.compare("ogt", self._seen("rest"), CLOSED))
-                again = f.logic("and", again, f.compare("ole", rounds, float(MORE_STEPS)))
-                leave(f.put(f"xor i1 {p.any(again)}, true"))
-                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=call)
-                p.store(f.select(f.compare("oeq", rounds, 0.0), p.load(self.first, p.size), p.load(self.gap)), self.gap)
-                p.store(rounds + 1.0, self.rounds)
-                self._add(self.first, x, again, lost)
-                self._land(t, u, x, call)
         if self.corrects:
             self._add(self.second, x, flag, lost)
+
+    def _approach(
+        self, approach: PrintedProgram, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None, call: bool
+    ) -> None:
+        """Print the steps on positions until they are closed, each with the step on velocities from there."""
+        p, f = self.p, self.f
+        p.store(0.0, self.rounds)
+        p.store(0.0, self.gap)
+        p.store(float("inf"), self.second, p.size + SEEN.index("rest"))
+        with p.forever() as leave:
+            rounds = p.load(self.rounds)
+            again = self._again(flag, f.compare("ogt", self._seen("rest"), CLOSED), rounds)
+            leave(f.put(f"xor i1 {p.any(again)}, true"))
+            approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=call)
+            p.store(f.select(f.compare("oeq", rounds, 0.0), p.load(self.first, p.size), p.load(self.gap)), self.gap)
+            self._add(self.first, x, again, lost)
+            self._land(t, u, x, call)
+
+    def _jointly(self, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None, call: bool) -> None:
+        """Print the same where one program has both steps: one on positions at least, then until they are closed."""
+        p, f = self.p, self.f
+        p.store(0.0, self.rounds)
+        p.store(0.0, self.gap)
+        with p.forever() as leave:
+            self._land(t, u, x, call)
+            rounds = p.load(self.rounds)
+            first = f.compare("oeq", rounds, 0.0)
+            p.store(f.select(first, self._seen("rest"), p.load(self.gap)), self.gap)
+            again = self._again(flag, f.logic("or", first, f.compare("ogt", self._seen("rest"), CLOSED)), rounds)
+            leave(f.put(f"xor i1 {p.any(again)}, true"))
+            self._add(self.second + self.landing.count - p.size, x, again, lost)
+
+    def _again(self, flag: str, unclosed: str, rounds: Value) -> str:
+        """In which lanes another step on positions is made, after so many."""
+        f = self.f
+        again = f.logic("and", flag, unclosed)
+        self.p.store(rounds + 1.0, self.rounds)
+        return f.logic("and", again, f.compare("ole", rounds, float(MORE_STEPS)))
 
     def _land(self, t: Value, u: Vec, x: Vec, call: bool) -> None:
         self.landing.evaluate(self.landing_shared, {"x": x, "u": u}, t, self.second, call=call)
