@@ -11,7 +11,7 @@ from scipy.special import ellipj
 import built_in
 import lagrangian as lg
 from constrained_systems import PEAUCELLIER, peaucellier
-from lagrangian.integrate import RunStatus
+from lagrangian.integrate import RunStatus, scipy_methods
 from lagrangian.integrate.scipy_history import rescale
 from lagrangian.simulate import spared
 from redundant_systems import INERTIA, START, WEIGHT, crank_angle, plate_on_cranks
@@ -93,7 +93,7 @@ def test_multistep_methods_say_why_they_are_slow_or_stop_where_a_linkage_can_bra
 
 
 @pytest.mark.slow
-def test_a_linkage_steps_over_a_position_where_it_can_branch_or_the_run_names_what_does():
+def test_a_linkage_steps_over_a_position_where_it_can_branch_or_the_run_names_what_does(monkeypatch):
     """At 0.427 s the arms lie on each other; on the same branch the point stays on Peaucellier's line x = 1.25."""
     system = peaucellier()
     for options, within in (({"method": "taylor"}, 1e-6), ({"method": "rk4", "step": 1e-3}, 1e-6)):
@@ -101,6 +101,13 @@ def test_a_linkage_steps_over_a_position_where_it_can_branch_or_the_run_names_wh
         assert run.success, run.message
         assert np.abs(run["x"] - 1.25).max() < 1e-12
         assert run["beta1"][-1] < run["beta2"][-1] and float(run.audit) < within
+    monkeypatch.setattr(scipy_methods, "PATIENCE", 4000)
+    for method in ("BDF", "LSODA"):  # noise stops the one at a margin of 0.001; the other goes on in ever shorter steps
+        stopped = system.simulate(1.0, initial=PEAUCELLIER, method=method)
+        assert not stopped.success and stopped.t[-1] > 0.42 and stopped.steps < 10_000
+        assert "E504" in stopped.message and "come to depend on each other there" in stopped.message
+    late = system.simulate(1.0, initial=PEAUCELLIER, method="LSODA", max_steps=2000)
+    assert "E505" in late.message and "method='dop853'" in late.message
     stopped = system.simulate(1.0, initial=PEAUCELLIER, rtol=1e-6)
     assert stopped.success or "come to depend on each other there" in stopped.message
     assert stopped.success or "method='taylor' or method='rk4' with a step" in stopped.message

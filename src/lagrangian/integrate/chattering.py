@@ -68,6 +68,15 @@ class Pace:
     time: float
     tried: int = 0
 
+    def hopeless(self, time: float, tried: int, end: float, most: int, least: int = LEAST) -> bool:
+        """Whether, at the pace since the last check, the remaining steps do not reach the end; this becomes the last
+        check if at least ``least`` steps have been tried since."""
+        steps = tried - self.tried
+        if steps < least:
+            return False
+        gained, self.time, self.tried = time - self.time, time, tried
+        return gained * (most - tried) < (end - time) * steps
+
 
 class Sticking:
     """Decides whether a run of ``rates`` sticks where its right-hand side jumps; false if it nowhere jumps."""
@@ -80,15 +89,6 @@ class Sticking:
 
     def __bool__(self) -> bool:
         return bool(self.pairs)
-
-    def hopeless(self, pace: Pace, time: float, tried: int, end: float, most: int) -> bool:
-        """Whether, at the pace since the last check, the remaining steps do not reach the end; this becomes the last
-        check."""
-        steps = tried - pace.tried
-        if steps < LEAST:
-            return False
-        gained, pace.time, pace.tried = time - pace.time, time, tried
-        return gained * (most - tried) < (end - time) * steps
 
     def at(self, x: Array, u: Array, p: Array, t: float, reach: float, step: float = 0.0) -> bool:
         """Whether a state (nx,) sticks to a surface; see `among`."""

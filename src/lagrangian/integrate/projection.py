@@ -117,6 +117,22 @@ class Projection:
         return Program(f"{rates.name} projection", graph, {**rates.inputs, "t": ("t",)}, outputs, defaults)
 
 
+BRANCHING = 1e-3
+"""A run that comes to a margin below this has come to a position where a linkage can branch."""
+
+LATELY = 0.01
+"""The least margin belongs to the end of a run if it is in this last part of it."""
+
+
+def at_branch(margin: float, margin_time: float, t: float, rtol: float = 1.0) -> bool:
+    """Whether the least ``margin`` of a run up to ``t`` is small, and was reached lately.
+
+    At the margin δ², rounding ε is a noise of ε/δ³ in the accelerations; small is also where that exceeds ``rtol``.
+    """
+    small = max(BRANCHING, (float(np.finfo(float).eps) / rtol) ** (2 / 3))
+    return margin < small and t - margin_time <= LATELY * t
+
+
 SEEN = ("rest", "gap", "left", "margin")
 """Outputs of `Projection.landing` beside ``dx``: the residuals of positions, those of velocities, those of velocities
 after the step, and the margin if there is one."""

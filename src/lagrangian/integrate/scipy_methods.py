@@ -36,6 +36,9 @@ IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
 LEAST_STEP = 2.0**-50
 """The smallest step that is tried, relative to t."""
 
+PATIENCE = 100_000
+"""The number of steps after which a run is given up that makes no progress where a linkage can branch."""
+
 MAX_NOT_FINITE = 1000
 """After this many consecutive evaluations without a finite result, a solver does not try a smaller step."""
 
@@ -193,7 +196,7 @@ class _March:
         self.status, self.reason, self.steps, self.rejected = RunStatus.REACHED, "", 0, 0
         self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
         self.hits: list[Hit] = []
-        self.pace = Pace(self.t)
+        self.pace, self.pace_at_branch = Pace(self.t), Pace(self.t)
         self.sticking: Sticking | None = None
 
     def over(self, leg: Interval) -> bool:
@@ -213,7 +216,7 @@ class _March:
             shorter = None
             jumped = False
             while solver.status == "running" and not jumped:
-                if not self._within_bounds() or self.sticks(leg):
+                if not self._within_bounds() or self.sticks(leg) or self._held_at_branch():
                     return False
                 # one step of SciPy's solver
                 history = None if self.ground is None else History.of(solver)
@@ -269,14 +272,21 @@ class _March:
             return False
         self.sticking = self.sticking or Sticking(self.f.rhs.program)
         start, end = float(self.times[0]), float(self.times[-1])
-        if not self.sticking or not (
-            last or self.sticking.hopeless(self.pace, self.t, self.steps, end, self.bounds.max_steps)
-        ):
+        if not self.sticking or not (last or self.pace.hopeless(self.t, self.steps, end, self.bounds.max_steps)):
             return False
         u = leg.u(self.t, self.x)
         if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)):
             self.status, self.reason = RunStatus.CHATTERS, ""
         return self.status == RunStatus.CHATTERS
+
+    def _held_at_branch(self) -> bool:
+        """Whether the run makes no progress where rows come to depend on each other: noise makes its steps short."""
+        if self.ground is None or not self.ground.at_branch(self.t):
+            return False
+        end, tried = float(self.times[-1]), self.steps + self.rejected
+        if self.pace_at_branch.hopeless(self.t, tried, end, self.bounds.max_steps, PATIENCE):
+            self.status = RunStatus.UNDERFLOW
+        return self.status == RunStatus.UNDERFLOW
 
     def _failed(self, words: str | None) -> None:
         broken = self.f.trouble > 0

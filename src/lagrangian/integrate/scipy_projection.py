@@ -36,6 +36,7 @@ from lagrangian.integrate.projection import (
     START,
     Drift,
     Projection,
+    at_branch,
 )
 from lagrangian.integrate.scipy_weights import Weights
 
@@ -66,6 +67,10 @@ class Projected:
     def drift(self) -> Drift:
         """The drift so far."""
         return Drift.of_rows(self.worst[np.newaxis])
+
+    def at_branch(self, t: float) -> bool:
+        """Whether, shortly before t, the run has come near a position where rows depend on each other."""
+        return at_branch(self.worst[MARGIN], self.worst[MARGIN_TIME], t)
 
     def state(self, t: float, x: Array, u: Control) -> tuple[Array, dict[str, float]]:
         """Return a projected state and the residuals; NaN if it cannot be projected."""

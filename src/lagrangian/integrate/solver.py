@@ -303,7 +303,7 @@ class _Task:
 
     def _look(self, space: Array, words: NDArray[np.int64], paces: dict[int, Pace]) -> None:
         """End the runs in the work space that stick and make no progress."""
-        lanes, at, sticking = self.machine.variant.lanes, self.machine.places, self.solver.sticking
+        lanes, at = self.machine.variant.lanes, self.machine.places
         end, most = float(self.times[-1]), int(self.table["max_steps"])
         for lane in range(lanes):
             state, code, run, t, steps, rejected, x = (at[name] * lanes + lane for name in memory_layout.PLACES)
@@ -311,7 +311,7 @@ class _Task:
                 continue
             here = int(words[run])
             pace = paces.setdefault(here, Pace(float(self.times[0])))
-            if not sticking.hopeless(pace, float(space[t]), int(words[steps] + words[rejected]), end, most):
+            if not pace.hopeless(float(space[t]), int(words[steps] + words[rejected]), end, most):
                 continue
             if self._sticks(here, space[x : x + lanes * self.final.shape[1] : lanes], float(space[t])):
                 words[state], words[code] = memory_layout.ENDED, RunStatus.CHATTERS

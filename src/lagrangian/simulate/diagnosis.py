@@ -66,6 +66,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             if branch := drift.branches(task, outcome):
                 return f"[E504] {branch}", _stepping_over(task)
             return f"[E504] {said}", _gentler(task, outcome)
+        case RunStatus.TOO_MANY | RunStatus.LATE if branch := drift.branches(task, outcome):
+            return f"[E505] gave up after {outcome.steps} steps: {branch}", _stepping_over(task)
         case RunStatus.TOO_MANY:
             return (
                 f"[E505] gave up after {task.bounds.max_steps} steps",

@@ -15,7 +15,7 @@ from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Program, evaluate
 from lagrangian.integrate import METHODS, Drift, RunStatus
 from lagrangian.integrate.method_names import MULTISTEP
-from lagrangian.integrate.projection import BREAKS
+from lagrangian.integrate.projection import BRANCHING, BREAKS, at_branch
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
@@ -32,14 +32,11 @@ LARGEST = 1e-6
 CLOSE = 1e-6
 """Below this margin, a notice says that the run came close to a position where constraints depend on each other."""
 
-NEAR_THE_END = 0.01
-"""The least margin belongs to the end of a run if it is in this last part of it."""
-
 DEPENDENT = 1e-9
 """If the margin stays below this, a row depends on others throughout."""
 
-BRANCHING = 1e-3
-"""A run that ends where the margin has become less than this has come to a position where a linkage can branch."""
+FALLEN = 0.1
+"""A margin that is not tiny has become small if it is below this part of that at the start."""
 
 WHERE = "constraints"
 """The subject of notices about a run's constraints."""
@@ -166,9 +163,10 @@ def branches(task: Task, outcome: Outcome) -> str:
     if outcome.drift is None:
         return ""
     drift = RunDrift.of_run(outcome.drift)
-    if not drift.margin < BRANCHING or outcome.reached - drift.margin_time > NEAR_THE_END * outcome.reached:
+    if not at_branch(drift.margin, drift.margin_time, outcome.reached, task.rtol):
         return ""
-    if drift.margin < DEPENDENT and (not len(outcome.times) or float(_margins(task, outcome, 0).min()) < BRANCHING):
+    start = float(_margins(task, outcome, 0).min()) if len(outcome.times) else 0.0
+    if (start < BRANCHING and drift.margin < DEPENDENT) or drift.margin > max(BRANCHING, FALLEN * start):
         return ""  # not there alone
     return (
         f"the constraints come to depend on each other there (margin {drift.margin:.1g}): the system can move in more "
