@@ -1,7 +1,10 @@
 """Energies, forces and whole hand derivations, line by line; and answers that are none."""
 
+from functools import cache
+
 import pytest
 
+import lagrangian as lg
 from built_in import derivation as derived
 from effort import at_most
 from lagrangian.check import Status
@@ -102,3 +105,47 @@ def test_odd_answers_are_wrong_with_bounded_effort(answer: str) -> None:
     known = derived("pendulum")
     with at_most(CALLS):
         assert not known.check(answer).right
+
+
+@cache
+def seat() -> lg.Derivation:
+    """A seat on a spring, a damper and an actuator on a car that heaves z and pitches p."""
+    s = lg.System("seat on a car")
+    z, p, w = s.coordinates("z p w")
+    M, J, m, k, b, e = s.parameters("M J m k b e")
+    s.rigid_body(M, J, at=s.origin + (0, z), frame=s.frame(p, name="car"), name="car")
+    s.particle(m, at=s.origin + (e, w), name="driver")
+    s.spring(k, deflection=w - z - e * p, name="spring")
+    s.damper(b, deflection=w - z - e * p, name="damper")
+    s.force(s.inputs("u"), deflection=w - z - e * p, name="actuator")
+    return s.derive()
+
+
+ENERGIES = "T = M*z'^2/2 + J*p'^2/2 + m*w'^2/2\nV = k*(w - z - e*p)^2/2\nD = b*(w' - z' - e*p')^2/2\n"
+FORCES = "Xi_z = -u\nXi_p = -e*u\nXi_w = u\n"
+SEAT = (
+    "M*z'' - b*(w' - z' - e*p') - k*(w - z - e*p) = -u\n"
+    "J*p'' - e*b*(w' - z' - e*p') - e*k*(w - z - e*p) = -e*u\n"
+    "m*w'' + b*(w' - z' - e*p') + k*(w - z - e*p) = u"
+)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right", "said"),
+    [
+        (
+            "- e*p",
+            "+ e*p",
+            "deflection of spring 'spring' and damper 'damper' is taken as e*p + w - z",
+        ),  # the deflection in V and in D
+        ("Xi_z = -u\nXi_p = -e*u", "Xi_z = 0\nXi_p = 0", "to the equations of z and p is missing"),
+    ],
+)
+def test_equations_follow_from_wrong_energies_beside_a_dissipation_function(wrong: str, right: str, said: str) -> None:
+    """Ξ is written without the damper, which D holds; only the lines above the equations need a correction."""
+    force = "Xi" in right
+    rows = SEAT.replace("= -u", "= 0").replace("= -e*u", "= 0") if force else SEAT.replace("- e*", "+ e*")
+    verdict = seat().check((ENERGIES + FORCES).replace(wrong, right) + rows)
+    assert all(f.follows or f.status.right for f in verdict.findings if f.line.kind == "equation")
+    said_first, *more = [str(m.what) for m in verdict.mistakes]
+    assert said in said_first and len(more) == 0, (said_first, more)

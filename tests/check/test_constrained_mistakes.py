@@ -222,3 +222,9 @@ def test_what_nothing_explains_is_told_by_the_case_in_which_it_holds(
     assert bob.check(ON_CIRCLE + "theta'' = -g/l sin theta\n" + FORCE).right
     (mistake,) = bob.check(ON_CIRCLE + answer).mistakes
     assert mistake.name == "special_case" and said in str(mistake.what), str(mistake.what)
+
+
+def test_slopes_by_an_angle_of_the_answer_are_not_judged(bob: lg.Derivation) -> None:
+    slopes = "T = m l^2 theta'^2/2\ndL/dtheta' = m l^2 theta'\n"
+    assert bob.check(ON_CIRCLE + slopes + "theta'' = -g/l sin theta\n" + FORCE).right
+    assert not bob.check(ON_CIRCLE + slopes + "theta'' = g/l sin theta\n" + FORCE).right

@@ -12,9 +12,10 @@ from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.changes.pool import Pool, Possible
 from lagrangian.check.own_terms import own_term
 from lagrangian.check.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
-from lagrangian.check.stated import dissipation, index_of
+from lagrangian.check.stated import dissipation, index_of, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+from lagrangian.model import Element, Force, Torque
 
 ENERGIES = ("T", "V", "L", "Xi")
 MOST_TOLD = 24
@@ -25,21 +26,28 @@ UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
 
-def of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mistake]]:
-    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own."""
+def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tuple[list[Explanation], list[Mistake]]:
+    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own.
+
+    ``lines`` are all lines of the answer.
+    """
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
         rest = line.expr - dissipation(truth)
         values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
         seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
         found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+        if seen and not (found and found[0].cost <= EXOTIC):
+            of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
+            found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
     if right is None:
         assert i is not None
-        right = truth.Xi[i]
+        undamped = without_dampers(truth, line, i, lines)
+        right = truth.Xi[i] if undamped is None else undamped
     values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
     if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
         return [], []
@@ -101,14 +109,25 @@ def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[An
     return [[*kept.values()] for kept in chosen] if all(chosen) else groups
 
 
-def contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
-    """The possible mistakes that would be visible in a line that is right, by their identity."""
+def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> set[int]:
+    """The possible mistakes that would be visible in a line that is right, by their identity.
+
+    A Ξ without the dampers, which other ``lines`` hold, says nothing of these and of the springs beside them.
+    """
     found: set[int] = set()
+    driven = {id(p) for p in pool.all if isinstance(_element(p), Force | Torque)}
     for line in right:
         i = index_of(pool.truth, line.name)
         if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
-            found |= _shown(pool, line.kind, i)
+            shown = _shown(pool, line.kind, i)
+            undamped = line.kind == "Xi" and without_dampers(pool.truth, line, i, lines) is not None
+            found |= shown & driven if undamped else shown
     return found
+
+
+def _element(possible: Possible) -> Element | None:
+    """The element that a possible mistake concerns."""
+    return possible.change.site.element if possible.change is not None else possible.wrong.variant.element
 
 
 def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:

@@ -75,12 +75,12 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     pool = pool_of(truth)
-    against = contradicted(pool, [f.line for f in findings if f.status.right])
+    against = contradicted(pool, [f.line for f in findings if f.status.right], lines)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     for line in wrong:
         if line.kind != "equation":
-            found, more = of_line(pool, line)
+            found, more = of_line(pool, line, lines)
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
@@ -246,7 +246,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     def key(t: Told) -> tuple[float, ...]:
         return pool.key(t.mistake, float(t.times))
 
-    held = [{key(e.told[0]) for e in g if len(e.told) == 1} for g in groups]
+    held = [{key(t) for e in g for t in e.told} for g in groups]
 
     def reach(e: Explanation) -> float:
         """The cost of an explanation, less what it spares in the other groups."""

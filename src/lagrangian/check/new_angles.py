@@ -77,9 +77,18 @@ def _readings(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[tuple
                     continue
                 value = sense * (_angle(way.new, (x, along), (y, up)) - quarter * sp.pi / 2)
                 table: dict[Any, sp.Expr] = {new[0]: value}
-                put = tuple(replace(a, expr=cast("sp.Expr", a.expr.xreplace(table).doit())) for a in lines)
+                put = tuple(_put(a, table) for a in lines)
                 (p, a), (q, b) = there
                 yield put, text("Read with ", p, " = ", a, ", ", q, " = ", b, ".")
+
+
+def _put(line: AnsweredLine, table: dict[Any, sp.Expr]) -> AnsweredLine:
+    """A line with the angle written out; a slope by the angle or by its rate, of which the system knows nothing, is a
+    statement."""
+    by = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
+    if by:
+        return replace(line, kind="statement")
+    return replace(line, expr=cast("sp.Expr", line.expr.xreplace(table).doit()))
 
 
 def _agrees(line: AnsweredLine, there: dict[sp.Expr, sp.Expr], new: sp.Expr) -> bool:

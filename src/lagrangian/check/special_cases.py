@@ -77,7 +77,7 @@ def _places(answer: AnswerOnRows, zero: Mapping[Any, float]) -> Iterator[AnswerA
     """The answer at random states of a special case; nothing where the system has no motion there."""
     for here in answer.states(STATES, given=False):
         found = answer.changed(here, zero)
-        if found is not None:
+        if found is not None and all(np.isfinite(x).all() for x in (found.value, found.by_multiplier, found.size)):
             yield found
 
 

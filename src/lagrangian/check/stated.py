@@ -23,18 +23,19 @@ from lagrangian.records import dataclass
 
 @dataclass(frozen=True)
 class StatedQuantity:
-    """The quantities that an answer states: its own T*, V, L, and its own Ξ by coordinate; None for those not
+    """The quantities that an answer states: its own T*, V, L, D, and its own Ξ by coordinate; None for those not
     stated."""
 
     T: sp.Expr | None = None
     V: sp.Expr | None = None
     L: sp.Expr | None = None
+    D: sp.Expr | None = None
     Xi: tuple[sp.Expr | None, ...] = ()
 
     @property
     def stated(self) -> bool:
-        """Whether it states an energy or a force."""
-        return any(x is not None for x in (self.T, self.V, self.L, *self.Xi))
+        """Whether it states an energy, Rayleigh's function or a force."""
+        return any(x is not None for x in (self.T, self.V, self.L, self.D, *self.Xi))
 
     def lagrangian(self, truth: Reference) -> sp.Expr:
         """The answer's Lagrangian: as stated, or its T* − V with the right T* or V for one that is not stated."""
@@ -42,21 +43,31 @@ class StatedQuantity:
             return self.L
         return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
 
-    def rows(self, truth: Reference) -> Array:
-        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ − Aᵀλ, at every state."""
-        Xi = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
+    def rows(self, truth: Reference) -> list[Array]:
+        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ − Aᵀλ, at every state.
+
+        Twice: with its Ξ as the whole, and with its Ξ without the dampers, which D adds.
+        """
         forces = [m.symbol for m in truth.derivation.multipliers.values()]
         of_constraints = [sp.Add(*[x * row.diff(x) for x in forces]) for row in truth.rows]
-        efforts = [x - y for x, y in zip(Xi, of_constraints, strict=True)]
-        return left_values(truth, self.lagrangian(truth)) - CompiledExpressions(efforts).at(truth.states)
+        whole = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
+        D = self.D if self.D is not None else dissipation(truth)
+        driven = [driving(truth, i) if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
+        damped = [x - D.diff(c.rate) for x, c in zip(driven, truth.model.coordinates, strict=True)]
+        left = left_values(truth, self.lagrangian(truth))
+        found: list[Array] = []
+        for Xi in (whole, damped):
+            efforts = [x - y for x, y in zip(Xi, of_constraints, strict=True)]
+            found.append(left - CompiledExpressions(efforts).at(truth.states))
+        return found
 
 
 def given(truth: Reference, lines: Sequence[AnsweredLine]) -> StatedQuantity:
     """The quantities that the lines state; if one is given twice, the last counts."""
-    energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L")}
+    energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L", "D")}
     forces = {line.name: line.expr for line in lines if line.kind == "Xi"}
     Xi = tuple(forces.get(c.name) for c in truth.model.coordinates)
-    return StatedQuantity(energies.get("T"), energies.get("V"), energies.get("L"), Xi)
+    return StatedQuantity(*(energies.get(kind) for kind in ("T", "V", "L", "D")), Xi)
 
 
 def left_values(truth: Reference, L: sp.Expr) -> Array:
@@ -98,7 +109,9 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
         left = on.put_in(rest)
         if zero_everywhere(truth, left) or harmless(truth, line, left) is not None:
             return Finding(line, Status.EQUIVALENT, text("with the constraint put in"), coordinate)
-    if line.kind == "Xi" and i is not None and _damped_elsewhere(truth, line, i, lines):
+    undamped = without_dampers(truth, line, i, lines) if line.kind == "Xi" else None
+    right = right if undamped is None else undamped
+    if undamped is not None and zero_everywhere(truth, line.expr - right):
         note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     follows = _follows(truth, line, i, given(truth, lines[:k]))
@@ -112,13 +125,21 @@ def _on_constraints(truth: Reference) -> OnConstraints | None:
     return held(truth) if truth.derivation.multipliers else None
 
 
-def _damped_elsewhere(truth: Reference, line: AnsweredLine, i: int, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether a line is Ξ_i without the dampers, and D or an equation of the answer holds what they add."""
+def without_dampers(
+    truth: Reference, line: AnsweredLine, i: int | None, lines: Sequence[AnsweredLine]
+) -> sp.Expr | None:
+    """Ξ_i without the dampers where a line may be meant so: it holds none, and D or an equation holds what they add.
+
+    None if it is meant as the whole.
+    """
+    if i is None:
+        return None
     damping = truth.Xi[i] - (drive := driving(truth, i))
-    held = damping.free_symbols | damping.atoms(sp.Derivative)
+    added = damping.free_symbols | damping.atoms(sp.Derivative)
+    own = damping.free_symbols - drive.free_symbols - {time}
     others = [x.expr for x in lines if x.kind in ("D", "equation")]
-    said = any(held <= x.free_symbols | x.atoms(sp.Derivative) for x in others)
-    return said and zero_everywhere(truth, line.expr - drive)
+    said = any(added <= x.free_symbols | x.atoms(sp.Derivative) for x in others)
+    return drive if said and not own & line.expr.free_symbols else None
 
 
 def index_of(truth: Reference, name: str | None) -> int | None:
@@ -217,12 +238,12 @@ def equations_follow(truth: Reference, exprs: Sequence[sp.Expr], above: StatedQu
     """Which equations follow from the answer's own energies and forces."""
     if not above.stated or not exprs:
         return [False] * len(exprs)
-    W = above.rows(truth)
+    rows = [W for W in above.rows(truth) if np.isfinite(W).all()]
     P = CompiledExpressions(exprs).at(truth.states)
-    size = truth.states.size // 2
-    out: list[bool] = []
-    for p in P:
-        finite = bool(np.isfinite(p).all() and np.isfinite(W).all())
-        parts = (slice(0, size), slice(size, 2 * size))
-        out.append(finite and all(spanned(p[None, s], W[:, s]) for s in parts))
-    return out
+    half = truth.states.size // 2
+    parts = (slice(0, half), slice(half, 2 * half))
+    finite = np.isfinite(P).all(axis=1)
+    return [
+        bool(good) and any(all(spanned(p[None, s], W[:, s]) for s in parts) for W in rows)
+        for p, good in zip(P, finite, strict=True)
+    ]

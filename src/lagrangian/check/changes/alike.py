@@ -11,6 +11,9 @@ from lagrangian.check.changes.change import Site, Words
 from lagrangian.check.changes.ring import Sum, plus
 from lagrangian.model import Element
 
+MOST_SHARES = 5
+"""A force that adds to more equations is not left out of all but one."""
+
 
 def bodies(
     listed: Sequence[Any], kinetic: Mapping[Any, Sum], weights: Mapping[Any, tuple[Element, Sum]]
@@ -58,6 +61,18 @@ def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) ->
             words: Words = (f"what {names} add to the equation of ", coordinate)
             Xi = {i: plus(*[shares[e][i] for e in held])}
             yield Site(words=words, brief=words, step=6, element=held[0], coordinate=i, Xi=Xi, surcharge=0.15)
+
+
+def all_but_one(element: Element, shares: Mapping[int, Sum], q: Sequence[sp.Expr]) -> Iterator[Site]:
+    """What a force adds to all equations but one: its reaction, if both of its ends move with several coordinates."""
+    if not 2 < len(shares) <= MOST_SHARES:
+        return
+    for one in shares:
+        Xi = {i: x for i, x in shares.items() if i != one}
+        listed = [x for i in Xi for x in (q[i], ", ")][:-1]
+        listed[-2] = " and "
+        words: Words = (f"what {element.title} adds to the equations of ", *listed)
+        yield Site(words=words, brief=words, step=6, element=element, Xi=Xi, surcharge=0.1)
 
 
 def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[Any, Sum]) -> Iterator[Site]:

@@ -163,6 +163,7 @@ class Sites:
                 for i, x in shares.items():
                     own: Words = (f"what {element.title} adds to the equation of ", self.of.q[i])
                     yield Site(words=own, brief=own, step=6, element=element, coordinate=i, Xi={i: x}, surcharge=0.05)
+            yield from alike.all_but_one(element, shares, self.of.q)
 
     def _of_body(self, b: Any) -> Iterator[Site]:
         title = b.title
