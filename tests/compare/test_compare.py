@@ -188,7 +188,7 @@ DIFFERENT = {
     "another spring constant": (
         ABSOLUTE,
         _edited(RELATIVE, 'k = "k"', 'k = "3*k"'),
-        (3, "V", None, "spring 'k'", "spring 'spring 1'"),
+        (3, "V", None, "spring 'k'", "spring 1"),
     ),
     "another deflection": (
         ABSOLUTE,
@@ -203,7 +203,7 @@ DIFFERENT = {
     "a damper more": (
         _edited(ABSOLUTE, "[simulate]", '[[damper]]\nb = "3"\ndeflection = "x2 - x1"\n\n[simulate]'),
         RELATIVE,
-        (6, "Xi", "x2r", "damper 'damper 1'", None),
+        (6, "Xi", "x2r", "damper 1", None),
     ),
     "the reaction missing": (
         ABSOLUTE,
