@@ -12,6 +12,7 @@ import lagrangian as lg
 from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
 from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.velocities import complement
 from lagrangian.page.scene import Scene
 
 IN_THE_PLANE = [name for name in names() if name not in SPACE]
@@ -159,3 +160,14 @@ def test_a_wrong_request_is_told(named: dict, code: str) -> None:
     with pytest.raises(lg.Error) as caught:
         built_in.system("double-pendulum").look(**named)
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize(("d", "rank"), [(3, 2), (40, 0), (40, 31), (40, 40), (60, 7)])
+def test_what_is_at_right_angles_to_columns(d: int, rank: int) -> None:
+    """Columns of very different sizes, more than they span: rows as many as are missing, at right angles."""
+    rng = np.random.default_rng(d + rank)
+    columns = rng.normal(size=(d, rank)) @ rng.normal(size=(rank, 50)) * 10.0 ** rng.integers(-3, 3, 50)
+    rows = complement(columns)
+    assert rows.shape == (d - rank, d)
+    np.testing.assert_allclose(rows @ rows.T, np.eye(d - rank), atol=1e-13)
+    np.testing.assert_allclose(rows @ columns / max(1.0, np.abs(columns).max()), 0, atol=1e-12)

@@ -221,16 +221,19 @@ class LoopSearch:
         Parameters are the same for all guesses, (np,), or different for each, (guesses, np).
         """
         q, start = guesses.copy(), guesses[0].copy()
-        lost = ~np.isfinite(self._step(q, p, t, start)).all(axis=-1)  # as where the two ends of a rod coincide
-        q[lost] += NUDGE * np.linspace(0.3, 1.0, q.shape[1])
+        step = self._step(q, p, t, start)
+        lost = ~np.isfinite(step).all(axis=-1)  # as where the two ends of a rod coincide
+        if lost.any():
+            q[lost] += NUDGE * np.linspace(0.3, 1.0, q.shape[1])
+            step[lost] = self._step(q[lost], p if p.ndim == 1 else p[lost], t, start)
         going = np.arange(len(q))
         for _ in range(MAX_STEPS):
             own = p if p.ndim == 1 else p[going]
-            step = np.nan_to_num(self._step(q[going], own, t, start), posinf=0.0, neginf=0.0)
-            q[going], settled = self._damped(q[going], step, own, t)
+            q[going], settled = self._damped(q[going], np.nan_to_num(step, posinf=0.0, neginf=0.0), own, t)
             going = going[~settled]
             if not len(going):
                 break
+            step = self._step(q[going], p if p.ndim == 1 else p[going], t, start)
         return q, self.closed(q, p, t)
 
     def _step(self, q: Array, p: Array, t: float, start: Array) -> Array:
@@ -246,13 +249,15 @@ class LoopSearch:
         """q after a step that does not enlarge the gap, and whether the search ended there."""
         before = np.linalg.norm(self.gaps(q, p, t), axis=-1)
         tiny = np.abs(step).max(axis=-1) <= SETTLED * (1.0 + np.abs(q).max(axis=-1))
-        length = np.ones((len(q), 1))
+
+        def enlarged(q: Array) -> Flags:
+            return (np.linalg.norm(self.gaps(q, p, t), axis=-1) > before) & ~tiny
+
+        length, halvings = np.ones((len(q), 1)), 0
         taken = q + step
-        for _ in range(HALVINGS):
-            worse = (np.linalg.norm(self.gaps(taken, p, t), axis=-1) > before) & ~tiny
-            if not worse.any():
-                break
+        worse = enlarged(taken)
+        while worse.any() and halvings < HALVINGS:
             length[worse] *= 0.5
             taken = q + length * step
-        worse = (np.linalg.norm(self.gaps(taken, p, t), axis=-1) > before) & ~tiny
+            worse, halvings = enlarged(taken), halvings + 1
         return np.where(worse[:, None], q, taken), tiny | worse

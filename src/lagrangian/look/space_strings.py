@@ -30,13 +30,15 @@ BEYOND = 1.25
 def strings_through(motions: Motions, players: list[Player], r: Array) -> list[PulleyString]:
     """The strings of a system in space; ``r`` (points, 3) are the positions [m] of the picture."""
     found: list[PulleyString] = []
-    for one in players:
+    reeled = [x for x in players if motions.holds[x.point].how is HoldKind.TELESCOPE]
+    hanging = [x for x in players if motions.slides(x.point, 0)] if reeled else []
+    for one in reeled:
         hold = motions.holds[one.point]
-        if hold.how is not HoldKind.TELESCOPE or not motions.still(hold.holder):
+        if not motions.still(hold.holder):
             continue
         d, D = motions.local(one.point, hold.holder, None)
         first = StringEnd(one.point, None, np.einsum("sd,sdn->sn", d, D) / np.linalg.norm(d, axis=1)[:, None])
-        for two in players:
+        for two in hanging:
             end = None if two is one else _hanging(motions, two.point, hold.holder, first.slopes)
             if end is not None and float((r[two.point] - r[hold.holder]) @ end.along) > 0:
                 found.append(PulleyString(hold.holder, (first, end)))
@@ -44,9 +46,7 @@ def strings_through(motions: Motions, players: list[Player], r: Array) -> list[P
 
 
 def _hanging(motions: Motions, k: int, hole: int, slopes: Array) -> StringEnd | None:
-    """The end of a string at a body that moves along a line through the hole, if it gains what the other end loses."""
-    if motions.relation(k, hole).how is not HoldKind.SLIDE:
-        return None
+    """The end of a string at a sliding body, if its line goes through the hole and gains what the other end loses."""
     d, J = motions.local(k, hole, None)
     e = direction(J[0])
     if np.abs(np.cross(d, e)).max() > SAME * motions.size:

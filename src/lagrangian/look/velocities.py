@@ -85,8 +85,31 @@ def cross_of(lever: Array) -> Array:
     return np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
 
 
+FEW = 24
+"""Up to this dimension a singular value decomposition is quickest; LAPACK's uses several threads soon beyond."""
+
+
 def complement(columns: Array, least: float = 1e-3) -> Array:
     """Orthonormal rows (d − rank, d) at right angles to all columns; those far below ``least`` are zero."""
+    if len(columns) > FEW:
+        found = _orthonormal(columns, NONE * max(float(np.abs(columns).max(initial=0.0)), least))
+        return _orthonormal(np.eye(len(columns)) - found.T @ found, 0.0, len(columns) - len(found))
     left, sizes, _ = np.linalg.svd(columns, full_matrices=columns.shape[1] < len(columns))
     rank = int((sizes > NONE * max(float(sizes.max(initial=0.0)), least)).sum())
     return left[:, rank:].T
+
+
+def _orthonormal(columns: Array, least: float, most: int | None = None) -> Array:
+    """Orthonormal rows that span the columns: the longest of what is left next, until it is not above ``least``."""
+    rest, most = columns.copy(), min(columns.shape) if most is None else most
+    found = np.zeros((most, len(columns)))
+    for k in range(most):
+        sizes = np.einsum("dn,dn->n", rest, rest)
+        longest = int(np.argmax(sizes))
+        if sizes[longest] <= least**2:
+            return found[:k]
+        e = rest[:, longest] / np.sqrt(sizes[longest])
+        e -= (found[:k] @ e) @ found[:k]  # once more, because rounding grows where little is left
+        found[k] = e / np.linalg.norm(e)
+        rest -= np.outer(found[k], found[k] @ rest)
+    return found
