@@ -220,13 +220,12 @@ def _moving(scene: Scene) -> dict[str, Any]:
 
 
 def _rounded(value: Any) -> Any:
-    match value:
-        case float():
-            return round(value, 2 if abs(value) > 3 else 4)
-        case dict():
-            return {key: _rounded(x) for key, x in value.items()}
-        case list() | tuple():
-            return [_rounded(x) for x in value]
+    if isinstance(value, float):
+        return round(value, 2 if abs(value) > 3 else 4)
+    if isinstance(value, dict):
+        return {key: _rounded(x) for key, x in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_rounded(x) for x in value]
     return value
 
 

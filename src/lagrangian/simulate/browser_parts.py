@@ -14,7 +14,7 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.codegen.javascript import names_function
 from lagrangian.errors import RunError
-from lagrangian.graph import Program
+from lagrangian.graph import Program, count_program
 from lagrangian.integrate import Events, Projection
 from lagrangian.integrate.chattering import ASIDE, LEAST, NEAR, RESTS, Sticking
 from lagrangian.integrate.portable import PortableIntegrator, portable
@@ -32,6 +32,9 @@ Quantities: TypeAlias = Program | Mapping[str, Any]
 
 ORDER = ("x", "p", "u", "t")
 """The order in which functions in JavaScript take the groups."""
+
+SHORTEST = 8
+"""An operation in JavaScript has at least so many characters."""
 
 MOST = 100_000
 """The largest number of steps to which pulses in time may force a run."""
@@ -191,14 +194,19 @@ class BrowserParts:
                     f"'{name}' cannot name a function", fix="use letters, digits and underscores", code="E702"
                 )
             checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
+        needed = {**self._around, **checked}
+        spared = {name: program for name, program in unchecked.items() if name not in needed}
+        if SHORTEST * sum(count_program(program).operations for program in spared.values()) > fallback:
+            spared = {}
         texts = {
             name: machine.to_javascript(_ordered(program), name=name, checked=name in checked)
-            for name, program in (*unchecked.items(), *checked.items())
+            for name, program in {**unchecked, **checked}.items()
+            if name in needed or name in spared
         }
         whole = _object(texts)
         if len(whole) <= fallback:
             return whole
-        return _object({name: text for name, text in texts.items() if name in self._around or name in checked})
+        return _object({name: text for name, text in texts.items() if name in needed})
 
 
 def _object(texts: Mapping[str, str]) -> str:

@@ -113,9 +113,12 @@ class Units:
 
 def _angles(model: Model) -> set[Any]:
     """Coordinates that are angles: those in the angle of a frame or inside a sine or cosine."""
-    exprs: list[Any] = [x for body in model.bodies for x in model.position(body.at)]
-    exprs += [x for point in model.points for x in model.position(point)]
+    # a position is a sum of offsets, turned by the frames in which they are given
+    ends = [*model.points, *(body.at for body in model.bodies)]
+    points = {id(point): point for end in ends for point in end.with_parents()}.values()
+    exprs = {x: None for point in points for x in point.offset}
     frames = [f for e in model.elements for _, f in e.frames()] + list(model.frames)
+    frames += [point.frame for point in points if point.frame is not None]
     turned: list[Any] = []
     seen: set[int] = set()
     while frames:
