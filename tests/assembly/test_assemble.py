@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from constrained_systems import four_bar
 from lagrangian.assembly import assemble
-from lagrangian.assembly.assemble import assembler_of, seen_position
+from lagrangian.assembly.assemble import assembler_of, seen_position, seen_velocity
 from lagrangian.errors import RunError
 
 CRANK, COUPLER, ROCKER, BASE = 0.5, 1.2, 0.9, 1.0
@@ -80,7 +81,9 @@ def test_least_motion_is_measured_by_the_mass_matrix() -> None:
     s.constraint(x - y, name="together")
     q, v = s.compile().assemble([1.0, 5.0], [2.0, -2.0])
     assert q == pytest.approx([4.0, 4.0]) and v == pytest.approx([-1.0, -1.0])
-    assert seen_position(s.model, np.array([1.0, 5.0]), np.array([])) == pytest.approx([4.0, 4.0])
+    none = np.array([])
+    assert seen_position(s.model, np.array([1.0, 5.0]), none) == pytest.approx([4.0, 4.0])
+    assert seen_velocity(s.model, q, np.array([2.0, -2.0]), none) == pytest.approx([-1.0, -1.0])
 
 
 def test_a_picture_closes_loops_by_numbers_as_a_run_does_by_its_elimination(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,6 +95,19 @@ def test_a_picture_closes_loops_by_numbers_as_a_run_does_by_its_elimination(monk
         with monkeypatch.context() as held:
             held.setattr(assemble, "assembler_of", None)
             assert seen_position(s.model, q, p, fixed) == pytest.approx(expected, abs=1e-12)
+
+
+@pytest.mark.parametrize(("name", "fixed"), [("four-bar", ()), ("four-bar", ("a",)), ("rolling-disc", ())])
+def test_rates_by_numbers_are_those_of_the_elimination(
+    name: str, fixed: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = four_bar().model if name == "four-bar" else built_in.system(name).model
+    p = np.array([x.value for x in model.parameters], float)
+    q = seen_position(model, np.linspace(0.2, 0.7, len(model.coordinates)), p, fixed)
+    v = np.linspace(-1.0, 1.0, len(model.velocities))
+    expected = assembler_of(model, fixed).velocity(q, v, p)
+    monkeypatch.setattr(assemble.Assembler, "velocity", None)
+    assert seen_velocity(model, q, v, p, fixed) == pytest.approx(expected, abs=1e-12)
 
 
 @pytest.mark.slow

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program, evaluate
-from lagrangian.integrate.closing import Array, Closing, CompiledRows, DenseRows, LoopSearch
+from lagrangian.integrate.closing import KEPT, Array, Closing, CompiledRows, DenseRows, LoopSearch, least_step
 from lagrangian.model import Model
 from lagrangian.model.elements.conditions import Stated
 from lagrangian.model.rows import NamedCondition, named_conditions
@@ -176,7 +176,7 @@ class Assembler:
 
         Rates that satisfy them to the last digit, as those of a system at rest do, need no program that moves them.
         """
-        if self._satisfied(q, v, p, t):
+        if self.satisfied(q, v, p, t):
             return v
         v, kept = self.closing.rates(q, v, p, t)
         wrong = ~kept
@@ -192,7 +192,8 @@ class Assembler:
             )
         return v
 
-    def _satisfied(self, q: Array, v: Array, p: Array, t: float) -> bool:
+    def satisfied(self, q: Array, v: Array, p: Array, t: float) -> bool:
+        """Whether rates satisfy the rows to the last digit."""
         rows = dynamics.residual(self.model)
         groups = {"q": q.tolist(), "v": v.tolist(), "u": [0.0] * len(rows.inputs["u"]), "p": p.tolist(), "t": [t]}
         return not np.any(evaluate(rows, groups)["Av"])
@@ -216,13 +217,36 @@ def seen_position(model: Model, q: Array, p: Array, fixed: Iterable[str] = (), t
     key = tuple(fixed)
     if not any(row.on_positions for e in model.constraints for row in e.conditions(model)):
         return q
-    search = model.recent("seen positions", key, lambda: _dense_search(model, key), REMEMBERED)
-    found, closed = search.run(q[None, :], p, t)
+    found, closed = LoopSearch(DenseRows(_terms(model, key))).run(q[None, :], p, t)
     return found[0] if closed[0] else assembler_of(model, key).position(q, p, t)
 
 
-def _dense_search(model: Model, fixed: tuple[str, ...]) -> LoopSearch:
-    return LoopSearch(DenseRows(dynamics.closing_terms(model, fixed)))
+def seen_velocity(model: Model, q: Array, v: Array, p: Array, fixed: Iterable[str] = (), t: float = 0.0) -> Array:
+    """Return the rates nearest to v that satisfy the rows at q, with dense matrices: no program is compiled for them.
+
+    The rates of coordinates in ``fixed`` stay. Raises `RunError` as `Assembler.velocity`.
+    """
+    key = tuple(fixed)
+    assembler = assembler_of(model, key)
+    if assembler.satisfied(q, v, p, t):
+        return v
+    matrix, terms = assembler.matrix, _terms(model, key)
+    rest = {"q": q.tolist(), "v": [0.0] * len(v), "u": [0.0] * len(model.inputs), "p": p.tolist(), "t": [t]}
+    found = {**evaluate(terms, rest), **evaluate(matrix, rest)}
+    A, a0, M, N = (np.array(found[name], float) for name in ("A", "a0", "M", "N"))
+    if all(np.isfinite(x).all() for x in (A, a0, M, N)):
+        held = [k for k, c in enumerate(model.coordinates) if c.name in key]
+        rows = np.concatenate([A, N[held]])
+        near = v
+        for _ in range(2):  # the second takes the rounding of the first away
+            near = near + least_step(np.append(A @ near + a0, np.zeros(len(held))), rows, M)
+        if (np.abs(A @ near + a0) <= KEPT * (1e-3 + np.abs(A) @ np.abs(near) + np.abs(a0))).all():
+            return near
+    return assembler.velocity(q, v, p, t)
+
+
+def _terms(model: Model, fixed: tuple[str, ...]) -> Program:
+    return model.recent("closing terms", fixed, lambda: dynamics.closing_terms(model, fixed), REMEMBERED)
 
 
 def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:
@@ -244,10 +268,14 @@ def consistent(
 ) -> tuple[Array, Array]:
     """Return q and v that satisfy every constraint, from a guess; coordinates in ``fixed`` and their rates stay.
 
-    Without ``compiled``, the position is found without machine code, which is quicker for one start.
+    Without ``compiled``, they are found without machine code, which is quicker for one start.
     Raises `RunError` if no position closes the loops (E304), or no rates do with the fixed coordinates (E305).
     """
     assembler = assembler_of(model, fixed)
     guess = np.asarray(q, float)
-    at = assembler.position(guess, p, t) if compiled else seen_position(model, guess, p, fixed, t)
-    return at, assembler.velocity(at, np.asarray(v, float), p, t)
+    rates = np.asarray(v, float)
+    if compiled:
+        at = assembler.position(guess, p, t)
+        return at, assembler.velocity(at, rates, p, t)
+    at = seen_position(model, guess, p, fixed, t)
+    return at, seen_velocity(model, at, rates, p, fixed, t)

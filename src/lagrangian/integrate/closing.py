@@ -171,15 +171,19 @@ class DenseRows:
         f, A, M, N = (np.array(terms[name], float) for name in ("f", "A", "M", "N"))
         if not all(np.isfinite(x).all() for x in (f, A, M)):
             return np.full(len(N), np.nan)
-        sizes = np.linalg.norm(A, axis=1)
-        sizes[sizes == 0.0] = 1.0  # nothing moves this row: it is skipped
-        U, s, W = np.linalg.svd(A / sizes[:, None])
-        rank = int((s > SAME_WAY * s[0]).sum())
-        delta = -W[:rank].T @ ((U[:, :rank].T @ (f / sizes)) / s[:rank])
-        Z = W[rank:].T
-        inside = Z.T @ M @ Z
-        delta -= Z @ (np.linalg.pinv(inside, hermitian=True) @ (Z.T @ (M @ delta)))
-        return N @ delta
+        return N @ least_step(f, A, M)
+
+
+def least_step(f: Array, A: Array, M: Array) -> Array:
+    """The least δ (n,), by ½ δᵀ M δ, with A δ = −f (rows,); rows that say the same are taken once."""
+    sizes = np.linalg.norm(A, axis=1)
+    sizes[sizes == 0.0] = 1.0  # nothing moves this row: it is skipped
+    U, s, W = np.linalg.svd(A / sizes[:, None])
+    rank = int((s > SAME_WAY * s[0]).sum())
+    delta = -W[:rank].T @ ((U[:, :rank].T @ (f / sizes)) / s[:rank])
+    Z = W[rank:].T
+    inside = Z.T @ M @ Z
+    return delta - Z @ (np.linalg.pinv(inside, hermitian=True) @ (Z.T @ (M @ delta)))
 
 
 class LoopSearch:

@@ -33,7 +33,7 @@ Quantities: TypeAlias = Program | Mapping[str, Any]
 ORDER = ("x", "p", "u", "t")
 """The order in which functions in JavaScript take the groups."""
 
-SHORTEST = 8
+SHORTEST = 16
 """An operation in JavaScript has at least so many characters."""
 
 MOST = 100_000
