@@ -57,6 +57,11 @@ class Code(StrEnum):
         "what a robot's file says beside its mechanics",
         "A notice: limits, shapes, transmissions and the like are listed, and the motion does not depend on them.",
     )
+    E109 = (
+        "E109",
+        "masses that are too far apart",
+        "A notice: a mass is less than 1e-13 of another one. Numbers with 16 digits do not hold both.",
+    )
     E201 = (
         "E201",
         "no coordinates, or an idle one",
@@ -283,10 +288,10 @@ class Code(StrEnum):
 
 
 CodeText = Literal[
-    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E108", "E201", "E202", "E203", "E210", "E301", "E302",
-    "E303", "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E312", "E401", "E402", "E403", "E404", "E405",
-    "E406", "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502",
-    "E503", "E504", "E505", "E506", "E507", "E508", "E509", "E510", "E511", "E521", "E522", "E523", "E524", "E525",
-    "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
+    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E108", "E109", "E201", "E202", "E203", "E210", "E301",
+    "E302", "E303", "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E312", "E401", "E402", "E403", "E404",
+    "E405", "E406", "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501",
+    "E502", "E503", "E504", "E505", "E506", "E507", "E508", "E509", "E510", "E511", "E521", "E522", "E523", "E524",
+    "E525", "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

@@ -25,6 +25,7 @@ from built_in import system as built_in
 from lagrangian.cli import main
 from lagrangian.errors import MissingExtra, RunError
 from lagrangian.linear.closed_loop import closed_loop
+from lagrangian.linear.modes import spectrum
 from size import sized
 
 
@@ -505,3 +506,33 @@ def test_undamped_spectra_are_those_of_scipys_pencil(n: int, seed: int, floor: i
         assert np.abs(shape).max() == pytest.approx(1)
         residual = K @ shape - m.frequency**2 * (M @ shape)
         assert np.abs(residual).max() <= 1e-7 * max(1.0, np.abs(K).max())
+
+
+@pytest.mark.parametrize("ratio", [1e-4, 1e-14, 1e-30, 1e-149])
+def test_a_slow_mode_keeps_its_digits_beside_a_much_faster_one(ratio: float) -> None:
+    """Two masses in a row behind a wall, exact to the third power of the ratio: ω² = 1 − r and 1/r + 1."""
+    s = lg.System("row")
+    x, y = s.coordinates("x y")
+    s.particle(1, at=s.origin + (x, 0))
+    s.particle(ratio, at=s.origin + (y, 0))
+    s.spring(1, deflection=x)
+    s.spring(1, deflection=y - x)
+    slow, fast = s.linearize().modes
+    assert slow.frequency**2 == pytest.approx(1 - ratio, rel=10 * ratio**2 + 1e-13)
+    assert fast.frequency**2 == pytest.approx(1 / ratio + 1, rel=10 * ratio**2 + 1e-13)
+    assert slow.shape["y"] / slow.shape["x"] == pytest.approx(1 + ratio, rel=10 * ratio**2 + 1e-13)
+
+
+def test_shapes_do_not_take_their_scale_from_rounding() -> None:
+    """A coordinate on which nothing depends, with 1e-18 for its slopes: eigenvectors had lost half of their digits."""
+    A = np.zeros((6, 6))
+    A[:3, 3:] = np.eye(3)
+    A[3:] = [
+        [0, 1.9e-2, 1.2e-18, 2.0e-2, 1.0, -3e-3],
+        [0, 79.3, 3.5e-18, -0.37, 0, 6.6e-2],
+        [0, -1.7e-2, -4.9e-19, -2.1e-2, -1.1, 2.3e-3],
+    ]
+    noise = np.where(np.abs(A) < 1e-12, 2e-19, 1e-15) * (A != 0) * (np.arange(6) > 2)[:, None]
+    found = spectrum(A, None, (noise, 0.0))
+    off = A @ found.vectors - found.vectors * found.poles
+    assert np.abs(off).max() < 1e-13 * np.abs(found.vectors).max() * np.linalg.norm(A)

@@ -38,6 +38,9 @@ DRAWINGS = 5
 NEGATIVE = 1e-9
 """The smallest eigenvalue counts as negative, not as rounding, if it is below this fraction of the largest."""
 
+UNLIKE = 1e-13
+"""A mass that is less than this part of the largest gets a notice."""
+
 SHOWN = 6
 """The largest number of coordinates and entries listed in a message."""
 
@@ -56,10 +59,28 @@ def _found(model: Model) -> tuple[Notice, ...]:
     return (
         *model.remarks,
         *(Notice(d.code, _where(d.body.title, d.body.place), _said(d)) for d in found),
+        *_unlike(model, numbers),
         *_weightless(model),
         *_dependent(model),
         *_put_in(model),
     )
+
+
+def _unlike(model: Model, numbers: ConstantValues) -> Iterator[Notice]:
+    """Whether a mass is so small beside another that the digits of numbers do not hold both."""
+    known = [(mass, body) for body in model.bodies if (mass := numbers.of(body.mass)) is not None and mass > 0]
+    if not known:
+        return
+    large, largest = max(known, key=lambda pair: pair[0])
+    small, smallest = min(known, key=lambda pair: pair[0])
+    if small < UNLIKE * large:
+        yield Notice(
+            Code.E109,
+            _where(smallest.title, smallest.place),
+            f"its mass is {small:.3g} kg beside {large:.3g} kg of {largest.title}. Numbers have 16 digits: derivatives "
+            "by this mass, slow poles and the shapes of modes may lose all of theirs, and verify says where. Leave it "
+            f"out if it does not matter, or give it more than {UNLIKE * large:.1g} kg",
+        )
 
 
 def dependent_rows(model: Model) -> Repeated:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, plain_basis
+from lagrangian.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, graded_eigenvectors, plain_basis
 from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 
@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 
 SYMMETRIC = 1e-10
 """The relative difference up to which K counts as symmetric and D as zero."""
+
+GRADED = 1e-8
+"""Squares of frequencies whose ratio is smaller are computed one by one: errors of the largest would hide others."""
 
 ZERO_SHAPE_TOLERANCE = 1e-9
 """Components of a shape below this fraction of the largest are shown as zero."""
@@ -82,18 +85,29 @@ def spectrum(
     if A.shape[0] == 0:
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
     if second_order is not None and is_conservative(*second_order):
-        return _undamped(second_order[0], second_order[2], noise[1])
-    import scipy.linalg
-
-    balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
-    sizes = np.diag(scaling)
-    spaces = eigenspaces(balanced, float(np.max(noise[0] * sizes / sizes[:, None])))
+        return _undamped(second_order[0], second_order[2], A, noise)
+    even, sizes = balanced(A, noise[0])
+    spaces = eigenspaces(even, float(np.max(noise[0] * sizes / sizes[:, None])))
     poles: NDArray[np.complex128] = np.array([s.pole for s in spaces for _ in range(s.times)], np.complex128)
     errors = np.array([s.error for s in spaces for _ in range(s.times)])
-    vectors = [scaling @ _columns(plain_basis(s.basis), s.times) for s in spaces]
+    vectors = [sizes[:, None] * _columns(plain_basis(s.basis), s.times) for s in spaces]
     real = np.where(np.abs(poles.real) <= errors, 0.0, poles.real)
     imag = np.where(np.abs(poles) <= errors, 0.0, poles.imag)
     return _sorted(np.asarray(real + 1j * imag, np.complex128), errors, np.asarray(np.hstack(vectors), complex))
+
+
+def balanced(A: Array, noise: Array | float) -> tuple[Array, Array]:
+    """Return D⁻¹ A D with rows and columns of like sizes, and the diagonal of D.
+
+    Entries that are rounding errors, as ``noise`` says, do not count: in the column of a coordinate on which nothing
+    depends they would set its scale, and shapes would lose half of their digits.
+    """
+    import scipy.linalg
+
+    known = np.where(np.abs(A) > SLACK * np.asarray(noise), A, 0.0)
+    _, scaling = scipy.linalg.matrix_balance(known, permute=False, separate=False)
+    sizes: Array = np.diag(scaling).astype(float)
+    return A * sizes / sizes[:, None], sizes
 
 
 def _columns(basis: NDArray[Any], count: int) -> NDArray[Any]:
@@ -113,12 +127,27 @@ def is_conservative(M: Array, D: Array, K: Array) -> bool:
     )
 
 
-def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
-    """λ = ±√(−κ) with K φ = κ M φ; values that are zero to within rounding are set to zero."""
+def _undamped(M: Array, K: Array, A: Array, noise: tuple[Array | float, float]) -> Spectrum:
+    """λ = ±√(−κ) with K φ = κ M φ; values that are zero to within rounding are set to zero.
+
+    With frequencies that are far apart, as of a mass of 1e-14 kg beside one of 1 kg, every κ has an error of its own:
+    that of |φᵀ| |K| |φ| for φᵀ M φ = 1.
+    """
     import scipy.linalg
 
-    kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
-    bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise
+    own = np.diag(K) / np.diag(M)
+    if np.min(np.abs(own)) > GRADED * np.max(np.abs(own)):
+        kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
+        bound = np.full(len(kappa), SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise[1])
+    else:
+        L = np.linalg.cholesky((M + M.T) / 2)
+        half = scipy.linalg.solve_triangular(L, (K + K.T) / 2, lower=True)
+        H = scipy.linalg.solve_triangular(L, half.T, lower=True)
+        kappa, turned = graded_eigenvectors((H + H.T) / 2)
+        shapes = scipy.linalg.solve_triangular(L.T, turned)
+        n = len(kappa)
+        errors = SLACK * EPSILON * np.abs(A[n:, :n]) + (noise[0][n:, :n] if isinstance(noise[0], np.ndarray) else 0.0)
+        bound = np.einsum("ik,ij,jk->k", np.abs(M @ shapes), errors, np.abs(shapes))
     kappa = np.where(np.abs(kappa) <= bound, 0.0, kappa)
     unit = np.sqrt(np.diag(M))[:, None]
     for group in _equal(kappa, bound):
@@ -127,14 +156,15 @@ def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
     roots = np.sqrt(-kappa.astype(complex))
     poles = np.concatenate([roots, -roots])
     # λ² = −κ, so the error of λ is that of κ over 2|λ|
-    error = np.where(kappa == 0, 0.0, bound / (2 * np.sqrt(np.maximum(np.abs(kappa), bound or 1.0))))
+    least = np.where(bound > 0, bound, 1.0)
+    error = np.where(kappa == 0, 0.0, bound / (2 * np.sqrt(np.maximum(np.abs(kappa), least))))
     vectors = np.vstack([np.hstack([shapes, shapes]), np.hstack([shapes * roots, -shapes * roots])])
     return _sorted(poles, np.concatenate([error, error]), vectors)
 
 
-def _equal(rising: Array, bound: float) -> list[slice]:
-    """The groups of ascending numbers that are equal to within ``bound``."""
-    room = np.maximum(EQUAL * np.maximum(np.abs(rising[1:]), np.abs(rising[:-1])), 2 * bound)
+def _equal(rising: Array, bound: Array) -> list[slice]:
+    """The groups of ascending numbers that are equal to within their bounds."""
+    room = np.maximum(EQUAL * np.maximum(np.abs(rising[1:]), np.abs(rising[:-1])), bound[1:] + bound[:-1])
     ends = [0, *(np.flatnonzero(np.diff(rising) > room) + 1).tolist(), len(rising)]
     return [slice(a, b) for a, b in pairwise(ends)]
 

@@ -199,8 +199,10 @@ def _products(functions: Changing, place: Neighbourhood) -> float:
     if place.parameters:
         by_p = functions.derivatives(q, v, u, wrt=place.parameters, **place.fixed)
         pulled = functions.pullback(q, v, u, w, wrt=place.parameters, **place.fixed)
-        for name, column in by_p.a_p.items():
-            found.append(relative(w @ column - pulled.p[name], column, place.a))
+        # −wᵀ M⁻¹ ∂r/∂p, where terms as large as M a cancel in r
+        terms = np.abs(w) @ np.abs(d.Minv) @ np.abs(M) @ np.abs(d.a)
+        for (name, column), one in zip(by_p.a_p.items(), np.where(place.p != 0, np.abs(place.p), 1.0), strict=True):
+            found.append(relative((w @ column - pulled.p[name]) * one, column * one, place.a, terms))
     return float(np.max(found))
 
 
