@@ -49,7 +49,7 @@ def _is_known(linear: LinearModel) -> bool:
     """Whether the balanced A is more than its rounding errors, of which poles are made where all terms cancel."""
     if not linear.A.size:
         return True
-    A, sizes = balanced(linear.A, linear.noise[0])
+    A, sizes = balanced(linear.A, 0.0)
     noise = float(np.max(linear.noise[0] * sizes / sizes[:, None]))
     return noise == 0.0 or noise <= TOLERANCE * float(np.linalg.norm(A))
 
