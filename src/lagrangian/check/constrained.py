@@ -23,7 +23,7 @@ from lagrangian.check.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.own_constraints import with_rates
 from lagrangian.check.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.reference import Reference
-from lagrangian.check.results import FORCE, results_in
+from lagrangian.check.results import FORCE, is_factor_of_forces, results_in
 from lagrangian.check.spelling import not_there
 from lagrangian.check.stated import judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
@@ -192,7 +192,8 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
         right = _are_forces(truth, [line], [s], given=given)
         found[id(line)] = Finding(line, Status.RIGHT if right else Status.WRONG, FORCE if right else None)
         notes += [] if right else [text(f"'{plain(s)}' is not the force of a constraint, in no scale.")]
-    if equations and len(unknown) > len(truth.derivation.multipliers):
+    forces = [s for s in unknown if is_factor_of_forces(s, equations)]
+    if equations and (len(unknown) > len(truth.derivation.multipliers) or len(forces) < len(unknown)):
         notes += [not_there(truth.model, s) for s in unknown]
         found = {id(line): Finding(line, Status.WRONG) for line in equations}
         status = Status.WRONG

@@ -40,6 +40,8 @@ def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str
     A position may be any, θ = 0, if a real one exists (not cos θ = 7), or one at rest: then a row at rest vanishes
     where the line holds. An approximation holds to a higher order than its degree.
     """
+    if "=" in written and _is_input(truth, expr):
+        return "it is about one value of an input"
     changing = only_places(truth, expr)
     if "=" not in written or not changing or bounded.hard([expr], LONG):
         return None
@@ -49,6 +51,15 @@ def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str
         return None
     (place,) = changing
     return "it is about one position" if _is_chosen(expr, place) or _is_at_rest(truth, expr, place) else None
+
+
+def _is_input(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line only gives an input a value: F = 0."""
+    changing = {x for x in expr.atoms(AppliedUndef) if x.args}
+    if len(changing) != 1 or not changing <= {u.symbol for u in truth.model.inputs} or expr.has(sp.Derivative):
+        return False
+    (given,) = changing
+    return bool(expr.diff(given).is_number)
 
 
 def _is_chosen(expr: sp.Expr, place: AppliedUndef) -> bool:

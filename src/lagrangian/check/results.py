@@ -7,6 +7,7 @@ from collections.abc import Sequence, Set
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import Model
 from lagrangian.page.formula import text
@@ -26,3 +27,12 @@ def results_in(model: Model, known: Set[sp.Basic], equations: Sequence[AnsweredL
             if line.expr.diff(s) in (1, -1):
                 found[s] = line
     return found
+
+
+def is_factor_of_forces(name: sp.Basic, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether a name may be that of a multiplier: all lines are linear in it, and none has its rate."""
+    return not any(
+        any(d.args[0] == name for d in line.expr.atoms(sp.Derivative)) or bounded.diff(line.expr, name).has(name)
+        for line in lines
+        if line.expr.has(name)
+    )

@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.reading import Answer, Unknown
 from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.results import is_factor_of_forces
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.derive.sampling import SETS, CompiledExpressions
@@ -46,11 +47,16 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     if verdict.status is not Status.WRONG or not answer.unknown:
         return ()
     lines = lines_of(answer)
-    asked = [u for u in answer.unknown if u.symbol not in verdict.change]
-    asked = [u for u in asked if not _is_known(u, derivation.model, lines, answer.unread)]
+    given = {key(d.symbol.name) for d in derivation.definitions}
+    asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given]
+    moving = _moving(derivation.model, lines, answer)
+    asked = [u for u in asked if u not in moving and not _is_known(u, derivation.model, lines)]
     asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]
-    if derivation.multipliers or len(equations) >= len(derivation.model.coordinates) + len(asked):
+    forces = [u for u in asked if derivation.multipliers and is_factor_of_forces(u.symbol, lines)]
+    if derivation.form == "structured":
+        asked = [u for u in asked if u not in forces]
+    elif derivation.multipliers or len(equations) >= len(derivation.model.coordinates) + len(asked):
         return ()  # forces of constraints
     own = {(line.number, line.text, line.kind): line for line in lines}
     written = [own.get((f.line.number, f.line.text, f.line.kind), f.line) for f in verdict.findings]
@@ -82,16 +88,20 @@ def _asked(unknown: Unknown) -> ParseError:
     return ParseError(what, element="the answer", place=unknown.place, fix=fix, code="E402")
 
 
-def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine], unread: Collection[str]) -> bool:
-    """Whether it is certain what a name of the answer means.
+def _moving(model: Model, lines: Sequence[AnsweredLine], answer: Answer) -> list[Unknown]:
+    """The names of the answer's own that are coordinates: they accelerate, and the system has as many that the answer
+    lacks. No name is one where something that was not read may say more."""
+    found = [
+        u for u in answer.unknown if any(x.expr.has(sp.Derivative(cast("Any", u.symbol), (time, 2))) for x in lines)
+    ]
+    lacking = [c for c in model.coordinates if not any(x.expr.has(c.symbol) for x in lines)]
+    return [u for u in found if key(u.name) not in answer.unread] if len(found) <= len(lacking) else []
 
-    It accelerates, which coordinates do, and nothing ``unread`` may say more; it is a name of the system that is
-    misspelled; or a line without motion says it: 2*zeta*wn = c/m.
-    """
+
+def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether it is certain what a name of the answer means: it is a name of the system that is misspelled, or a line
+    without motion says it, 2*zeta*wn = c/m."""
     symbol: Any = unknown.symbol
-    accelerates = any(line.expr.has(sp.Derivative(symbol, (time, 2))) for line in lines)
-    if isinstance(symbol, AppliedUndef) and accelerates and key(unknown.name) not in unread:
-        return True
     related = (x.expr for x in lines if x.kind == "equation" and not x.expr.atoms(AppliedUndef))
     if any(expr.has(symbol) for expr in related):
         return True
@@ -108,7 +118,11 @@ def _is_last(
     """
     used = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
     free = [x.symbol for x in (*derivation.model.parameters, *derivation.model.inputs) if x.symbol not in used]
-    if not len(asked) == len(free) == 1 or _some_value_fits(truth_of(derivation), lines, asked[0].symbol):
+    if (
+        derivation.form == "structured"
+        or not len(asked) == len(free) == 1
+        or _some_value_fits(truth_of(derivation), lines, asked[0].symbol)
+    ):
         return False
     if asked[0].name in described:
         return True

@@ -56,6 +56,8 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
         verdict = _in_numbers(derivation, given, hint)
         other = None if verdict.right else _expanded(derivation.model)
         if other is None:
+            if isinstance(given, Answer) and (asked := unexplained(derivation, given, verdict)):
+                raise question(asked)
             return verdict
         derivation = other
     if isinstance(given, Answer):

@@ -3,8 +3,9 @@
 ∂T/∂ẋ = m ẋ  ⇒  d/dt = m ẍ          d/dt(∂T/∂ẋ) = m ẍ
 ∂L/∂q̇ = L q̇     d/dt → L q̈          d/dt(∂L/∂q̇) = L q̈
 ∂T/∂ẏ = m ẏ → m ÿ;  ∂V/∂y = m g     d/dt(∂T/∂ẏ) = m ÿ
+∂L/∂ẏ = m ẏ ⏎ d/dt = m ÿ            d/dt(∂L/∂ẏ) = m ÿ
 
-Both mean the derivative by time of what stands in front on the same line, which is judged as such.
+Both mean the derivative by time of what stands in front, on the same line or above, which is judged as such.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ _PARTIAL = re.compile(rf"(?P<slope>(?:∂|d)(?P<of>[TLVDℒ])\*?\s?/\s?(?:∂|d)
 _ARROW = r"(?:=+>|⇒|⟹|→|⟶|-+>|➔|➜)"
 _ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?d\s?/\s?dt[ \t]*(?:{_ARROW}|=(?!=)|:(?=[ \t]))")
 """d/dt of nothing, with what stands between it and its value."""
+_BEGINS = re.compile(rf"[ \t]*+(?:[-•*][ \t]+)?(?:{_ARROW}[ \t]*)?(?P<said>d\s?/\s?dt[ \t]*+(?:=(?!=)|:(?=[ \t])))")
+"""d/dt of nothing at the beginning of a line."""
 _GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S|$)")
 """A value behind an arrow."""
 _TWICE = re.compile(r"['’′]{2}|[\u0308ẍÿẅ¨]|ddot|dd\b")
@@ -28,16 +31,21 @@ _TWICE = re.compile(r"['’′]{2}|[\u0308ẍÿẅ¨]|ddot|dd\b")
 def with_derivatives(text: TracedText) -> TracedText:
     """Return a plain text in which every derivative by time says of what it is one."""
     edits: list[tuple[int, int, str]] = []
+    above: str | None = None
     for line in re.finditer(r"[^\n]+", text.text):
-        slopes = list(_PARTIAL.finditer(text.text, *line.span()))
+        slopes = [m for m in _PARTIAL.finditer(text.text, *line.span()) if moves(m["by"]) or undotted(m["by"])[1]]
+        begins = _BEGINS.match(text.text, *line.span())
+        if begins is not None and above is not None:
+            edits.append((*begins.span("said"), f"d/dt({above}) = "))
         ends = [*(m.start() for m in slopes[1:]), line.end()]
         for slope, end in zip(slopes, ends[: len(slopes)], strict=True):
             found = _ALONE.search(text.text, slope.end(), end) or _value(text.text, slope.end(), end)
-            if found is not None and (moves(slope["by"]) or undotted(slope["by"])[1]):
+            if found is not None:
                 start, stop = (
                     found.span() if "value" not in found.groupdict() else (found.start(), found.start("value"))
                 )
                 edits.append((start, stop, f"; d/dt({slope['slope']}) = "))
+        above = slopes[-1]["slope"] if slopes else above
     return text.edited(edits)
 
 

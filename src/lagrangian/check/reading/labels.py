@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose import CHANGING, LINKING
@@ -104,6 +105,11 @@ _FAR_BEHIND = re.compile(
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
 
+_COUNTED = re.compile(r"[ \t]{0,3}+(\d{1,2})[ \t]{2,}+(?=[^\s=+*/^-])")
+FEWEST_STEPS = 2
+"""No more numbers than these far in front of lines count no steps."""
+
+
 @dataclass(frozen=True)
 class Numbering:
     """Whether the equations of an answer are numbered in order in front, or behind, so that no number is a factor."""
@@ -117,6 +123,8 @@ class Numbering:
     that are found nowhere else, (A) …, (B) …"""
     tags: frozenset[str] = frozenset()
     """The letters in brackets far behind equations that are found outside brackets nowhere."""
+    counted: bool = False
+    """Whether numbers in front of lines, far from these, count the steps: 2  T = …"""
 
 
 def numbering(text: str, words: Words) -> Numbering:
@@ -131,12 +139,20 @@ def numbering(text: str, words: Words) -> Numbering:
     named = sorted(x[0] for x in called if x) == sorted(coordinates)
     lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
     marks = [m[1] for line in lines if (m := _LETTER_BEHIND.search(line[-30:]))]
-    in_order = len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
-    told = len(written) > 1 and (named or lettered)
+    in_order = _in_order(marks)
+    ordered = _in_order([x for k, x in enumerate(written) if x not in written[:k]])
+    told = len(written) > 1 and (named or lettered or ordered)
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
     far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
     tags = frozenset(x for x in far if _is_tag(x, text, words))
-    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()), tags)
+    steps = [int(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
+    counted = len(steps) > FEWEST_STEPS and steps == list(range(steps[0], steps[0] + len(steps)))
+    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()), tags, counted)
+
+
+def _in_order(marks: Sequence[str]) -> bool:
+    """Whether several letters or Roman numbers count: (a), (b), …"""
+    return len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
 
 
 def _is_tag(letter: str, text: str, words: Words) -> bool:
@@ -153,6 +169,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
     if (energy := _ENERGY.match(line)) is not None and _is_energy(energy, line, words):
         at = energy.start("colon")
         return f"{blank(line, 0, energy.start('name'))[:at]}={line[at + 1 :]}"
+    if numbers.counted and (step := _COUNTED.match(line)) is not None:
+        line = blank(line, 0, step.end())
     for _ in range(_ROUNDS):
         above = line
         for form in (

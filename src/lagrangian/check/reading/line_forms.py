@@ -13,10 +13,11 @@ from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
-from lagrangian.check.reading.nodes import only_name, start_of
+from lagrangian.check.reading.nodes import inside, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
+from lagrangian.read.letters import undotted
 from lagrangian.records import dataclass
 
 
@@ -57,14 +58,29 @@ def says_constant(statement: Statement, names: Names) -> bool:
     return constant
 
 
+def is_place(statement: Statement, names: Names) -> bool:
+    """Whether a statement gives a coordinate of the answer's own a value, which is no definition: ψ = 0 at the top."""
+    if len(statement.sides) != 2 or (found := only_name(statement.sides[0])) is None:
+        return False
+    token, primes = found
+    own = not primes and not undotted(token)[1] and not names.scope.meanings(token)[0] and names.changes(token)
+    value = inside(statement.sides[1])
+    valued = isinstance(value, Tree) and value.data == "number"
+    if own and valued:
+        written = " ".join(statement.source.text.split())
+        names.notes.setdefault(f"'{written}' was not judged: it is about one position.")
+    return own and valued
+
+
 def without_expressions(
     made: Mapping[int, Sequence[AnswerLine]], statements: Sequence[Statement], names: Names
 ) -> tuple[AnswerLine, ...]:
-    """The lines of all statements, in their order, without expressions that accelerate and have no equals sign, if
-    there is an equation with one for every coordinate: … ⇒ m l² φ̈ + m g l sin φ, before the result. Notes tell them."""
+    """The lines of all statements, in their order, without expressions that have no equals sign, if there is an
+    equation with accelerations for every coordinate: … ⇒ m l² φ̈ + m g l sin φ, before the result. Notes tell them."""
     moving = {k: sum(x.kind == "equation" and _moves(x) for x in lines) for k, lines in made.items()}
     stated = sum(count for k, count in moving.items() if len(statements[k].sides) > 1)
-    aside = {k for k, count in moving.items() if count and len(statements[k].sides) == 1}
+    equations = (k for k, lines in made.items() if any(x.kind == "equation" for x in lines))
+    aside = {k for k in equations if len(statements[k].sides) == 1}
     if stated < len(names.model.coordinates):
         aside = set[int]()
     for k in sorted(aside):

@@ -16,6 +16,7 @@ from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
     is_general,
+    is_place,
     listed_names,
     made_line,
     matrix_rows,
@@ -26,8 +27,9 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
-from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
+from lagrangian.check.reading.nodes import is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
+from lagrangian.check.reading.parts import left_out, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -44,15 +46,6 @@ from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
 """The largest number of definitions that may each need the one below it."""
-
-_PARTS = "TVUEKPW"
-"""The letters with which names of a part of an energy begin."""
-
-_INSIDE = "JIΘΩ"
-"""The capital letters that stand for inertias and speeds in an energy; small ones stand for speeds and positions."""
-
-_FORCES = "FMNQRS"
-"""The letters with which names of forces and moments begin."""
 
 MULTIPLIERS = ("lambda", "lam", "lmbda")
 """How names of multipliers begin."""
@@ -105,8 +98,10 @@ class Lines:
         for i, line in contradicting(self.names, [s.source for s in statements]):
             self._made.setdefault(i, []).append(line)
         lines = without_expressions(self._made, statements, self.names)
-        if found or (aside and not lines):
-            raise together(found or aside)
+        accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
+        needed = aside if accelerating < len(self.model.coordinates) else []
+        if found or needed:
+            raise together(found or needed)
         self._forget(lines)
         for error in self.remarks[:MAX_ERRORS]:
             at = error.place.line if error.place is not None and error.place.line else 1
@@ -143,7 +138,11 @@ class Lines:
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
-        first = [self.subjects.turned(list(s.sides))[0] for s in self._statements]
+        self._places = {i for i, s in enumerate(self._statements) if is_place(s, self.names)}
+        first = [
+            None if i in self._places else self.subjects.turned(list(s.sides))[0]
+            for i, s in enumerate(self._statements)
+        ]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
         self._solved = {i for i, subject in defining if subject.order > 1}
@@ -182,6 +181,8 @@ class Lines:
         if i in self._made:
             return
         self._made[i] = []  # a definition that refers to itself finds its own name unknown
+        if i in self._places:
+            return
         statement = self._statements[i]
         sides = list(statement.sides)
         subject, sides = self.subjects.turned(sides)
@@ -205,13 +206,13 @@ class Lines:
         above: Value = None
         sides, same = self.subjects.sharing(subject, sides)
         if self.subjects.names_sides(subject, sides):
-            self._left_out(sides[0], reader.value(sides[0]), reader)
+            left_out(sides[0], reader.value(sides[0]), reader)
             return self._equations(sides[1:], reader)
         values = [reader.value(side) for side in sides[1:]]
-        told = [self._tells(subject, value, values[k + 1 :]) for k, value in enumerate(values)]
-        for side, value, tells in zip(sides[1:], values, told, strict=True):
-            if not tells:
-                self._left_out(side, value, reader)
+        told = [tells(subject.kind, value, values[k + 1 :], self.names) for k, value in enumerate(values)]
+        for side, value, judged in zip(sides[1:], values, told, strict=True):
+            if not judged:
+                left_out(side, value, reader)
                 continue
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
@@ -225,32 +226,6 @@ class Lines:
         for token in same:
             self.names.define(token, above)
         return lines
-
-    def _tells(self, subject: Subject, value: Value, after: Sequence[Value]) -> bool:
-        """Whether a side of an energy is to be judged: not T_1 + T_2 or m (x'^2 + y'^2)/2 with names of parts, speeds
-        and inertias that the answer does not explain, if another side after it has none of them, or if it consists of
-        nothing else."""
-        if subject.kind not in ENERGIES or not isinstance(value, sp.Expr):
-            return True
-        new = self._new_in(value)
-        usual = all(str(x)[0] in _PARTS + _INSIDE or str(x)[0].islower() for x in new)
-        if new and usual and any(isinstance(x, sp.Expr) and not self._new_in(x) for x in after):
-            return False
-        whole = value.free_symbols | value.atoms(AppliedUndef)
-        return not new or not all(str(x)[:1] in _PARTS for x in new) or bool(whole - new)
-
-    def _new_in(self, value: sp.Expr) -> set[sp.Basic]:
-        """The names in an expression that neither the system nor the answer explains."""
-        return {x for x in value.free_symbols | value.atoms(AppliedUndef) if self.names.is_unknown(x)}
-
-    def _left_out(self, side: Tree, value: sp.Expr, reader: Meaning) -> None:
-        """Tell that a side is not judged, and because of which names."""
-        text, at = reader.source.text, start_of(side)
-        begin, end = text.rfind("=", 0, at) + 1, text.find("=", at)
-        written = " ".join((text[begin:] if end < 0 else text[begin:end]).split())
-        new = self._new_in(value)
-        names = [u.name for u in self.names.unknown.values() if u.symbol in new]
-        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(names)}.")
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
         value = reader.finite(value, side)
@@ -352,14 +327,8 @@ class Lines:
                 return []
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
-        if len(values) > 2:  # m x'' = F_s = -k x, where nothing says what F_s is
-            new = [self._new_in(x) if isinstance(x, sp.Expr) else set[sp.Basic]() for x in values]
-            usual = [all(str(x)[0] in _PARTS + _FORCES for x in names) for names in new]
-            drop = [not new[0] and not new[-1] and bool(n) and u for n, u in zip(new, usual, strict=True)]
-            for side, value in [(s, v) for s, v, out in zip(sides, values, drop, strict=True) if out]:
-                self._left_out(side, value, reader)
-            values = [x for x, out in zip(values, drop, strict=True) if not out]
-            sides = [x for x, out in zip(sides, drop, strict=True) if not out]
+        if len(values) > 2:
+            values, sides = without_parts(values, sides, reader)
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
             lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)

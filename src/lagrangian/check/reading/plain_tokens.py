@@ -8,7 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from lagrangian.check.reading.parser import AnswerToken
-from lagrangian.check.reading.words import Words
+from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.source import Source
 from lagrangian.quantities.units import lookup
 
@@ -25,7 +25,7 @@ _KINDS = [
     ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
     (
         "partial",
-        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:T|V|L|D|ℒ)))\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:[TVLDℒ]|(?<=d)[UWKPR])))\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
     ),
     ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
     ("fraction", r"[¼½¾⅐-⅞]"),
@@ -54,10 +54,13 @@ _ONE = re.compile(
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
-_VALUE = re.compile(rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?\s*[^\W\d_]+[^=+()]*", re.DOTALL)
+_VALUE = re.compile(
+    rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
+)
 _RAISED = str.maketrans("¹²³⁴⁻⁺", "1234-+")
 _LISTS = frozenset(["atan2", "min", "max", "diff", "Derivative", "D", "Eq", "piecewise", "Matrix", "Piecewise"])
 _COMMA = re.compile(r"(?<=\d),(?=\d)")
+_TIME = lookup("s").dimension  # type: ignore[union-attr]
 
 
 def tokenize(source: Source, words: Words) -> list[AnswerToken]:
@@ -65,7 +68,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
     text = source.text
     tokens: list[AnswerToken] = []
     at = 0
-    value = _VALUE.fullmatch(text) is not None
+    value = (given := _VALUE.fullmatch(text)) is not None and not _goes_on(given["behind"], words)
     while at < len(text):
         match = TOKEN.match(text, at)
         assert match is not None
@@ -142,13 +145,19 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, valu
     return end
 
 
+def _goes_on(behind: str, words: Words) -> bool:
+    """Whether what follows a number is no unit alone: a function or a name that moves stands in it, 2 F l cos θ."""
+    return any(function_of(x) is not None or words.names.changes(x) for x in re.findall(r"[^\W\d_]\w*", behind))
+
+
 def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None, int]:
     """How many SI units the unit at a place is, and where it ends; None if it consists of names of the system.
 
     A name of the system is part of a unit after /, N and kg only, 9.81 m/s^2, 3 N m, unless it is ``sure`` that units
-    follow numbers.
+    follow numbers. No term of an equation is a time: 2h are no hours.
     """
     factor, end, below, foreign, before = Fraction(1), at, False, False, ""
+    times = True
     while (match := _ONE.match(text, end)) is not None and text[match.end() : match.end() + 1] not in _GOES_ON:
         unit, name = lookup(match["unit"]), match["unit"]
         own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
@@ -161,8 +170,9 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
             break
         power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
         factor *= unit.factor ** (-power if below else power)
+        times = times and not below and unit.dimension == _TIME
         foreign, before, end = foreign or sure or not own, name, match.end()
-    return (factor, end) if foreign else (None, at)
+    return (factor, end) if foreign and (sure or not times) else (None, at)
 
 
 def _decimal(value: Fraction) -> str | None:

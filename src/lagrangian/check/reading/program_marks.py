@@ -6,6 +6,8 @@
 EL =⏎⏎ m*x'' + …
 sys = {a == b,⏎ c == d}         {a == b,⏎ c == d}             a list of equations
 p.m*p.g                         m*g                           the fields of a structure
+S.dds =⏎⏎ (F - …)/m              dds = (F - …)/m               a solution
+v.'*v                           v^T*v                         a column that is transposed
 A = diag([m J]);                A = diag(m, J)                a diagonal
 % A*qdd = f                       A*qdd = f                   an equation of matrices that stands in a comment alone
 """
@@ -38,6 +40,9 @@ _COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\
 _SHOWN = re.compile(
     rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
 )
+_SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))", re.MULTILINE)
+"""The structure of a solution: S.dds = …"""
+_TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
 _DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
 _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\()", re.MULTILINE)
 _LINE_COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
@@ -47,10 +52,11 @@ _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME}
 def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
     written = written.edited(_comments(written.text)).sub(_LABELLED, lambda m: "")
+    written = written.sub(_SOLUTION, lambda m: "").sub(_TRANSPOSED, lambda m: "^T")
     shown = {m["name"] for m in _SHOWN.finditer(written.text)}
     if shown and ">>" in written.text:
         written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
-        written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
+    written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
     written = written.edited(_list_names(written.text))
     written = written.edited(_diagonals(written.text))
     written = written.edited(_equations_in_comments(written.text))

@@ -190,13 +190,16 @@ def without_lead(text: str, words: Words) -> str:
     if match is None:
         return text
     stated = "=" in text
-    end = match.start(1)
+    end, spoken = match.start(1), False
     for word in re.finditer(r"\S+\s+", match[1]):
         written = word.group().strip(" \t,:.")
         first = stated and end == match.start(1) + word.start()
         said = first and written == "I" and _spoken(match[1][word.end() :].split(maxsplit=1)[:1], words)
-        if _links(written, words) or said or (first and _is_word(written, words)):
+        own = first and _is_word(written, words)
+        common = spoken and len(written) > 1 and written.lower() in LINKING  # put this in …, where in is no i n
+        if _links(written, words) or said or common or own:
             end = match.start(1) + word.end()
+        spoken = own and end == match.start(1) + word.end() and word.group().rstrip()[-1:] not in ".,:"
     changed = stated and any(x.strip(",:.").lower() in CHANGING for x in text[:end].split())
     changed = changed and _DERIVED.search(text, 0, end) is None
     return blank(text, 0, end) if end > match.start(1) and not changed else text
@@ -216,8 +219,14 @@ def _introduces(said: re.Match[str], words: Words) -> bool:
     if any(x.lower() in CHANGING and not _describes(listed[k + 1 :], words) for k, x in enumerate(listed)):
         return False
     plain = [x.isdigit() or _links(x, words) or _is_word(x, words) or x.lower() in CHANGING for x in listed]
-    between = [x in _ARTICLES and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(listed)]
+    short = [x in _ARTICLES or (1 < len(x) < _SHORTEST and x.islower() and _is_new(x, words)) for x in listed]
+    between = [x and any(plain[max(0, k - 1) : k + 2]) for k, x in enumerate(short)]
     return any(_is_word(x, words) for x in listed) and all(a or b for a, b in zip(plain, between, strict=True))
+
+
+def _is_new(written: str, words: Words) -> bool:
+    """Whether neither the system nor the answer has a name, and it is no product of names."""
+    return not words.known(written) and not words.is_product(written)
 
 
 def _describes(after: Sequence[str], words: Words) -> bool:

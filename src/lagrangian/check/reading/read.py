@@ -11,6 +11,7 @@ from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
@@ -238,7 +239,9 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     session = without_session(
-        without_long_names(without_tags(without_terminators(TracedText(text)))), taken, commands.append
+        without_long_names(without_tags(without_crossed_out(without_terminators(TracedText(text)), names.notes))),
+        taken,
+        commands.append,
     )
     if commands:
         names.notes.setdefault(_left_out(text, commands))

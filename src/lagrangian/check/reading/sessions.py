@@ -24,7 +24,7 @@ MOST, LONGEST = 400, 6_000
 _NAME = r"[^\W\d]\w{0,39}+"
 _PROMPT = re.compile(
     r"(?P<before>(?:^|(?<=\s))[ \t]*+)(?:In|Out)[ \t]?\[\d{1,4}\](?://\w{1,20}+)?[ \t]*+(?::?=|:)?[ \t]*+"
-    r"|^[ \t]*+(?:>>>|\.\.\.|julia>|sage:)[ \t]++",
+    r"|^[ \t]*+(?:>>>|\.\.\.:?|julia>|sage:)[ \t]++",
     re.MULTILINE,
 )
 _MAGIC = re.compile(r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$", re.MULTILINE)

@@ -33,12 +33,15 @@ _SENTENCE = re.compile(
 )
 
 
+_TERM = rf"{_NAME}(?:\([^()\n]{{1,40}}\))?['’′]{{0,2}}(?:\^\d)?"
+_VALUE = rf"{_TERM}(?:[ \t]?[-+*/·][ \t]?{_TERM}){{0,8}}"
+_WHAT = r"(?:(?:the|a|an|den|die|das)[ \t](?:[^\W\d_]{3,20}[ \t]){1,3})?"
+_ONE = rf"{_NAME}[ \t]++(?:for|für)[ \t]++{_WHAT}{_VALUE}"
 _USED = re.compile(
     rf"(?<![\w\\])(?:use|used|using|write|wrote|writing|call|schreibe|nehme|verwende|benutze)[ \t]++"
-    rf"(?P<said>{_NAME}[ \t]++(?:for|für)[ \t]++{_NAME}['’′]{{0,2}}"
-    rf"(?:[ \t]*+(?:,|and|und)[ \t]++{_NAME}[ \t]++(?:for|für)[ \t]++{_NAME}['’′]{{0,2}})*+)(?![\w(^'′])"
+    rf"(?P<said>{_ONE}(?:[ \t]*+(?:,[ \t]++(?:and|und)|,|and|und)\s++{_ONE})*+)(?![\w(^'′])"
 )
-_FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++({_NAME})(['’′]{{0,2}})")
+_FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++{_WHAT}({_VALUE})")
 
 
 def with_stated_letters(
@@ -65,8 +68,9 @@ def with_stated_letters(
             edits.append((*match.span(), _statement(match, latex=latex)))
     for match in _USED.finditer(written.text) if not latex else ():
         pairs = _FOR.findall(match["said"])
-        if all(says(new, own) for new, own, _ in pairs):
-            edits.append((*match.span(), "; " + "; ".join(f"{new} = {own}{primes}" for new, own, primes in pairs)))
+        named = [[x for x in re.findall(_NAME, value) if function_of(x) is None] for _, value in pairs]
+        if all(a and all(map(taken, a)) and not taken(new) for a, (new, _) in zip(named, pairs, strict=True)):
+            edits.append((*match.span(), "; " + "; ".join(f"{new} = {value}" for new, value in pairs) + ";"))
     return written.edited(sorted(edits))
 
 

@@ -1,0 +1,80 @@
+"""Sheets of students: numbered steps, crossed lines, derivatives on lines of their own, abbreviations in a sentence.
+
+Oracle: the equations of the cart with a pole, in the grammar of model files. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
+POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
+
+
+def right(written: str, name: str = "cart-pole") -> bool:
+    """Whether an answer is judged right; one that cannot be read is not."""
+    try:
+        return derivation(name).check(written).right
+    except ParseError as error:
+        assert error.place is not None
+        return False
+
+
+SLOPES = """\
+dL/dx' = (M + m) x' + m l theta' cos theta
+d/dt   = (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta
+dL/dtheta' = (J + m l^2) theta' + m l x' cos theta
+d/dt   = (J + m l^2) theta'' + m l x'' cos theta - m l x' theta' sin theta
+"""
+
+
+def test_a_derivative_on_a_line_of_its_own_is_that_of_the_line_above() -> None:
+    assert right(f"{SLOPES}\n{CART}\n{POLE}")
+    assert not right(f"{SLOPES.replace('- m l x', '+ m l x')}\n{CART}\n{POLE}")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I write c for cos(theta) and sn for sin(theta), and\nmt for the whole mass M + m.",
+        "writing c for cos(theta), sn for sin(theta) and mt for M + m",
+    ],
+)
+def test_abbreviations_in_a_sentence_are_read(said: str) -> None:
+    rows = "mt x'' + m l c theta'' = m l sn theta'^2 - b x' + F\n(J + m l^2) theta'' + m l c x'' = m g l sn"
+    assert right(f"{said}\n\n{rows}")
+    assert not right(f"{said.replace('cos', 'tan')}\n\n{rows}")
+
+
+@pytest.mark.parametrize(
+    "aside",
+    [
+        "Check: theta = 0 and F = 0: 0 = 0. ok",
+        "~~V = m g l sin(theta)~~",
+        "So the mass, *clockwise* positive, lifts itself um y = l cos theta",
+    ],
+)
+def test_what_decides_nothing_is_no_equation(aside: str) -> None:
+    assert right(f"{aside}\n{CART}\n{POLE}")
+    assert not right(f"{aside}\n{CART.replace('= F', '= 2 F')}\n{POLE}")
+
+
+def test_a_coordinate_of_ones_own_is_not_defined_by_where_it_is_zero() -> None:
+    said = "**β** is the angle of the pole, *clockwise* positive, β = 0 at the top, so θ = β.\n\n"
+    rows = f"1. {CART}\n2. {POLE}".replace("theta", "beta")
+    assert right(said + rows)
+    assert not right(said + rows.replace("- m g", "+ m g"))
+
+
+def test_numbers_far_in_front_count_the_steps() -> None:
+    sheet = "0  ξ₁ = x, ξ₂ = θ\n1  V = m g l cos θ\n2  Ξ₁ = 2 F - F - b ẋ\n3  equations\n"
+    assert right(f"{sheet}{CART}\n{POLE}")
+    assert not right(f"{sheet.replace('cos', 'sin')}{CART}\n{POLE}")
+
+
+def test_a_general_form_is_not_passed_over_where_it_is_needed() -> None:
+    with pytest.raises(ParseError, match="no rate"):
+        derivation("cart-pole").check(f"V = m g l cos theta\nl' = 0\n(M + m) x'' + W l'' = F\n{POLE}")
