@@ -78,3 +78,31 @@ def test_numbers_far_in_front_count_the_steps() -> None:
 def test_a_general_form_is_not_passed_over_where_it_is_needed() -> None:
     with pytest.raises(ParseError, match="no rate"):
         derivation("cart-pole").check(f"V = m g l cos theta\nl' = 0\n(M + m) x'' + W l'' = F\n{POLE}")
+
+
+def test_labels_in_front_are_no_factors() -> None:
+    sheet = f"(k) masses M and m\n(l) V = m g l cos theta\n(m) {CART}\n(n) {POLE}"
+    for first in ("(k)", "(a)"):  # l and m are a length and a mass
+        labelled = sheet if first == "(k)" else sheet.replace("(k)", "(a)").replace("(l)", "(b)")
+        labelled = labelled if first == "(k)" else labelled.replace("(m)", "(c)").replace("(n)", "(d)")
+        assert right(labelled)
+        assert not right(labelled.replace("- m g l sin", "+ m g l sin"))
+    assert right(f"[x]   {CART}\n[theta]   {POLE}")
+    assert right(f"x)   {CART}\ntheta)   -m g l sin theta + {POLE.replace(' - m g l sin theta', '')}")
+
+
+def test_a_list_of_equations_in_latex_is_one_of_rows() -> None:
+    listed = (
+        r"\left[ (M + m) \ddot{x} + m l \ddot{\theta} \cos{\theta} - m l \dot{\theta}^{2} \sin{\theta} + b \dot{x} "
+        r"= F, \  "
+        r"\left(J + l^{2} m\right) \ddot{\theta} + m l \ddot{x} \cos{\theta} - m g l \sin{\theta} = 0\right]"
+    )
+    assert right(listed)
+    assert not right(listed.replace("- m g l", "+ m g l"))
+
+
+def test_derivatives_of_a_quantity_of_ones_own_are_judged() -> None:
+    sheet = "R = 1/2 b x'^2\ndR/dx' = b x', dR/dtheta' = 0\nd/dt(∂T*/∂ẋ) = (M + m) x''\n"
+    assert right(f"{sheet.splitlines()[0]}\n{sheet.splitlines()[1]}\n{CART}\n{POLE}")
+    assert not right(f"{sheet.splitlines()[0]}\ndR/dx' = 2 b x'\n{CART}\n{POLE}")
+    assert not right(f"{sheet}{CART}\n{POLE}")

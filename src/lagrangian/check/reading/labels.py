@@ -40,7 +40,7 @@ _COMBINED = re.compile(
     r"(?=\s+(?:=+>|[^\s*/^=+]))"
 )
 """Which equations were added: II-III) …"""
-_OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+−-]))")
+_OPEN = re.compile(r"\s*[^\W\d_]\w{0,11}['’′]{0,2}\s?\)[.:]?(?=\s+(?:=+>|[^\s*/^=+]))")
 """A name with a bracket that nothing opens: x), θ)."""
 _LEFT = re.compile(r"\s*+:(?=\s)")
 """The colon of a label whose words are blank already: Eq. 1 (cart): …"""
@@ -49,7 +49,9 @@ _DASH = re.compile(r"^[ \t]*+(?P<dash>[-–—])[ \t]++(?P<rest>[^\n]++)", re.MU
 _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
-_COORDINATE = re.compile(r"\s*\(\s*([^\W\d]\w{0,12})\s*\)[.:]?\s+(?=[^\s*/^=+])")
+_COORDINATE = re.compile(
+    r"\s*(?:\(\s?(?P<round>[^\W\d]\w{0,12})\s?\)|\[\s?(?P<square>[^\W\d]\w{0,12})\s?\])[.:]?(?P<gap>\s+)(?=[^\s*/^=+])"
+)
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
@@ -96,7 +98,7 @@ _UNIT = re.compile(
 )
 """The unit of what stands in front of it, at the end of a statement."""
 _LETTER_BEHIND = re.compile(rf"\s[(\[]\s*(\w{{1,4}})\s*[)\]]{_END}")
-_ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefgh"), list("ABCDEFGH"))
+_ORDERS = (["I", "II", "III", "IV", "V", "VI"], list("abcdefghijklmnop"), list("ABCDEFGHIJKLMNOP"))
 """How equations are numbered in letters."""
 _FAR_BEHIND = re.compile(
     rf"(?<![ \t])(?:[ ]{{2}}|[ ]?\t)[ \t]*+[(\[]\s*+(?P<tag>[IVX]{{1,4}}|[ivx]{{1,4}}|[A-Za-z]\d?)\s*+[)\]]{_END}"
@@ -133,26 +135,32 @@ def numbering(text: str, words: Words) -> Numbering:
     first = [int(m[1]) for line in lines if (m := re.match(r"\s*\(\s*(\d{1,2})\s*\)", line))]
     last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
     before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
-    written = [m[1] for line in lines if (m := _COORDINATE.match(line))]
+    first_names = [m for line in lines if (m := _COORDINATE.match(line))]
+    written = [m["round"] or m["square"] for m in first_names]
+    far = all(m["square"] or len(m["gap"]) > 1 for m in first_names) and len(set(written)) == len(written)
     called = [words.names.scope.meanings(x)[0] for x in written]
     coordinates = [c.name for c in words.names.model.coordinates]
     named = sorted(x[0] for x in called if x) == sorted(coordinates)
     lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
     marks = [m[1] for line in lines if (m := _LETTER_BEHIND.search(line[-30:]))]
     in_order = _in_order(marks)
-    ordered = _in_order([x for k, x in enumerate(written) if x not in written[:k]])
-    told = len(written) > 1 and (named or lettered or ordered)
+    marked = [m["round"] for line in text.split("\n") if (m := _COORDINATE.match(line)) and m["round"]]
+    told = len(written) > 1 and (named or lettered or far or _in_order(marked))
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
-    far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
-    tags = frozenset(x for x in far if _is_tag(x, text, words))
+    behind_far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
+    tags = frozenset(x for x in behind_far if _is_tag(x, text, words))
     steps = [int(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
     counted = len(steps) > FEWEST_STEPS and steps == list(range(steps[0], steps[0] + len(steps)))
     return Numbering(before, behind, in_order, frozenset(written if told or beside else ()), tags, counted)
 
 
 def _in_order(marks: Sequence[str]) -> bool:
-    """Whether several letters or Roman numbers count: (a), (b), …"""
-    return len(marks) > 1 and any(marks == order[: len(marks)] for order in _ORDERS)
+    """Whether several letters or Roman numbers count: (a), (b), … or (d), (e), (f)."""
+    for order in _ORDERS:
+        first = order.index(marks[0]) if marks and marks[0] in order else len(order)
+        if marks == order[first : first + len(marks)] and len(marks) > (1 if first == 0 else 2):
+            return True
+    return False
 
 
 def _is_tag(letter: str, text: str, words: Words) -> bool:
@@ -190,7 +198,7 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
             if match is None and form is _NUMBERED and numbers.before:
                 match = _CLOSE.match(line)
             called = _COORDINATE.match(line) if form is _NUMBERED else None
-            labelled = called is not None and called[1] in numbers.named
+            labelled = called is not None and (called["round"] or called["square"]) in numbers.named
             match = called if labelled else match
             if form is _LABEL and (match is None or match.group().count("(") != match.group().count(")")):
                 match = _label(line, words)

@@ -25,7 +25,7 @@ _KINDS = [
     ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
     (
         "partial",
-        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:[TVLDℒ]|(?<=d)[UWKPR])))\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:[TVLDℒ](?!\w)|(?<=d)[^\W\d]\w{{0,3}})))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
     ),
     ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
     ("fraction", r"[¼½¾⅐-⅞]"),
@@ -52,6 +52,8 @@ _ONE = re.compile(
     r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_⁰¹²³⁴-⁹]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
 )
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
+_WORD = re.compile(_NAME)
+_ENERGIES = frozenset("TVLDℒ")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
 _VALUE = re.compile(
@@ -78,6 +80,11 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
             continue
         if kind == "star":  # the kinetic co-energy T*, not a product
             tokens.append(AnswerToken("name", match.group().replace("*", ""), match.start(), at))
+        elif kind == "partial" and not _is_partial(match, words):
+            match = _WORD.match(text, match.start())
+            assert match is not None
+            at = match.end()
+            tokens += _names(match.group(), source, match.start(), words)
         elif kind == "root":
             tokens.append(AnswerToken("name", "sqrt", match.start(), at))
         elif kind == "number":
@@ -89,6 +96,14 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
             tokens.append(AnswerToken(match.group() if kind == "bracket" else kind, match.group(), match.start(), at))
     tokens.append(AnswerToken("end", "", len(text), len(text)))
     return tokens
+
+
+def _is_partial(match: re.Match[str], words: Words) -> bool:
+    """Whether an energy, or another quantity of the answer's own, is differentiated by what moves: dR/dx', df/dx."""
+    if match["round"] or match["what"] in _ENERGIES:
+        return True
+    quotient = any(words.is_name(f"d{match[x]}") for x in ("what", "by"))
+    return not quotient and words.is_own(match["what"]) and words.names.changes(match["by"])
 
 
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:

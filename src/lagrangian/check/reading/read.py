@@ -49,6 +49,7 @@ from lagrangian.check.reading.stands_for import (
 )
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.unit_vectors import is_vector
 from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
@@ -73,10 +74,6 @@ _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
-_VECTOR = re.compile(r"(?P<name>(?:[avrsd]|ω|omega)(?:_?\w{1,4})?)\s{0,9}=(?P<value>[^=]*+)\Z")
-_UNIT_VECTOR = re.compile(
-    r"(?<!\w)(?P<unit>e_?(?:[xyzrntuvφθρ123]|phi|theta|rho)|[êîĵ]_?\w{0,5}|[eijk]\u0302_?\w{0,5})(?!\w)"
-)
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
@@ -339,7 +336,7 @@ def _parsed(
                 found += [replace(part, remark=remark) for part in parts]
                 continue
             lines.unread.update(key(x) for x in re.findall(_NAME, whole))
-            stated = _is_stated(written, whole, words_of) and not _is_vector(written, lines)
+            stated = _is_stated(written, whole, words_of) and not is_vector(written, lines.names)
             if stated and error.code != "E703" and remark():
                 lines.remarks.append(error)
                 lines.doubts += [error] if may_redefine(whole, words_of) else []
@@ -380,15 +377,6 @@ def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) ->
         at = error.place.line if error.place is not None and error.place.line else 1
         lines.names.notes.setdefault(f"Line {at} lacks a bracket, which was closed at its end.")
         return Statement(sides, own)
-
-
-def _is_vector(row: str, lines: Lines) -> bool:
-    """Whether a row says with unit vectors what a position, velocity or acceleration is: a = x'' e_x + y'' e_y."""
-    match = _VECTOR.match(row)
-    if match is None or lines.names.known(match["name"]):
-        return False
-    units = _UNIT_VECTOR.finditer(match["value"])
-    return any(not lines.names.known(unit["unit"]) for unit in units)
 
 
 def _is_stated(row: str, whole: str, words: Words) -> bool:

@@ -3,14 +3,14 @@
 eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
-\\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX of programs
+\\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX, also with [ ]
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from lagrangian.check.reading.sessions import MOST, carries, closes, is_acceleration, pieces
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
@@ -21,7 +21,7 @@ _LIST = re.compile(
     r"(?P<call>(?:(?:\w{1,8}\.)?(?:Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix|array)\(\s*+)?)"
     r"(?P<open>[\[{(])"
 )
-_SET_OPENS, _SET_CLOSES = "\\left\\{", "\\right\\}"
+_SETS = (re.compile(r"(?P<opens>\\left\s?\\\{)|\\right\s?\\\}"), re.compile(r"(?P<opens>\\left\s?\[)|\\right\s?\]"))
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -36,15 +36,23 @@ def without_lists(written: TracedText) -> TracedText:
 def without_sets(written: TracedText) -> TracedText:
     """Return an answer in LaTeX in which sets of equations are equations, one a line."""
     text, edits = written.text, list[Edit]()
-    at = text.find(_SET_OPENS)
-    while at >= 0 and len(edits) < MOST:
-        start = at + len(_SET_OPENS)
-        end = text.find(_SET_CLOSES, start)
-        spans = _entries(text, start, end) if end >= 0 else []
-        if len(spans) > 1 and all("=" in text[a:b] for a, b in spans) and "\\begin" not in text[start:end]:
-            edits += _listed(text, at, end + len(_SET_CLOSES), spans, "")
-        at = text.find(_SET_OPENS, start)
-    return written.edited(apart(edits))
+    for start, opened, closed, end in (x for form in _SETS for x in _pairs(text, form)):
+        spans = _entries(text, opened, closed)
+        if len(spans) > 1 and all("=" in text[a:b] for a, b in spans) and "\\begin" not in text[opened:closed]:
+            edits += _listed(text, start, end, spans, "")
+    return written.edited(apart(sorted(edits)))
+
+
+def _pairs(text: str, form: re.Pattern[str]) -> Iterator[tuple[int, int, int, int]]:
+    """The places of the outermost brackets of a kind: where each begins, its inside, and where it ends."""
+    stack: list[re.Match[str]] = []
+    for match in islice(form.finditer(text), MOST):
+        if match["opens"]:
+            stack.append(match)
+        elif stack:
+            first = stack.pop()
+            if not stack:
+                yield first.start(), first.end(), match.start(), match.end()
 
 
 def _edits(text: str, start: int, end: int) -> Iterator[Edit]:

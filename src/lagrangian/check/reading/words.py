@@ -110,6 +110,10 @@ class Words:
         """Whether the system or the answer has this name; energies do not count."""
         return bool(self.names.scope.meanings(word)[0]) or key(undotted(word)[0]) in self._own
 
+    def is_own(self, word: str) -> bool:
+        """Whether the answer defines this name, and the system does not have it."""
+        return key(word) in self._own and not self.names.scope.meanings(word)[0]
+
     def readable(self, word: str) -> bool:
         """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
         be a spelled Greek one."""
