@@ -99,6 +99,8 @@ def test_a_file_asks_for_reactions_and_holds_coordinates() -> None:
     assert run["crank"][0] == 1.0
     data = run.to_xarray()
     assert data["reaction.loop.x"].attrs["units"] == "N"
+    drawn = [[line.get_label() for line in axes.lines] for axes in run.plot().axes]
+    assert any("loop.x" in str(x) and "A.y" in str(x) for x in drawn) and "torque" not in str(drawn)  # pins
     assert np.array_equal(data["reaction.A.y"].values, run.reaction("A").force[:, 1])
     # upwards, the two supports together carry the weight and what the centres accelerate by
     last = run.reaction("origin").force + run.reaction("loop").force

@@ -56,8 +56,8 @@ Reactions = Annotated[
     typer.Option(
         "--reactions",
         metavar="NAME[,NAME]",
-        help="Add the forces and torques of joints to the results: constraints, points or bodies by name, or "
-        "'B on rod 1 in axes of rod 2'.",
+        help="Add the forces and torques of joints to the results and the picture: constraints, points or bodies by "
+        "name, or 'B on rod 1 in axes of rod 2'.",
         rich_help_panel=OUTPUT,
     ),
 ]

@@ -36,6 +36,9 @@ Array = NDArray[np.float64]
 TURNS = 4 * np.pi
 """Angles [rad] that exceed this are plotted in turns, others in degrees."""
 
+ROUNDING = 1e-9
+"""A force or torque of a joint below this part of the largest one counts as 0."""
+
 PICTURES = frozenset((".png", ".pdf", ".svg", ".jpg", ".jpeg", ".eps"))
 """Endings of the names of image files."""
 
@@ -215,13 +218,15 @@ def _state_symbols(model: Model) -> list[Any]:
 
 
 def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
-    """The figure of the requested quantities; by default, of coordinates, inputs that are not 0, and energies."""
+    """The figure of the requested quantities; by default, of coordinates, inputs that are not 0, the joints in
+    ``run.reactions``, and energies."""
     units, labels = Units(run.model), Labels(run.model)
     panels = [_joint_panel(run, x) or _panel(run, units, labels, _expression(run.model, x)) for x in asked]
     if not asked:
         panels = [_panel(run, units, labels, c.symbol) for c in run.model.coordinates]
         driven = [_panel(run, units, labels, u.symbol) for u in run.model.inputs]
         panels += [p for p in driven if any(s.values.any() for s in p.series)]
+        panels += _reaction_panels(run)
     panels = list(joined(panels))
     if energy if energy is not None else not asked:
         panels.append(_energies(run))
@@ -274,6 +279,16 @@ def _joint_panel(run: Recorded, asked: Any) -> Panel | None:
         return None
     unit = joint.unit.replace("*", " ")
     return Panel(KINDS[unit], unit, (Series(rf"\mathrm{{{_escaped(asked)}}}", asked, run[asked]),))
+
+
+def _reaction_panels(run: Recorded) -> list[Panel]:
+    """The forces and torques of the joints in ``run.reactions`` that are more than rounding."""
+    columns = list(_of_reactions(run))
+    sizes = [float(np.abs(c.values).max(initial=0.0)) for c in columns]
+    shown = [c for c, size in zip(columns, sizes, strict=True) if size > ROUNDING * max(sizes)]
+    names = [c.name.replace(".", " ", 1) for c in shown]  # "reaction B.x", as in run["reaction B.x"]
+    series = [Series(rf"\mathrm{{{_escaped(n)}}}", n, c.values) for n, c in zip(names, shown, strict=True)]
+    return [Panel(KINDS[c.unit], c.unit, (one,)) for c, one in zip(shown, series, strict=True)]
 
 
 def _escaped(name: str) -> str:

@@ -58,8 +58,8 @@ class Trajectory(Recorded):
     def plot(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
         """Return a pyplot figure of ``quantities`` (names, text or SymPy expressions) over time.
 
-        By default it shows the coordinates, the inputs that are not 0, and the energies. ``energy`` adds or omits the
-        energies; ``audit`` adds the error of the energy balance. Angles are in degrees, or in turns if they are large.
+        By default it shows the coordinates, the inputs that are not 0, ``reactions`` and energies. ``energy`` adds or
+        omits the energies; ``audit`` adds the error of their balance. Angles are in degrees, large ones in turns.
         A failed run is marked by crosses at its end, with the reason. Notebooks show the figure, ``plt.show()`` opens
         it, and ``run.plot().savefig("run.png")`` writes it.
         """
