@@ -12,6 +12,7 @@ import lagrangian as lg
 from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
 from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.labels import crosses
 from lagrangian.look.velocities import complement
 from lagrangian.page.scene import Scene
 
@@ -46,6 +47,10 @@ def test_no_label_meets_another(name: str) -> None:
     for (first, (x, y, w, h)), (second, (a, b, c, d)) in combinations(boxes, 2):
         apart = x + w <= a or a + c <= x or y + h <= b or b + d <= y
         assert apart, f"{first} meets {second}"
+    for part in picture(name).scene.parts:
+        if part.kind == "leader":
+            (_, a), (_, b) = part.shape.commands
+            assert not any(crosses(box, a, b) for _, box in boxes)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from lagrangian.examples import names
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics
-from lagrangian.look.labels import crosses
+from lagrangian.look.labels import Ink, crosses
 from lagrangian.look.scenes import scene_of
 from lagrangian.look.space_measures import floating_coordinates
 from lagrangian.look.space_solids import across, nearest
@@ -86,8 +86,7 @@ def test_no_label_meets_another(name: str) -> None:
     scene = picture(name).scene
     for one, two in itertools.combinations(scene.labels, 2):
         (a, b, w, h), (c, d, u, v) = one.box, two.box
-        covered = max(0.0, min(a + w, c + u) - max(a, c)) * max(0.0, min(b + h, d + v) - max(b, d))
-        assert covered < 0.25 * min(w * h, u * v), (one.names, two.names)
+        assert a + w <= c or c + u <= a or b + h <= d or d + v <= b, (one.names, two.names)
 
 
 LINKS = """
@@ -189,6 +188,18 @@ def test_vectors_across_an_axis_are_right_handed() -> None:
 def test_lines_that_meet_a_box_are_known() -> None:
     assert crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 1.0), (3.0, 1.0))
     assert not crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 3.0), (3.0, 3.0))
+
+
+def test_ink_is_found_where_lines_are_drawn() -> None:
+    """A box with a line through its middle part has ink under it, one whose surroundings no line meets has none."""
+    random = np.random.default_rng(7)
+    lines, boxes = random.uniform(0, 200, (12, 2, 2)), random.uniform(0, 190, (200, 4)) * (1, 1, 0, 0) + (0, 0, 14, 9)
+    found = Ink(lines).under(boxes) > 0
+    for (x, y, w, h), inked in zip(boxes.tolist(), found, strict=True):
+        inner, outer = (x + 3, y + 3, w - 6, h - 6), (x - 3, y - 3, w + 6, h + 6)
+        met = [any(crosses(box, tuple(a), tuple(b)) for a, b in lines.tolist()) for box in (inner, outer)]
+        assert met[0] <= inked <= met[1]
+    assert 20 < found.sum() < 180 and not Ink(np.zeros((0, 2, 2))).under(boxes + 5).any()
 
 
 def test_a_floating_body_has_arrows_to_its_place() -> None:

@@ -46,6 +46,8 @@ Array = NDArray[np.float64]
 
 LARGE, LONGEST = 300.0, 190.0
 """The size of a picture's structure and of its longest rod [px]."""
+MANY, ROOMIEST = 9, 2.0
+"""From how many coordinates and elements on a picture gets more room for their letters, and how much of it at most."""
 ROTOR = 7.0
 """How many times smaller than the longest rod the path of what is moved round on a body is drawn."""
 SLIDE = 72.0
@@ -181,8 +183,12 @@ def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> fl
     spots = np.array(structure) if structure else np.zeros((1, 2))
     size = float(np.ptp(spots, axis=0).max())
     size = max(size, 1e-9)
-    wanted = LARGE / size if size > 1e-6 else 100.0
-    return min(wanted, LONGEST / longest) if longest > 1e-9 else min(max(wanted, 1e-6), 1e6) if size > 1e-6 else 100.0
+    model = board.stage.model
+    room = min(ROOMIEST, max(1.0, (len(model.coordinates) + len(model.elements)) / MANY)) ** 0.5
+    wanted = room * LARGE / size if size > 1e-6 else 100.0
+    if longest > 1e-9:
+        return min(wanted, room * LONGEST / longest)
+    return min(max(wanted, 1e-6), 1e6) if size > 1e-6 else 100.0
 
 
 def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
