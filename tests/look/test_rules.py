@@ -11,8 +11,11 @@ import built_in
 import lagrangian as lg
 from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
+from lagrangian.look.board import Board
+from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics
-from lagrangian.look.labels import crosses
+from lagrangian.look.labels import crosses, placed_labels
+from lagrangian.look.scenes import PLANE
 from lagrangian.look.velocities import complement
 from lagrangian.page.scene import Scene
 
@@ -167,6 +170,31 @@ def test_a_wrong_request_is_told(named: dict, code: str) -> None:
     assert caught.value.code == code
 
 
+def test_a_long_chain_is_no_coil_and_its_letters_do_not_meet() -> None:
+    system, x, y = lg.System("chain"), 0, 0
+    l, m = system.parameters("l m", l="0.1 m", m="1 kg")
+    for i, angle in enumerate(system.coordinates(" ".join(f"a{i}" for i in range(20)))):
+        x, y = x + l * sin(angle), y - l * cos(angle)
+        system.particle(m, at=system.point(f"P{i}", (x, y)))
+    scene = system.look().scene
+    assert 2.0 < max(scene.pose.values()) - min(scene.pose.values()) < 2.4
+    assert not scene.missing and len(scene.labels) == 60
+    for (a, b, w, h), (c, d, u, v) in combinations([label.box for label in scene.labels], 2):
+        assert a + w <= c or c + u <= a or b + h <= d or d + v <= b
+
+
+def test_letters_without_room_are_left_out_and_told() -> None:
+    stage = Kinematics(built_in.system("pendulum").model)
+    board = Board(stage, Motions(stage), np.array([0.5]), stage.parameters(), PLANE)
+    for k in range(200):
+        board.wish((f"name{k}",), (0.0, 0.0), (1.0, 0.0), "stiffness" if k else "coordinate", (f"spring {k}",))
+    found = placed_labels(board)
+    assert found[0].names == ("name0",) and 10 < len(found) < 200
+    (words,) = board.missing
+    assert words.startswith("there is no room for the letters name") and f"and {196 - len(found)} more" in words
+    for one, two in combinations(found, 2):
+        (a, b, w, h), (c, d, u, v) = one.box, two.box
+        assert a + w <= c or c + u <= a or b + h <= d or d + v <= b
 @pytest.mark.parametrize(("d", "rank"), [(3, 2), (40, 0), (40, 31), (40, 40), (60, 7)])
 def test_what_is_at_right_angles_to_columns(d: int, rank: int) -> None:
     """Columns of very different sizes, more than they span: rows as many as are missing, at right angles."""

@@ -190,6 +190,26 @@ def test_lines_that_meet_a_box_are_known() -> None:
     assert not crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 3.0), (3.0, 3.0))
 
 
+def test_a_link_with_its_joint_in_the_middle_reaches_both_of_its_ends() -> None:
+    """A beam in space that is hinged at its middle, and has a rod at either end."""
+    s = lg.System("mobile")
+    tilt, one, two = s.coordinates("tilt one two")
+    m, J = s.parameters("m J", m="1 kg", J="0.1 kg*m^2")
+    pivot = s.point("pivot", (0, 0, 0))
+    frame = s.frame(tilt, axis=(0, 1, 0), name="beam")
+    s.rigid_body(m, (J, J, J), at=s.point("middle", (0.01, 0, 0), relative_to=pivot, frame=frame), frame=frame)
+    for name, q, x in (("left", one, -0.5), ("right", two, 0.5)):
+        end = s.point(name, (x, 0, 0), relative_to=pivot, frame=frame)
+        own = s.frame(q, axis=(0, 1, 0), parent=frame, name=f"{name}_rod")
+        at = s.point(f"{name}_centre", (0, 0, -0.3), relative_to=end, frame=own)
+        s.rigid_body(m, (J, J, J), at=at, frame=own, name=f"{name}_rod")
+    s.gravity(direction=(0, 0, -1))
+    scene = s.look().scene
+    links = [part.placement for part in scene.parts if part.kind == "link" and "rod" not in str(part.elements)]
+    ends = [(scene.positions[x.at or 0], scene.positions[x.towards or 0]) for x in links]
+    assert max(np.linalg.norm(np.subtract(a, b)) for a, b in ends) == pytest.approx(1.0)
+
+
 def test_ink_is_found_where_lines_are_drawn() -> None:
     """A box with a line through its middle part has ink under it, one whose surroundings no line meets has none."""
     random = np.random.default_rng(7)

@@ -22,6 +22,11 @@ KNOWN = {
     "four-bar": "A crank hinged on the ground; a coupler hinged on the crank; a rocker hinged on the ground. Pin loop "
     "joins the coupler and the rocker. Gravity acts; torque tau turns the crank. Coordinates: theta1: crank, from the "
     "base; theta2: coupler, from the base; theta3: rocker, from the base.",
+    "furuta-pendulum": "An arm hinged on the ground; a pendulum hinged on the arm. Damper b1 between the arm and the "
+    "ground; damper b2 between the arm and the pendulum. Gravity acts; torque tau turns the arm. Coordinates: theta1: "
+    "arm, about the vertical; theta2: pendulum, about the arm, from hanging straight down.",
+    "bead-on-hoop": "Mass m on a hoop that is turned as a function of time. Gravity acts. Coordinates: theta: bead, "
+    "from the lowest point of the hoop.",
     "atwood": "Block m1 on a vertical line; block m2 on a vertical line; a pulley on a fixed axle. A string "
     "from block m1 over a fixed pulley to block m2. Gravity acts. Coordinates: x: mass 1, downward.",
     "ball-and-beam": "A ball rolling along the beam; a beam turning about a fixed point. Gravity acts; torque tau "

@@ -21,6 +21,8 @@ SIZE = 15.0
 DIRECTIONS, DISTANCES = 16, (0.0, 5.0, 12.0, 22.0, 36.0, 52.0)
 ROUNDS, BAD = 2, 1.5
 """How often labels are placed again, and from which cost on."""
+ORDER = {role: k for k, role in enumerate(("coordinate", "body", "input", "gravity", "stiffness", "damping"))}
+"""Which labels are placed first."""
 FAR = 11.0
 """From which distance [px] on a label has a line to its place."""
 
@@ -28,10 +30,11 @@ FAR = 11.0
 def placed_labels(board: Board) -> list[Label]:
     """The labels of a board, each where it meets the least; one that found no room nearby has a line to its place.
 
-    Labels are placed one after another; those that lie badly are placed again, knowing all others.
+    Labels are placed one after another, coordinates first; those that lie badly are placed again, knowing all others.
+    Those that would lie on others all the same are left out, and the board says which.
     """
     ink = Ink(np.concatenate([np.array(board.segments, float).reshape(-1, 2, 2), _strokes(board)]))
-    wishes = sorted(board.wishes, key=lambda w: not w.inside)
+    wishes = sorted(board.wishes, key=lambda w: (not w.inside, ORDER.get(w.role, len(ORDER))))
     given, boxes, costs = np.array(board.boxes, float).reshape(-1, 4), list[Box](), list[float]()
     for wish in wishes:
         box, cost = _best(wish, given, boxes, ink)
@@ -41,12 +44,29 @@ def placed_labels(board: Board) -> list[Label]:
         for k, wish in enumerate(wishes):
             if costs[k] > BAD:
                 boxes[k], costs[k] = _best(wish, given, boxes[:k] + boxes[k + 1 :], ink)
+    kept = [k for k, box in enumerate(boxes) if not _on_others(box, boxes[:k])]
+    _say_left_out(board, [w for k, w in enumerate(wishes) if k not in set(kept)])
+    wishes, boxes = [wishes[k] for k in kept], [boxes[k] for k in kept]
     for wish, box in zip(wishes, boxes, strict=True):
         _lead(board, wish, box, boxes)
     return [
         Label(w.names, (x + wide / 2, y + high / 2), w.role, w.elements, (x, y, wide, high), SIZE)
         for w, (x, y, wide, high) in zip(wishes, boxes, strict=True)
     ]
+
+
+def _on_others(box: Box, others: list[Box]) -> bool:
+    return bool(others) and bool((_overlaps(np.array(box), np.array(others)) > 0).any())
+
+
+def _say_left_out(board: Board, wishes: list[Wish]) -> None:
+    """Say which letters have no room, with the line that makes some."""
+    names = list(dict.fromkeys(name for wish in wishes for name in wish.names))
+    if names:
+        shown = ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
+        first = next((x for wish in wishes for x in wish.elements), "")
+        help_by = f'[look] hide = ["{first}"] makes room by leaving out what needs no letter' if first else ""
+        board.lacks(f"there is no room for the letters {shown}", help_by)
 
 
 class Ink:

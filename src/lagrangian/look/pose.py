@@ -23,6 +23,10 @@ Array = NDArray[np.float64]
 FIRST, RELATIVE, STEP = 32 * pi / 180, 35 * pi / 180, 26 * pi / 180
 """The first angle, angles counted from another body, and by how much an absolute angle exceeds the one before it."""
 
+SPAN = 130 * pi / 180, 210 * pi / 180
+"""How far absolute angles and relative ones turn in all at most: more of them take smaller steps, so that no long chain
+is drawn as a coil."""
+
 SMALL = 7 * pi / 180
 """The angle of a body on springs."""
 
@@ -86,7 +90,8 @@ class Pose:
 
     def _chosen(self) -> Array:
         q = np.array([c.start for c in self.stage.model.coordinates], float)
-        last = FIRST - STEP
+        step, relative = self._steps()
+        last = FIRST - step
         first = True
         for i, name in enumerate(self.names):
             if name in self.asked:
@@ -99,14 +104,22 @@ class Pose:
                 if self._sprung(i):
                     q[i] = SMALL
                 elif first or self._alone(i):
-                    last += STEP
+                    last += step
                     q[i] = last
                 else:
-                    q[i] = RELATIVE
+                    q[i] = relative
                 first = False
             elif i not in self.slides:
                 q[i] = self._length(i, name, float(q[i]))
         return q
+
+    def _steps(self) -> tuple[float, float]:
+        """By how much absolute angles differ, and how large relative ones are [rad]."""
+        angles, turns = set(self.angles), self.motions.turns
+        alone = sum(self._alone(i) for i in angles)
+        moved = [h.moving for h in self.motions.holds] + [turns(k) for k in range(len(self.stage.frames))]
+        longest = max((len(angles & set(which)) for which in moved), default=0)
+        return min(STEP, SPAN[0] / max(1, alone - 1)), min(RELATIVE, SPAN[1] / max(1, longest))
 
     def _sprung(self, i: int) -> bool:
         """Whether an angle turns a body about its own centre, which is free, in a system with springs."""

@@ -197,7 +197,7 @@ class SpaceBodies:
         return True
 
     def _ends(self, x: SpacePlayer) -> tuple[int, int] | None:
-        """The two ends of a link, from its joint outward."""
+        """The two ends of a link, from its joint outward, and back to what lies beyond the joint."""
         board, solids, r = self.board, self.solids, self.board.r
         own = next((t for t in self.tracks if t.point == x.point), None)
         if own is not None and not x.points:
@@ -213,7 +213,8 @@ class SpaceBodies:
         if far == x.point:
             frame = solids.axes(x.frame)
             far = solids.point(joint, frame.T @ (2 * (r[x.point] - r[joint])), x.frame)
-        return joint, far
+        back = {k: float((r[k] - r[joint]) @ (self.board.r[far] - r[joint])) for k in everything}
+        return min([joint, *everything], key=lambda k: back.get(k, 0.0)), far
 
     def _outward(self, track: Track) -> Array:
         return track.way if float(self.board.q[track.coordinate]) >= 0 else -track.way

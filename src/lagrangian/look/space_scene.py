@@ -29,8 +29,9 @@ from lagrangian.model import Ball, Constraint, Element, Rolling
 
 Array = NDArray[np.float64]
 
-LARGE, LARGER, LONGEST = 270.0, 400.0, 170.0
-"""The size of a picture's structure, of one with many bodies, and of its longest link [px]."""
+LARGE, LONGEST, MANY, ROOMIEST = 270.0, 170.0, 9, 3.0
+"""The size of a picture's structure and of its longest link [px]; both are larger by a root of the number of bodies and
+coordinates from the third number on, up to the fourth."""
 SLIDES = (120.0, 84.0, 60.0)
 """How far things are drawn from the origin along one axis after another [px]."""
 SPIN, LEAN, HEADING = 0.75, 0.32, 0.95
@@ -203,7 +204,7 @@ def _scale(board: Board, players: list[SpacePlayer]) -> float:
         spots += [r[x.point] + size * board.view[0], r[x.point] - size * board.view[0], *(r[k] for k in x.points)]
     seen = np.array(spots or [np.zeros(3)]) @ board.view.T
     size = float(np.ptp(seen, axis=0).max())
-    many = len(players) > 8
-    wanted = (LARGER if many else LARGE) / size if size > 1e-9 else 100.0
-    found = min(wanted, (1.6 if many else 1.0) * LONGEST / longest) if longest > 1e-9 else wanted
+    room = min(ROOMIEST, max(1.0, (len(board.stage.model.coordinates) + len(players)) / MANY)) ** 0.5
+    wanted = room * LARGE / size if size > 1e-9 else 100.0
+    found = min(wanted, room * LONGEST / longest) if longest > 1e-9 else wanted
     return float(np.clip(found, 1e-6, 1e9))

@@ -20,6 +20,7 @@ from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import Hold, HoldKind
 from lagrangian.look.phrases import capital, cut, listed, said, short
 from lagrangian.look.round_bodies import unwinds
+from lagrangian.look.space_supports import hooped
 from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
@@ -59,6 +60,13 @@ def description(
 
 def _coordinate(name: str, words: str) -> str:
     return f"{short(name)}: {short(words, 120)}" if words else short(name)
+
+
+def _chain(frame: Frame | None) -> Iterator[Frame]:
+    """A frame, and those that carry it."""
+    while frame is not None:
+        yield frame
+        frame = frame.parent
 
 
 class _Sentences:
@@ -115,10 +123,25 @@ class _Sentences:
         """What turns: its body."""
         if not isinstance(turn, Turn):
             return GROUND
-        part = next((p for p in self.parts if p.name == turn.name), None)
+        part = next((p for p in self.parts if p.name == turn.name), None) or self._first_after(turn.frame)
         if part is None:
             return "what turns"
         return self.body(part) if turn.frame is not None else f"the rod of {self.body(part)}"
+
+    def _first_after(self, frame: int | None) -> Player | None:
+        """The body that a frame without a body of its own carries, across the fewest frames."""
+        found: list[tuple[int, Player]] = []
+        for part in self.parts if frame is not None else ():
+            chain = list(_chain(part.body.axes))
+            if self.stage.frames[frame or 0] in chain:
+                found.append((chain.index(self.stage.frames[frame or 0]), part))
+        return min(found, key=lambda pair: pair[0])[1] if found else None
+
+    def carrier(self, frame: Frame) -> str:
+        """The body on which a frame turns in space, past frames without a body; else the ground."""
+        owned = (p for x in _chain(frame.parent) for p in self.parts if p.body.axes is x)
+        part = next(owned, None)
+        return GROUND if part is None else self.body(part)
 
     def of_axes(self, thing: Any) -> str | None:
         """The body that turns with a frame, or whose angle an expression is."""
@@ -129,10 +152,13 @@ class _Sentences:
         found = next((p for p in self.parts if words == (p.body.title,)), None)
         if found is not None:
             return self.body(found)
-        board = self.board
-        slopes = self.stage.slopes(thing, board.q, board.p)
-        turn = next((t for t in self.turns if np.allclose(np.abs(t.slopes), np.abs(slopes), atol=1e-9)), None)
+        turn = self._turn_of(thing)
         return None if turn is None else self.of_turn(turn)
+
+    def _turn_of(self, angle: Any) -> Turn | None:
+        """What turns by an angle."""
+        slopes = np.abs(self.stage.slopes(angle, self.board.q, self.board.p))
+        return next((t for t in self.turns if np.allclose(np.abs(t.slopes), slopes, atol=1e-9)), None)
 
     # -- bodies -------------------------------------------------------------------------------------------------
 
@@ -157,6 +183,9 @@ class _Sentences:
         on, turns = self._beyond(part, joint) or self.owner(joint, part), self.motions.turns(part.frame)
         if on.startswith("point ") and self.motions.holds[joint].how is HoldKind.FREE:
             return self._free
+        if self.space and part.body.axes is not None and on.startswith(("point ", "a point ")):
+            carrier = self.carrier(part.body.axes)
+            on = on if carrier == GROUND else carrier
         if on == GROUND and len(turns) > 1 and self.space:
             return "turning about a fixed point"
         welded = next((x for x in self.parts if x.frame == part.frame and self.body(x) == on), None)
@@ -173,7 +202,10 @@ class _Sentences:
         if self.motions.still(joint):
             return ""
         others = [x for x in self.parts if x.frame != part.frame and joint in (x.point, *x.points)]
-        return self.body(next((x for x in others if x.point == joint), others[-1])) if others else ""
+        if not others:
+            return ""
+        found = next((x for x in others if x.point == joint), others[-1])
+        return self.body(next(x for x in others if x.frame == found.frame))  # not what is only fixed to it
 
     @property
     def _free(self) -> str:
@@ -218,6 +250,8 @@ class _Sentences:
             case HoldKind.TRACK:
                 return f"moving along {self._frame_owner(hold, part)}"
             case HoldKind.ROD:
+                if self.space and hooped(self.board, k) is not None:
+                    return "on a hoop that is turned as a function of time"
                 return f"on a rod from {from_where}"
             case HoldKind.TELESCOPE:
                 spring = any(t.way == "telescope" and t.b == k and t.element.kind == "spring" for t in self.ties)
@@ -261,6 +295,8 @@ class _Sentences:
             case "telescope":
                 return (self._end(tie.a), self._end(tie.b)) if isinstance(tie.b, int) else (None, None)
             case "joint" | "arm":
+                if self.space and tie.a is None and isinstance(tie.b, Turn) and tie.b.frame is not None:
+                    return self.carrier(self.stage.frames[tie.b.frame]), self.of_turn(tie.b)
                 return self.of_turn(tie.a), self.of_turn(tie.b)
             case _:
                 return None, None
@@ -342,4 +378,7 @@ class _Sentences:
         what, against = self.of_axes(on), self.of_axes(reaction) if reaction is not None else None
         if what is None:
             return "acts"
+        if self.space and reaction is None and not isinstance(on, Frame) and (turn := self._turn_of(on)) is not None:
+            carrier = self.carrier(self.stage.frames[turn.frame]) if turn.frame is not None else GROUND
+            against = None if carrier == GROUND else carrier
         return f"turns {what}, its opposite {against}" if against else f"turns {what}"
