@@ -70,7 +70,6 @@ def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Eve
         missing=scene.missing,
         space=len(scene.view[0]) == 3,
         bodies=bool(scene.handles),
-        tall=min(1.6, max(1.0, scene.size[1] / 280)),
         flows=bool(scene.flows),
     )
     return page_html(contents)

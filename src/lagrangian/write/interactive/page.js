@@ -24,6 +24,7 @@
     player.begin();
   };
   window.addEventListener("hashchange", recall);
+  element("schematic").style.setProperty("--tall", String(Math.min(1.6, Math.max(1, scene.size[1] / 280))));
   arrange();
   watch(state);
   recall();

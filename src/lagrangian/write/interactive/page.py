@@ -159,8 +159,6 @@ class PageContents:
     space: bool = False
     bodies: bool = True
     """Whether there is a body that moves; a circuit alone has none."""
-    tall: float = 1.0
-    """How much higher than others the place of the schematic is."""
     flows: bool = False
     """Whether dots move with the charges of a circuit."""
 
@@ -175,7 +173,6 @@ def page_html(contents: PageContents) -> str:
         subtitle=f"<p>{escape(contents.subtitle)}</p>" if contents.subtitle else "",
         style=_style(html_page.style_sheet().partition("\n.")[0] + "\n" + first),
         schematic="" if len(contents.schematic) > LARGE_PICTURE else contents.schematic,
-        tall=f"{contents.tall:.2f}",
         missing=_missing(contents.missing),
         motion_hint=_hint(contents),
         packed=dense(_parts(contents).encode()),
