@@ -121,6 +121,14 @@ def test_a_relative_length_is_measured_from_the_other_body() -> None:
     assert head.shape.commands[0][1][0] == pytest.approx(carts[1])
 
 
+def test_an_absolute_length_does_not_go_on_where_another_one_ends() -> None:
+    """In the pose of the relative model, the second cart rests where the first one is seen."""
+    scene = built_in.system("lecture-3a").look(pose={"x1": 0.72, "x2": 1.44}).scene
+    spots = {x.elements[0]: x.shape.commands for x in scene.parts if x.kind == "coordinate" and not x.solid}
+    heights = [spots[name][0][1][1] for name in ("x1", "x2")]
+    assert abs(heights[0] - heights[1]) > 10
+
+
 def test_a_wheel_has_its_radius_and_touches_its_floor() -> None:
     system = built_in.system("rolling-cylinder")
     scene = system.look().scene

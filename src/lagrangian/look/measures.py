@@ -103,15 +103,21 @@ class MeasureArtist:
         start = end - along * e
         if abs(along) < 12.0:
             start = end - 40.0 * e
-        n, off = self._side(k, start, end, e, part)
+        n, off = self._side(k, start, end, e, part, bool(h))
         mark_a, mark_b = start + off * n, end + off * n
         self._arrow(mark_a, mark_b, name)
         if h:
             self._thin(board.at(h), mark_a + 5 * n)
         self._thin(end, mark_b + 5 * n)
 
-    def _side(self, k: int, start: Array, end: Array, e: Array, part: Player | None) -> tuple[Array, float]:
-        """On which side of a body the arrow of its length lies, and how far away: where it meets the least."""
+    def _side(
+        self, k: int, start: Array, end: Array, e: Array, part: Player | None, relative: bool
+    ) -> tuple[Array, float]:
+        """On which side of a body the arrow of its length lies, and how far away: where it meets the least.
+
+        Only an arrow that counts from another body may go on where one ends.
+        """
+        inward = 0.1 * (end - start) if relative else -8.0 * e
         vertical = abs(e[1]) > 0.96
         n = np.array([1.0, 0.0]) if vertical else np.array([e[1], -e[0]]) if e[0] > 0 else np.array([-e[1], e[0]])
         near, far = self._distances(k, vertical, abs(e[1]) > 0.04, part)
@@ -122,7 +128,7 @@ class MeasureArtist:
 
         def cost(option: tuple[Array, float, float]) -> float:
             m, off, price = option
-            return price + self._met(start + off * m, end + off * m)
+            return price + self._met(start + off * m, end + off * m, inward)
 
         m, off, _ = min(options, key=cost)
         self.arrows.append((start + off * m, end + off * m))
@@ -143,14 +149,15 @@ class MeasureArtist:
             return (52.0, 30.0) if sloped else (ABOVE, ABOVE)
         return ABOVE, 58.0
 
-    def _met(self, a: Array, b: Array) -> float:
-        """What an arrow would lie on: lines, bodies, and arrows that are there."""
+    def _met(self, a: Array, b: Array, inward: Array) -> float:
+        """What an arrow would lie on: lines, bodies, and arrows that are there, which its part from ``a + inward`` to
+        ``b - inward`` must not meet."""
         p, q = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
         found = sum(2.0 for s, t in self.board.segments if _crossing(p, q, s, t))
         found += sum(3.0 for box in self.board.boxes if crosses(box, p, q))
         for s, t in self.arrows:
             box = (min(s[0], t[0]) - 6, min(s[1], t[1]) - 10, abs(t[0] - s[0]) + 12, abs(t[1] - s[1]) + 20)
-            inner = [(float(x), float(y)) for x, y in (a + 0.1 * (b - a), b - 0.1 * (b - a))]
+            inner = [(float(x), float(y)) for x, y in (a + inward, b - inward)]
             found += 4.0 if crosses(box, *inner) else 0.0
         return found
 
