@@ -203,6 +203,8 @@ def test_letters_without_room_are_left_out_and_told() -> None:
     for one, two in combinations(found, 2):
         (a, b, w, h), (c, d, u, v) = one.box, two.box
         assert a + w <= c or c + u <= a or b + h <= d or d + v <= b
+
+
 @pytest.mark.parametrize(("d", "rank"), [(3, 2), (40, 0), (40, 31), (40, 40), (60, 7)])
 def test_what_is_at_right_angles_to_columns(d: int, rank: int) -> None:
     """Columns of very different sizes, more than they span: rows as many as are missing, at right angles."""
