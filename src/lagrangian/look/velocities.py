@@ -101,9 +101,9 @@ def complement(columns: Array, least: float = 1e-3) -> Array:
 
 def _orthonormal(columns: Array, least: float, most: int | None = None) -> Array:
     """Orthonormal rows that span the columns: the longest of what is left next, until it is not above ``least``."""
-    rest, most = columns.copy(), min(columns.shape) if most is None else most
-    found = np.zeros((most, len(columns)))
-    for k in range(most):
+    rest, count = columns.copy(), min(columns.shape) if most is None else most
+    found = np.zeros((count, len(columns)))
+    for k in range(count):
         sizes = np.einsum("dn,dn->n", rest, rest)
         longest = int(np.argmax(sizes))
         if sizes[longest] <= least**2:
