@@ -30,6 +30,7 @@ def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> N
     pendulum, sleigh, dyn = names["pendulum"], names["sleigh"], names["dyn"]
     assert str(pendulum.derive().constraints.verdict) == "holonomic: #GC = #DDOF = 1"  # type: ignore[attr-defined]
     assert str(sleigh.derive().constraints.verdict).startswith("nonholonomic by 1")  # type: ignore[attr-defined]
+    assert names["down"]["no slip"] == pytest.approx(-1.118, abs=5e-4)  # type: ignore[index]
     assert len(dyn.assemblies({"crank": 1.0}, fixed="crank")) == 2  # type: ignore[attr-defined]
 
 
