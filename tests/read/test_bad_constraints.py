@@ -111,6 +111,11 @@ BAD = {
         "E305",
         "hold fewer",
     ),
+    "friction on its own row": (
+        '[[friction]]\nmu=0.3\npressed_by="floor"\ndeflection="y"\n[[constraint]]\nname="floor"\nexpression="y"\n',
+        "E310",
+        "friction 1: the row 'floor' presses",
+    ),
     "section of books": ('[[nonholonomic]]\nexpression="x\'"\n', "E405", "mean 'velocity_constraint'"),
     "joint of books": ('[[hinge]]\nbetween=["P","Q"]\n', "E405", "mean 'pin'"),
     "numbered": ('[[constraint]]\nexpression="x\'"\n', "E419", "] constraint 1: the"),

@@ -122,6 +122,17 @@ def test_an_energy_that_is_missed_is_told_with_its_figure(monkeypatch):
     assert float(loose.audit) > 1e-13 and not any(n.code == "E511" for n in loose.notices)  # as it was asked for
 
 
+def test_a_row_that_others_imply_anyway_is_no_position_where_a_linkage_can_branch():
+    s = lg.System("held disc")
+    x, y, phi = s.coordinates("x y phi")
+    centre = s.point("C", (x, y))
+    disc = s.rigid_body(1, 1, at=centre, frame=s.frame(phi, origin=centre))
+    s.rolling(disc, at=s.origin, along=[(1, 0), (0, 1), (1, 1)], name="hold")
+    run = s.simulate(0.1, x=0.3, y=0.2, phi=0.1)
+    assert run.success and run.drift.margin > 0.5
+    assert [n.code for n in (*s.notices, *run.notices)] == ["E306", "E306"]
+
+
 def test_without_projection_the_drift_is_measured():
     run = SYSTEM.simulate(20.0, **RELEASED, method="rk4", step=0.02, project=False)
     assert run.drift.position_before == run.drift.position_after > 1e-6

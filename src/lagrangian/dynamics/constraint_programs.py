@@ -29,6 +29,7 @@ from lagrangian.dynamics.constrained import (
     velocity_correction,
 )
 from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.notices import dependent_rows
 from lagrangian.dynamics.programs import _matrix, _once, _program, _start, _vector
 from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.tape import make_tape
@@ -87,7 +88,7 @@ def projection(model: Model) -> tuple[Program | None, Program | None]:
     def made(step: Correction, *, position: bool) -> Program:
         rest = zeros(graph, len(m.v) if position else len(m.q))
         dx = [*step[0], *rest] if position else [*rest, *step[0]]
-        outputs = {"dx": _vector(dx), **_judged(m, step[1], position=position)}
+        outputs = {"dx": _vector(dx), **_judged(model, m, step[1], position=position)}
         name = "position_projection" if position else "velocity_projection"
         return _program(model, name, graph, outputs, groups=("x",))
 
@@ -109,7 +110,7 @@ def correction(model: Model, fixed: Collection[str] = (), *, position: bool = Tr
     step = (position_correction if position else velocity_correction)(m, held)
     if step is None:
         return None
-    outputs = {"dq" if position else "dv": _vector(step[0]), **_judged(m, step[1], position=position)}
+    outputs = {"dq" if position else "dv": _vector(step[0]), **_judged(model, m, step[1], position=position)}
     return _program(model, "position_correction" if position else "velocity_correction", graph, outputs)
 
 
@@ -181,13 +182,16 @@ def forward_dual(model: Model) -> Program:
     return _program(model, "forward_dual", graph, {"a": _vector(a), "lam": _vector(lam)})
 
 
-def _judged(m: Mechanics, solution: RowSolution, *, position: bool) -> Mapping[str, Output]:
-    """The gap before a correction, and the margin of its rows."""
+def _judged(model: Model, m: Mechanics, solution: RowSolution, *, position: bool) -> Mapping[str, Output]:
+    """The gap before a correction, and the least margin of its rows, without those that others imply in any case."""
+    repeated = dependent_rows(model)
     rows = position_rows(m) if position else m.rows
     values = [row.residual or m.graph.zero for row in rows] if position else [row.rate for row in rows]
     return {
         "gap": _number(gap(m, rows, values)),
-        "margin": _number(least(m.graph, solution.margins[: len(rows)])),
+        "margin": _number(
+            least(m.graph, [x for row, x in zip(rows, solution.margins, strict=False) if row.name not in repeated])
+        ),
     }
 
 

@@ -27,6 +27,7 @@ from lagrangian.dynamics.rows import Drag
 from lagrangian.dynamics.vectors import Matrix, Vector, bare, dot
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
+from lagrangian.model import Friction
 from lagrangian.model.without_friction import advice_for
 from lagrangian.records import dataclass
 
@@ -57,7 +58,7 @@ class AttachedDrag:
         """A friction with its rate's own node, whatever its sign; ``rows`` are the names of the rows that are kept."""
         for row in drag.rows:
             if row not in rows:
-                raise undetermined(row)
+                raise undetermined(row, drag.friction)
         node, negative = bare(graph, drag.rate)
         sign = graph.negative if negative else graph.one
         return cls(node, sign, slip_factor(drag), tuple(rows.index(row) for row in drag.rows))
@@ -76,10 +77,12 @@ def slip_factor(drag: Drag) -> int:
     return drag.factor
 
 
-def undetermined(row: str) -> ModelError:
-    """The error about a normal force that the equations leave open."""
+def undetermined(row: str, friction: Friction) -> ModelError:
+    """The error about the normal force of a friction that the equations leave open."""
     return ModelError(
         f"the row '{row}' presses on friction and follows from other rows: its share of their force cannot be told",
+        element=friction.title,
+        place=friction.place,
         fix="leave out the rows that say the same, or give the normal force as an expression",
         code="E310",
     )

@@ -203,8 +203,9 @@ def _states(seen: Observed, model: Model, modes: Modes) -> list[_State]:
 def _check_split(model: Model, modes: Modes, left_out: Iterable[str]) -> None:
     """Refuse frictions whose shares of one force cannot be told."""
     stuck = [f for f, mode in zip(model.frictions, modes, strict=False) if not mode]
-    if left_out and not set(pressing_rows(model)).isdisjoint(left_out):
-        raise undetermined(next(iter(left_out)))
+    for f in model.frictions:
+        for row in set(f.pressing).intersection(left_out):
+            raise undetermined(row, f)
     if stuck and left_out:
         names = " and ".join(f"'{name}'" for name in (*(f.name for f in stuck), *left_out))
         raise ModelError(

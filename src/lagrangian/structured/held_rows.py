@@ -62,8 +62,10 @@ def slips(m: Mechanics, found: Collection[ListedRow]) -> list[tuple[Drag, int]]:
     Raises `ModelError` (E310) where such a row is not among those that count: its multiplier is then not unique.
     """
     known = {tie.row.name: tie.multiplier for tie in found}
-    for row in (row for drag in m.drags for row in drag.rows if row not in known):
-        raise undetermined(row)
+    for drag in m.drags:
+        for row in drag.rows:
+            if row not in known:
+                raise undetermined(row, drag.friction)
     return slipping_by(m.graph, m.drags, known)
 
 
