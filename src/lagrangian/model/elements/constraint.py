@@ -82,7 +82,9 @@ class Restriction(Element):
         """A direction that is not zero."""
         found = as_vector(given, f"{key} of {self.title}", place=self.place)
         if not any(found):
-            raise self._error(f"{key} is zero, so it is no direction", fix=f"{key}=(1, 0)", code="E409")
+            raise self._error(
+                f"{key} is zero, so it is no direction", fix="components that are not all 0, such as 1, 0", code="E409"
+            )
         return found
 
 
@@ -139,7 +141,7 @@ class Constraint(Restriction):
             raise self._error(
                 "give either two points or an expression"
                 + (" (got both)" if self.between is not None else " (got neither)"),
-                fix="between=(P, Q), with distance=l where they do not coincide; or an expression that is zero",
+                fix="two points in between, with a distance if they do not coincide; or an expression that is zero",
                 code="E412",
             )
         if self.expression is not None:

@@ -137,11 +137,11 @@ class Pin(TurningJoint):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not self.space and self.axis is not None:
-            raise self._error("a pin in the plane has no axis", fix="pin((P, Q))", code="E414")
+            raise self._error("a pin in the plane has no axis", fix="leave the axis out", code="E414")
         if self.space and self.axis is None:
             raise self._error(
                 "a pin in space needs its axis",
-                fix="pin((P, Q), axis=(0, 0, 1)); a joint that turns any way is ball((P, Q))",
+                fix="three components, such as 0, 0, 1; a joint that turns any way is a ball",
                 code="E414",
             )
         if self.axis is not None:

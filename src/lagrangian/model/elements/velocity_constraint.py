@@ -43,7 +43,7 @@ class Slipless(Restriction):
         if any(len(d) != self.body.frame.dimension for d in directions):
             raise self._error(
                 f"a direction of {self.body.title} needs {self.body.frame.dimension} components",
-                fix="along=(1, 0) in the plane, along=[(1, 0, 0), (0, 1, 0)] in space",
+                fix="components such as 1, 0 in the plane and 1, 0, 0 in space, or a list of such directions",
                 code="E414",
             )
         if len(directions) > 3:
@@ -126,7 +126,7 @@ class VelocityConstraint(Slipless):
             raise self._error(
                 "give either an expression, or at, body and along"
                 + (f" (got {', '.join(contact)})" if contact else " (got neither)"),
-                fix="an expression that is zero, such as x' - r*phi'; or at=P, body=disc, along=(1, 0)",
+                fix="an expression that is zero, such as x' - r*phi'; or 'body', 'at' and 'along'",
                 code="E412",
             )
         if self.expression is None:
