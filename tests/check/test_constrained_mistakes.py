@@ -209,7 +209,6 @@ FORCE = "lambda = -m/(2 l^2)*(g l cos theta + l^2 theta'^2)"
     [
         ("theta'' = -g/l sin theta\n" + FORCE.replace(" + l^2 theta'^2", ""), "at rest, but not in motion"),
         ("theta'' = -g/l sin theta\n" + FORCE.replace("cos theta +", "cos theta -"), "Line 4 holds at rest"),
-        ("theta'' = -g/l cos theta\n" + FORCE, "with g = 0: what differs is what gravity adds"),
         (
             "m l theta'' cos theta = 2 lambda l sin theta\nm l theta'' sin theta = -m g - 2 lambda l cos theta",
             "The equations hold at rest",  # without the squares of the rates
@@ -228,3 +227,22 @@ def test_slopes_by_an_angle_of_the_answer_are_not_judged(bob: lg.Derivation) -> 
     slopes = "T = m l^2 theta'^2/2\ndL/dtheta' = m l^2 theta'\n"
     assert bob.check(ON_CIRCLE + slopes + "theta'' = -g/l sin theta\n" + FORCE).right
     assert not bob.check(ON_CIRCLE + slopes + "theta'' = g/l sin theta\n" + FORCE).right
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("theta'' = -g/l cos theta\n" + FORCE, "Sine and cosine are exchanged in V."),
+        (
+            "T = m l^2 theta'^2\nV = -m g l cos theta\n2 m l^2 theta'' + m g l sin theta = 0",
+            "The ½ is missing in every kinetic energy.",
+        ),
+    ],
+)
+def test_mistakes_in_an_angle_of_the_answer_are_those_of_a_system_without_constraints(
+    bob: lg.Derivation, answer: str, said: str
+) -> None:
+    verdict = bob.check(ON_CIRCLE + answer)
+    (mistake,) = verdict.mistakes
+    assert said in str(mistake.what), str(mistake.what)
+    assert "Read with x = l sin θ, y = −l cos θ." in str(verdict)

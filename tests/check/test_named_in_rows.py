@@ -7,6 +7,7 @@ import sympy as sp
 
 import lagrangian as lg
 from built_in import derivation
+from lagrangian.model import time
 
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
@@ -162,3 +163,12 @@ def test_a_wrong_ratio_of_a_spring_and_the_damper_beside_it_is_told_once() -> No
     rows = "J*a'' + n*d*(n*a' - b') + n*c*(n*a - b) = 0\nJ*b'' - d*(n*a' - b') - c*(n*a - b) = 0"
     first, second = s.derive().check(wrong + rows).mistakes
     assert "wrong side of the fraction line" in str(first.what) and "'bearing' is missing" in str(second.what)
+
+
+def test_coordinates_with_other_names_are_told_by_these_names() -> None:
+    rows = f"{CART} = F\n{POLE.replace('*x', '*2*x')} = 0".replace("theta", "alpha")
+    verdict = derivation("cart-pole").check(rows)
+    (mistake,) = verdict.mistakes
+    assert "alpha" in str(mistake.what) and mistake.coordinate in ("alpha", None), str(mistake.what)
+    (difference,) = verdict.findings[1].differences
+    assert difference.term.has(sp.Function("alpha")(time)) and difference.coordinate == "alpha"

@@ -5,7 +5,7 @@ All variants are computed at once, on one graph: ΔW_i = d/dt ∂ΔT/∂ξ̇_i �
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cached_property, lru_cache
 from types import ModuleType
 
@@ -16,6 +16,7 @@ from lagrangian import bounded
 from lagrangian.check.misconceptions import MISCONCEPTIONS, Ingredients, Variant
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Mistake
+from lagrangian.derive import Derived
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
@@ -72,7 +73,6 @@ class Effects:
 
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
-        self.ingredients = Ingredients(truth.derivation)
         self.graph = CompiledExpressions([])
         c = truth.model.coordinates
         self._q = [self.graph.input(x.symbol) for x in c]
@@ -80,19 +80,10 @@ class Effects:
         self._a = [self.graph.input(x.acceleration) for x in c]
         self._moving = dict(zip((*self._q, *self._v), (*self._v, *self._a), strict=True))
         self._moving[self.graph.input(time)] = self.graph.graph.one
-        self.left = WORK
-        self.wrongs = tuple(w for w in self._variants() if self._added(w))
-
-    def _variants(self) -> Iterator[Wrong]:
-        if too_long(self.truth):
-            return
-        for rank, module in enumerate(MISCONCEPTIONS):
-            for variant in module.wrong(self.ingredients):
-                self.left -= _operations(variant)
-                if self.left < 0:
-                    self.truth.tried_all = False
-                    return
-                yield Wrong(module, variant, rank)
+        variants = () if too_long(truth) else _variants(truth.derivation)
+        if variants and variants[-1] is None:
+            truth.tried_all = False
+        self.wrongs = tuple(w for w in variants if w is not None and self._added(w))
 
     def _added(self, wrong: Wrong) -> bool:
         """Add the nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of a variant; return False if it divides by 0 and is therefore not
@@ -160,6 +151,26 @@ class Effects:
         """1 for the variants that are visible in a line of this kind, which excludes those of single equations."""
         shown = [key in w.variant.stated and w.variant.only is None for w in self.wrongs]
         return np.array(shown, dtype=float)[:, None]
+
+
+@lru_cache(maxsize=16)
+def ingredients_of(derivation: Derived) -> Ingredients:
+    """The ingredients of a derivation's equations, collected once."""
+    return Ingredients(derivation)
+
+
+@lru_cache(maxsize=16)
+def _variants(derivation: Derived) -> tuple[Wrong | None, ...]:
+    """The variants of all misconceptions in a system, whatever its values; None at the end if some were left out."""
+    found: list[Wrong | None] = []
+    left = WORK
+    for rank, module in enumerate(MISCONCEPTIONS):
+        for variant in module.wrong(ingredients_of(derivation)):
+            left -= _operations(variant)
+            if left < 0:
+                return (*found, None)
+            found.append(Wrong(module, variant, rank))
+    return tuple(found)
 
 
 def too_long(truth: Reference) -> bool:

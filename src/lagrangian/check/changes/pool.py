@@ -11,7 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from lagrangian.check.align import LARGEST
-from lagrangian.check.candidates import Effects, Wrong, effects_of
+from lagrangian.check.candidates import Effects, Wrong, effects_of, ingredients_of
 from lagrangian.check.changes.change import LocalChange
 from lagrangian.check.changes.deflections import DeflectionChanges
 from lagrangian.check.changes.geometry import GeometryChanges
@@ -23,6 +23,7 @@ from lagrangian.check.changes.slopes import AtomSlopes
 from lagrangian.check.changes.sums import SumChanges
 from lagrangian.check.changes.work import WorkChanges
 from lagrangian.check.reference import Reference
+from lagrangian.derive import Derived
 from lagrangian.derive.sampling import Array
 from lagrangian.records import dataclass
 
@@ -56,8 +57,10 @@ class Pool:
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
         self.effects: Effects = effects_of(truth)
-        self.sites = Sites(self.effects.ingredients)
-        changes = sorted(self._within_reach(), key=lambda c: c.cost)[:MOST]
+        made = _changes_of(truth.derivation)
+        self.sites, changes = made.sites, made.changes
+        if not made.all:
+            truth.tried_all = False
         W, T, V, Xi = self._values(changes)
         e = self.effects
         self.all = [Possible(c.cost, change=c) for c in changes]
@@ -105,35 +108,6 @@ class Pool:
             self._kept[key] = make()
         return self._kept[key]
 
-    def _changes(self) -> Iterator[LocalChange]:
-        sites = self.sites
-        letters = LetterChanges(sites)
-        deflections = DeflectionChanges(sites, letters.lengths)
-        parts, wholes = [*sites.parts(), *deflections.parts()], list(sites.wholes())
-        terms, rows = list(sites.terms()), list(sites.in_rows())
-        yield from scales(sites.n, [*parts, *wholes, *terms, *rows])
-        yield from letters.exchanges([*parts, *wholes])
-        yield from letters.changes([*parts, *wholes, *terms, *rows])
-        yield from letters.factors([*parts, *terms, *rows])
-        yield from GeometryChanges(sites, letters.lengths).changes()
-        yield from deflections.changes()
-        yield from SumChanges(sites, letters.lengths).changes()
-        yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
-
-    def _within_reach(self) -> Iterator[LocalChange]:
-        """The changes until their sums are too long together; the reference says if some were left out."""
-        left = MONOMIALS
-        try:
-            for change in self._changes():
-                left -= sum(map(len, change.effect.sums()))
-                if left < 0:
-                    break
-                yield change
-        except TooLong:
-            left = -1
-        if left < 0:
-            self.truth.tried_all = False
-
     def _values(self, changes: Sequence[LocalChange]) -> tuple[Array, Array, Array, Array]:
         """The effects of local changes on the rows, T*, V and Ξ."""
         truth, n, size, count = self.truth, self.truth.n, self.truth.states.size, len(changes)
@@ -170,6 +144,48 @@ def _table(sums: Sequence[Sum]) -> tuple[list[Monomial], sparse.csr_matrix]:
             columns.append(index.setdefault(m, len(index)))
             values.append(float(c))
     return list(index), sparse.csr_matrix((values, (rows, columns)), shape=(len(sums), len(index)))
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """The local changes of a derivation, the likeliest first, and their sites; ``all``: none was left out."""
+
+    sites: Sites
+    changes: Sequence[LocalChange]
+    all: bool
+
+
+@lru_cache(maxsize=16)
+def _changes_of(derivation: Derived) -> Changes:
+    """The changes of a derivation, whatever the values of its parameters and the states where they are compared."""
+    sites = Sites(ingredients_of(derivation))
+    found: list[LocalChange] = []
+    left = MONOMIALS
+    try:
+        for change in _every(sites):
+            left -= sum(map(len, change.effect.sums()))
+            if left < 0:
+                break
+            found.append(change)
+    except TooLong:
+        left = -1
+    return Changes(sites, sorted(found, key=lambda c: c.cost)[:MOST], left >= 0)
+
+
+def _every(sites: Sites) -> Iterator[LocalChange]:
+    """Every change, until their sums are too long."""
+    letters = LetterChanges(sites)
+    deflections = DeflectionChanges(sites, letters.lengths)
+    parts, wholes = [*sites.parts(), *deflections.parts()], list(sites.wholes())
+    terms, rows = list(sites.terms()), list(sites.in_rows())
+    yield from scales(sites.n, [*parts, *wholes, *terms, *rows])
+    yield from letters.exchanges([*parts, *wholes])
+    yield from letters.changes([*parts, *wholes, *terms, *rows])
+    yield from letters.factors([*parts, *terms, *rows])
+    yield from GeometryChanges(sites, letters.lengths).changes()
+    yield from deflections.changes()
+    yield from SumChanges(sites, letters.lengths).changes()
+    yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
 
 
 FORGOTTEN = (

@@ -1,0 +1,163 @@
+"""Judges the lines of an answer one by one, and its equations together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from lagrangian.check.beside import beside
+from lagrangian.check.consequences import follow_from_above
+from lagrangian.check.coordinates import ProposedChange
+from lagrangian.check.difference import Likeness, differences, likeness, paired
+from lagrangian.check.energy_theorem import is_energy_theorem, note_on
+from lagrangian.check.numerators import multiplied
+from lagrangian.check.reference import Reference
+from lagrangian.check.row_words import findings_of, name_of
+from lagrangian.check.rows import Kind, RowComparison, compare
+from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
+from lagrangian.derive.algebra import Form
+from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """The findings for all lines, and the overall verdict."""
+
+    status: Status
+    findings: tuple[Finding, ...]
+    comparison: RowComparison
+    notes: tuple[Text, ...] = ()
+
+    @property
+    def combination(self) -> tuple[tuple[sp.Expr, ...], ...] | None:
+        """The factors of the right equations in those of the answer, if all were found."""
+        rows = [r for r in self.comparison.rows if r.kind is not Kind.NOTHING]
+        return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
+
+
+def judged_lines(
+    truth: Reference, lines: Sequence[AnsweredLine], change: ProposedChange | None = None, *, compared: bool = True
+) -> Judged:
+    """Judge every line, and the equations together; with a change, everything is converted to the system's
+    coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
+    moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
+    turn = change.turn(truth) if change is not None else None
+    truth = truth.within(change.region(truth)) if change is not None else truth
+    equations = [line for line in moved if line.kind == "equation"]
+    comparison = compare(truth, [line.expr for line in equations])
+    moved, aside = beside(truth, moved, comparison)
+    if aside:
+        equations = [line for line in moved if line.kind == "equation"]
+        comparison = compare(truth, [line.expr for line in equations])
+    above = given(truth, moved)
+    told = _equations(truth, equations, comparison, above) if compared else findings_of(truth, equations, comparison)
+    found = dict(zip(map(id, equations), told, strict=True))
+    findings: list[Finding] = []
+    for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
+        if line.kind in ("definition", "statement"):
+            continue
+        finding = found[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
+        findings.append(replace(finding, line=own))
+    return Judged(*_overall(truth, comparison, findings), comparison, (*_missing(truth, comparison), *aside))
+
+
+def _overall(
+    truth: Reference, comparison: RowComparison, findings: Sequence[Finding]
+) -> tuple[Status, tuple[Finding, ...]]:
+    """The overall verdict: that of the worst line, or that of the equations together."""
+    statuses = [f.status for f in findings if f.line.kind != "equation"]
+    if comparison.rows:
+        statuses.append(of_equations(truth, comparison))
+    order = list(Status)
+    worst = max(statuses, key=order.index, default=Status.INCOMPLETE)
+    return worst, tuple(findings)
+
+
+def of_equations(truth: Reference, comparison: RowComparison) -> Status:
+    """The verdict on a set of equations."""
+    rows = [r for r in comparison.rows if r.kind is not Kind.NOTHING]
+    if any(r.kind is Kind.WRONG for r in rows):
+        return Status.WRONG
+    if comparison.rank < truth.n:
+        return Status.INCOMPLETE
+    kinds = {r.kind for r in rows}
+    if kinds == {Kind.SAME} and [r.index for r in rows] == list(range(truth.n)):
+        return Status.RIGHT
+    if kinds <= {Kind.SAME, Kind.SCALED, Kind.COMBINED}:
+        return Status.EQUIVALENT
+    return Status.SAME_MOTION
+
+
+def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
+    """What is missing in a set of right equations that is too small, in words."""
+    rows = comparison.rows
+    if not rows or comparison.rank >= truth.n or any(r.kind is Kind.WRONG for r in rows):
+        return ()
+    count = "one" if truth.n == 1 else str(truth.n)
+    plural = "" if truth.n == 1 else "s"
+    notes = [
+        text(
+            f"A system with {count} generalized coordinate{plural} has {count} equation{plural} of motion; yours say ",
+            f"{comparison.rank} independent thing{'' if comparison.rank == 1 else 's'}.",
+        )
+    ]
+    said = {r.index for r in rows if r.index is not None}
+    if len(said) == comparison.rank:
+        for i, c in enumerate(truth.model.coordinates):
+            if i not in said:
+                notes.append(text("The equation of ", c.symbol, " is missing."))
+    return tuple(notes)
+
+
+# -- equations --------------------------------------------------------------------------------------------------------
+
+
+def _equations(
+    truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison, above: StatedQuantity
+) -> list[Finding]:
+    """The findings for every equation; a wrong one is compared with the right equation that it resembles most."""
+    taken = [r.index for r in comparison.rows if r.true and r.index is not None]
+    wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
+    solved = {j: pair for j in wrong if (pair := multiplied(truth, lines[j].expr)) is not None}
+    forms = {j: None if is_energy_theorem(truth, x := lines[j].expr) else truth.form(x) for j in wrong}
+    follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
+    follow |= dict.fromkeys(follow_from_above(truth, [line.expr for line in lines], wrong), True)
+    pairs: dict[int, Likeness | None] = {}
+    for later in (False, True):  # the same equations once more do not take the places of the first ones
+        some = [j for j in wrong if follow[j] is later]
+        pairs |= zip(some, paired([likeness(forms[j], truth.forms) for j in some], taken), strict=True)
+    found = findings_of(truth, lines, comparison)
+    for j in wrong:
+        line, like, form = lines[j], pairs[j], forms[j]
+        others = [_differing(truth, form, truth.forms[like.index], like)] if like is not None else []
+        if j in solved and like is not None:
+            accelerations = [c.acceleration for c in truth.model.coordinates]
+            alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
+            others.insert(0, _differing(truth, *(truth.form(x) for x in solved[j]), alone))
+        told = [x for x in others if x is not None]
+        if not told:
+            found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
+            continue
+        # solved for its acceleration, or an equation that lacks another one
+        index, differing = min(told, key=lambda x: (not x[1], len(x[1])))
+        name = name_of(truth, index)
+        found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
+    return found
+
+
+def _differing(
+    truth: Reference, form: Form | None, right: Form | None, like: Likeness
+) -> tuple[int, tuple[TermDifference, ...]] | None:
+    """The right equation that one is compared with, and the terms that differ; None for one without a normal form."""
+    if form is None or right is None:
+        return None
+    return like.index, differences(truth, form, right, like.factor, like.index)
+
+
+def _elements(truth: Reference, index: int) -> tuple[str, ...]:
+    """The elements that add to a right equation."""
+    return tuple(dict.fromkeys(e for term in truth.derivation.terms[index] for e in term.elements))

@@ -1,0 +1,150 @@
+"""A system with constraints in coordinates of an answer's own that satisfy these: there it has none.
+
+x = X + l sin θ and y = −l cos θ make (x − X)² + y² = l² hold. In X and θ the system is one without constraints, and the
+mistakes of its energies and equations are named as in any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.coordinates import ProposedChange
+from lagrangian.check.reference import Reference
+from lagrangian.check.relations import solutions
+from lagrangian.check.stated_coordinates import InStatedCoordinates
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.coordinates import Carrier, Change
+from lagrangian.derive import derive
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.errors import ModelError
+from lagrangian.model import Coordinate, Element, time
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import text
+
+SMALL = 1e-9
+"""The size, relative to 1, below which the value of a constraint is rounding."""
+OF_OLD = ("Xi", "p", "p-rate", "slope", "left")
+"""The kinds of lines that belong to one coordinate."""
+
+
+def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
+    """The answer in its own coordinates, in which the constraints hold by themselves; None if it has no such.
+
+    The answer says what they are, x = X + l sin θ, or they are angles that step 0 proposes.
+    """
+    own = {c.symbol for c in truth.model.coordinates}
+    turned = {d.expr for line in lines for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    new = sorted((x for x in turned - own if isinstance(x, AppliedUndef)), key=str)
+    if not new or any(row.position is None for row in rows_of(truth.model)):
+        return None
+    for table in _tables(truth, lines, new):
+        kept = [c for c in truth.model.coordinates if c.symbol not in table]
+        if len(kept) + len(new) != truth.n - len(rows_of(truth.model)):
+            continue
+        other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
+        if other is not None:
+            every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
+            known = {
+                time,
+                *(x.symbol for x in (*other.model.parameters, *other.model.coordinates, *other.model.inputs)),
+            }
+            unknown = every - known - own
+            change = ProposedChange(table, _words(table), True)
+            return InStatedCoordinates(other, tuple(_moved(lines, change, table, unknown)), change)
+    return None
+
+
+def _tables(
+    truth: Reference, lines: Sequence[AnsweredLine], new: Sequence[sp.Expr]
+) -> Iterator[dict[sp.Expr, sp.Expr]]:
+    """What the coordinates that go are in the others: as the answer says, or as step 0 proposes."""
+    named = {c.name: c.symbol for c in truth.model.coordinates}
+    said = {named[str(x.name)]: x.expr for x in lines if x.kind == "definition" and str(x.name) in named}
+    said = {q: value for q, value in said.items() if value.has(*new) and not value.has(q)}
+    if said:
+        yield cast("dict[sp.Expr, sp.Expr]", said)
+    constraints = truth.derivation.constraints
+    if constraints is None or len(new) != 1:
+        return
+    for way in constraints.proposals:
+        if way.new is not None:
+            proposed = {q: cast("sp.Expr", value.xreplace({way.new: new[0]})) for q, value in way.written}
+            yield _of_unwritten(truth, lines, proposed)
+
+
+def _of_unwritten(
+    truth: Reference, lines: Sequence[AnsweredLine], table: dict[sp.Expr, sp.Expr]
+) -> dict[sp.Expr, sp.Expr]:
+    """A table for coordinates that no line accelerates: of X = x − l sin θ, x = X + l sin θ if X″ is written."""
+    moved = {d.expr for line in lines for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    found: dict[sp.Expr, sp.Expr] = {}
+    for q, value in table.items():
+        others = [c.symbol for c in truth.model.coordinates if value.has(c.symbol) and c.symbol not in moved]
+        solved = solutions(value - q, others[0]) if q in moved and others else []
+        found |= {others[0]: solved[0]} if solved else {q: value}
+    return found
+
+
+def _reference(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    """The reference in these coordinates, made once; None if the constraints do not hold in them."""
+    key = tuple(table.items())
+    known = truth.others
+    if key not in known:
+        known[key] = _made(truth, table, coordinates)
+    return known[key]
+
+
+def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    model = truth.model
+    whole: dict[Any, sp.Expr] = {c.symbol: table.get(c.symbol, c.symbol) for c in model.coordinates}
+    try:
+        found = _Free(model, Change(model.coordinates, tuple(coordinates), whole), model.name).built().model()
+        other = Reference(derive(found), truth.values)
+    except ModelError:
+        return None
+    rows = [cast("sp.Expr", truth.expand(cast("sp.Expr", r.position)).xreplace(table)) for r in rows_of(model)]
+    values = CompiledExpressions(rows).at(other.states)
+    return other if np.isfinite(values).all() and np.abs(values).max() <= SMALL else None
+
+
+class _Free(Carrier):
+    """Carries a model over without its constraints and settings of runs."""
+
+    def elements(self, element: Element) -> Iterator[Element]:
+        """The element in the new coordinates, nothing for a constraint."""
+        if element.ledger != "λ":
+            yield from super().elements(element)
+
+    def settle(self) -> None:
+        """Nothing: no run starts here."""
+
+
+def _moved(
+    lines: Sequence[AnsweredLine], change: ProposedChange, table: dict[sp.Expr, sp.Expr], unknown: set[Any]
+) -> Iterator[AnsweredLine]:
+    """The lines with the coordinates that go written out; what says nothing then, or has a multiplier, is none."""
+    gone = {str(cast("AppliedUndef", q).func) for q in table}
+    for line in lines:
+        if line.kind in ("definition", "statement"):
+            continue
+        slopes = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
+        names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+        if slopes or names & unknown or (line.kind in OF_OLD and line.name in gone):
+            yield replace(line, kind="statement")
+            continue
+        moved = replace(line, expr=change.put(line.expr))
+        holds = line.kind in ("equation", "identity") and sp.expand_trig(moved.expr).expand() == 0
+        yield replace(moved, kind="statement") if holds else moved
+
+
+def _words(table: dict[sp.Expr, sp.Expr]) -> Any:
+    parts: list[Any] = []
+    for q, value in table.items():
+        parts += [q, " = ", value, ", "]
+    return text("with ", *parts[:-1])
