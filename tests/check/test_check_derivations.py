@@ -149,3 +149,24 @@ def test_equations_follow_from_wrong_energies_beside_a_dissipation_function(wron
     assert all(f.follows or f.status.right for f in verdict.findings if f.line.kind == "equation")
     said_first, *more = [str(m.what) for m in verdict.mistakes]
     assert said in said_first and len(more) == 0, (said_first, more)
+
+
+def test_a_force_that_is_right_elsewhere_is_not_explained() -> None:
+    """Q_1 may be meant as that of another coordinate."""
+    verdict = derived("lecture-3b").check("Xi_x1 = 0\nXi_x1 = F")
+    assert not verdict.right and not verdict.mistakes
+
+
+def test_letters_exchanged_in_springs_and_dampers_are_one_mistake() -> None:
+    s = lg.System("beam")
+    z, p = s.coordinates("z p")
+    M, J, k, e, b, d = s.parameters("M J k e b d")
+    a, c = (s.parameter(x, unit="m") for x in ("a", "c"))
+    s.rigid_body(M, J, at=s.origin + (0, z), frame=s.frame(p, name="beam"), name="beam")
+    for size, along, name in ((k, z + a * p, "front"), (e, z - c * p, "rear")):
+        s.spring(size, deflection=along, name=f"{name} spring")
+    s.damper(b, deflection=z + a * p, name="front damper")
+    s.damper(d, deflection=z - c * p, name="rear damper")
+    lines = "T = M*z'^2/2 + J*p'^2/2\nV = k*(z + c*p)^2/2 + e*(z - a*p)^2/2\nD = b*(z' + c*p')^2/2 + d*(z' - a*p')^2/2"
+    (mistake,) = s.derive().check(lines).mistakes
+    assert mistake.name == "exchanged" and "whole derivation" in str(mistake.what), str(mistake.what)

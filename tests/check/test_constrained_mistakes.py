@@ -146,7 +146,7 @@ def trolley() -> lg.Derivation:
 def test_a_wrong_constraint_is_one_mistake_with_the_factors_that_follow(trolley: lg.Derivation) -> None:
     rows = "M*s'' + k*s = 0\nm*x'' = 2*lambda*x\nm*y'' = 2*lambda*y - m*g"
     (mistake,) = trolley.check(f"x^2 + y^2 = l^2\n{rows}").mistakes
-    assert mistake.name == "constraint_wrong" and "follow from it" in str(mistake.what)
+    assert mistake.name == "constraint_wrong" and "s is left out. The factors" in str(mistake.what)
 
 
 def test_a_multiplier_with_another_factor_in_one_equation_is_one_mistake(trolley: lg.Derivation) -> None:

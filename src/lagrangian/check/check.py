@@ -23,7 +23,7 @@ from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.relations import relations, without_relations
-from lagrangian.check.renamed import Names, names_only
+from lagrangian.check.renamed import OwnNames, names_only
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.special_cases import with_special_case
@@ -208,7 +208,7 @@ def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdi
     found = _in_these(truth, lines, change, spelling.notes, verdict)
     if found is None:
         return None
-    names, written = Names(change.table), dict(zip(map(id, lines), own, strict=True))
+    names, written = OwnNames(change.table), dict(zip(map(id, lines), own, strict=True))
     findings = [replace(names.finding(f), line=written.get(id(f.line), f.line)) for f in found.findings]
     told, others = (tuple(map(names.mistake, x)) for x in (found.mistakes, found.alternatives))
     return replace(found, findings=tuple(findings), mistakes=told, alternatives=others)
@@ -219,12 +219,19 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     if verdict.status is not Status.WRONG or (own := without_constraints(truth, lines)) is None:
         return None
     wrong = {(f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG}
-    if any((line.number, line.text) in wrong and line.kind == "statement" for line in own.lines):
+    unjudged = {(line.number, line.text): line.expr == 0 for line in own.lines if line.kind == "statement"}
+    if any(not unjudged.get(key, True) for key in wrong):
         return None
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
     if found is None or not found.mistakes:
         return None
     there = {(f.line.number, f.line.text): f for f in found.findings}
+    held = text("true where the constraints hold")
+    there |= {
+        (f.line.number, f.line.text): replace(f, status=Status.RIGHT, note=held)
+        for f in verdict.findings
+        if unjudged.get((f.line.number, f.line.text))
+    }
     findings = [there.get((f.line.number, f.line.text), f) for f in verdict.findings]
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
 

@@ -196,7 +196,8 @@ def _said(ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
             return ("the term ", what, " is missing.")
         if found.order == 2 and not any(_accelerates(ring, m) for m in missing):
             return ("the terms with products of rates, ", what, ", are missing.")
-        return None
+    if left_out := _left_out(ring, found):
+        return (left_out, " is left out.")
     turned = {m: c for m, c in found.right.items() if difference.get(m) == -2 * c}
     if turned and len(turned) == len(difference):
         if len(turned) > 1 and (found.order < 2 or any(_accelerates(ring, m) for m in turned)):
@@ -204,6 +205,16 @@ def _said(ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
         be = "has" if len(turned) == 1 else "have"
         return ("the term " if be == "has" else "the terms ", ring.expr(scaled(turned, -1)), f" {be} the wrong sign.")
     return _one(ring, found, difference)
+
+
+def _left_out(ring: SumRing, found: _Compared) -> sp.Expr | None:
+    """The coordinate without which a constraint is what is written."""
+    for a in {a for m in found.right for a, _ in m}:
+        if isinstance(ring.atoms[a], AppliedUndef) and found.written == {
+            m: c for m, c in found.right.items() if all(x != a for x, _ in m)
+        }:
+            return ring.atoms[a]
+    return None
 
 
 def _one(ring: SumRing, found: _Compared, difference: Sum) -> tuple[Any, ...] | None:

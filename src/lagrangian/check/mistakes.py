@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check import say
 from lagrangian.check.align import Alignment, alignments
@@ -71,7 +73,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
 
     A mistake that would be visible in a line that is right is not considered.
     """
-    wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows]
+    wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     pool = pool_of(truth)
@@ -104,6 +106,15 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
     return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
+
+
+def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
+    """Whether a wrong line may have been meant otherwise: a Ξ that is right elsewhere, or what was not read."""
+    line = finding.line
+    if any(str(x.func).startswith("⟨") for x in line.expr.atoms(AppliedUndef)):
+        return True
+    same = [f for f in findings if f.line.kind == line.kind == "Xi" and f.line.name == line.name]
+    return any(f.status.right for f in same)
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
@@ -268,6 +279,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
             others = [e for e in others if reach(e) < reach(best) + SPARED]
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
+    chosen = _joined(pool, chosen)
     every = [_mistake(pool.truth, t, a) for t, a in chosen]
     if len(every) == 1:
         every[0], others = _of_either(pool.truth, every[0], chosen[0], others)
@@ -281,6 +293,19 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
     costs = [t.cost for t, _ in chosen]
     far = max(costs) > FAR or (len(costs) > 1 and sum(costs) > FAR_TOGETHER * len(costs))
     return NamedMistakes(told, more[:5], single, not far)
+
+
+def _joined(pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]]) -> list[tuple[Told, Alignment | None]]:
+    """The chosen mistakes, the same one at two places as one: in the springs and in the dampers, everywhere."""
+    left = list(chosen)
+    for (a, under), (b, _) in combinations(chosen, 2):
+        one, two = a.mistake.change, b.mistake.change
+        if one is None or two is None or (one.kind, a.times) != (two.kind, b.times) or one.written != two.written:
+            continue
+        if (whole := pool.together(a.mistake, b.mistake)) is not None and (a, under) in left:
+            left[left.index((a, under))] = (replace(a, mistake=whole), under)
+            left = [x for x in left if x[0] is not b]
+    return left
 
 
 def _is_part(pool: Pool, told: Told, of: Told) -> bool:

@@ -23,7 +23,7 @@ def names_only(table: Mapping[sp.Expr, sp.Expr], own: list[sp.Expr]) -> bool:
     return all(psi in own for psi in values) and len(set(values)) == len(values) and not set(table) & set(own)
 
 
-class Names:
+class OwnNames:
     """The answer's names for the coordinates of a system; ``table`` are those of the system by those of the answer."""
 
     def __init__(self, table: Mapping[sp.Expr, sp.Expr]) -> None:

@@ -37,7 +37,7 @@ class InStatedCoordinates:
 
 
 def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
-    """The answer in the coordinates that it defines in place of some of the system's; None if it defines none.
+    """The answer in the coordinates that it defines in place of some of the system's; None if it only names these.
 
     A coordinate is replaced if no equation names it any more. The definitions must determine those that are replaced.
     """
@@ -46,6 +46,8 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     stated = [
         line for line in lines if line.kind == "definition" and line.name not in own and _places(truth, line.expr)
     ]
+    if all(line.expr in q for line in stated):
+        return None
     others = tuple(line for line in lines if line.kind != "definition")
     named = {key(undotted(w)[0]) for line in others if _moves(truth, line) for w in WORD.findall(line.text)}
     named |= {key(w.translate(str.maketrans("", "", "{}"))) for w in named}

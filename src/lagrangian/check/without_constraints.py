@@ -140,7 +140,7 @@ def _moved(
             continue
         moved = replace(line, expr=change.put(line.expr))
         holds = line.kind in ("equation", "identity") and sp.expand_trig(moved.expr).expand() == 0
-        yield replace(moved, kind="statement") if holds else moved
+        yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
 
 
 def _words(table: dict[sp.Expr, sp.Expr]) -> Any:

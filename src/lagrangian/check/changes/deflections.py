@@ -52,6 +52,15 @@ def struts(sites: Sites) -> list[Strut]:
     return found
 
 
+def _different(listed: Iterator[tuple[sp.Expr, str, float]], whole: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
+    """The deflections that are neither ``whole`` nor its negative, each once, but for its sign: that is squared."""
+    seen: set[sp.Expr] = {sp.S.Zero, whole, -whole}
+    for other, kind, cost in sorted(listed, key=lambda x: x[2]):
+        if other not in seen and not other.has(sp.zoo, sp.nan):
+            seen |= {other, bounded.expand(-other)}
+            yield other, kind, cost
+
+
 class DeflectionChanges:
     """All changes of deflections in a system, and what may happen to a spring and a damper together."""
 
@@ -96,11 +105,10 @@ class DeflectionChanges:
         whole = strut.deflection
         words: Words = (f"the deflection of {strut.title}",)
         more = TOGETHER if strut.damper is not None else 0.0
-        for other, kind, cost in self._others(whole):
-            if other in (0, whole, -whole) or other.has(sp.zoo, sp.nan):
-                continue
+        olds = self._damping(strut, whole)
+        for other, kind, cost in _different(self._others(whole), whole):
             V = self._energy(strut, other)
-            Xi = self._forces(strut, other)
+            Xi = self._forces(strut, other, olds)
             if V and (strut.damper is None or Xi):
                 site = Site(words=words, brief=words, step=3, element=strut.spring)
                 yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, other)
@@ -163,15 +171,19 @@ class DeflectionChanges:
         k = self.s.expand(strut.spring.k)
         return self.sites.difference(k * other**2 / 2, k * strut.deflection**2 / 2, still=True)
 
-    def _forces(self, strut: Strut, other: sp.Expr) -> dict[int, Sum]:
-        """What another deflection adds to −b δ′ ∂δ/∂ξ_i of the damper."""
+    def _damping(self, strut: Strut, deflection: sp.Expr) -> list[sp.Expr]:
+        """−b δ′ ∂δ/∂ξ_i of the damper with a deflection; nothing without a damper."""
         if strut.damper is None:
-            return {}
-        b, own = self.s.expand(strut.damper.b), strut.deflection
+            return []
+        force = -self.s.expand(strut.damper.b) * self.s.rate(deflection)
+        held = [deflection.has(q) for q in self.s.q]
+        return [force * bounded.diff(deflection, q) if h else sp.S.Zero for q, h in zip(self.s.q, held, strict=True)]
+
+    def _forces(self, strut: Strut, other: sp.Expr, olds: Sequence[sp.Expr]) -> dict[int, Sum]:
+        """What another deflection adds to −b δ′ ∂δ/∂ξ_i of the damper."""
         found: dict[int, Sum] = {}
-        for i, q in enumerate(self.s.q):
-            new, old = (-b * self.s.rate(x) * bounded.diff(x, q) for x in (other, own))
-            if extra := self.sites.difference(new, old):
+        for i, (new, old) in enumerate(zip(self._damping(strut, other), olds, strict=True)):
+            if (new != 0 or old != 0) and (extra := self.sites.difference(new, old)):
                 found[i] = extra
         return found
 

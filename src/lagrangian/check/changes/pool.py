@@ -32,6 +32,9 @@ MOST = 9_000
 MONOMIALS = 150_000
 """The largest number of monomials in all changes together."""
 
+SAME = 1e-9
+"""The relative size of a difference of two effects that is rounding."""
+
 
 @dataclass(frozen=True, eq=False)
 class Possible:
@@ -85,6 +88,14 @@ class Pool:
         """What a multiple of a possible mistake does to the equations, as a few numbers: equal ones do the same."""
         seen = self.kept("seen", self._seen)
         return tuple(float(x) for x in np.round(times * seen[self.places[id(possible)]], 7))
+
+    def together(self, one: Possible, other: Possible) -> Possible | None:
+        """The likeliest change of the same kind that does what two do together."""
+        seen, kind = self.kept("seen", self._seen), one.change.kind if one.change is not None else None
+        both = seen[self.places[id(one)]] + seen[self.places[id(other)]]
+        near = np.flatnonzero(np.abs(seen - both).max(axis=1) <= SAME * (1 + np.abs(both).max()))
+        found = [p for k in near if (p := self.all[k]).change is not None and p.change.kind == kind]
+        return min(found, key=lambda p: p.cost, default=None)
 
     @property
     def places(self) -> dict[int, int]:

@@ -171,8 +171,10 @@ class WorkChanges:
                 listed.append((put(rate, {p.symbol: sp.S.One}), "damper_rate", 2.0))
         carried = [self.s.rate(x) for x in self.s.carried]
         listed += [(rate + g * x, "damper_rate", 1.9) for x in carried for g in (1, -1)]
-        for other, kind, cost in listed:
-            if other not in (0, rate, -rate):
+        seen: set[sp.Expr] = {sp.S.Zero, rate, -rate}
+        for other, kind, cost in sorted(listed, key=lambda x: x[2]):
+            if other not in seen:
+                seen.add(other)
                 yield other, kind, cost
 
 
