@@ -27,7 +27,7 @@ DERIVED = yo_yo().derive()
     ("answer", "said"),
     [
         ("y = r*phi\nJ*phi'' + b*r^2*phi' = m*g*r", "½mv² of rigid body 'yo-yo' is missing."),
-        ("(m + J/r) y'' + b y' = m g", "there is the factor r too much."),
+        ("(m + J/r) y'' + b y' = m g", "r is not squared in the energy of rigid body 'yo-yo', T*."),
         ("(m + J/r^2) y'' + b y' = -m g", "The weight of rigid body 'yo-yo' has the wrong sign in V"),
         ("(m + J/r^2) y'' = m g", "Damper 'b' is missing."),
         ("y'' = (-m*g - b*y')/(m + J/r^2)\nphi'' = y''/r", "The weight of rigid body 'yo-yo' has the wrong sign in V"),
@@ -81,3 +81,36 @@ def test_two_strands_of_a_belt_go_together() -> None:
     answer = "J1 phi1'' + 2 k r1 (r1 phi1 - r2 phi2) = 0\nJ2 phi2'' + 2 k r2 (r1 phi1 - r2 phi2) + c phi2 = 0"
     (mistake,) = s.derive().check(answer).mistakes
     assert "spring 'tight' and spring 'slack' add to the equation of phi2 has the wrong sign" in str(mistake.what)
+
+
+def scotch_yoke() -> lg.System:
+    """A yoke that a pin on a crank drives, x = r cos θ, with a torque on the crank and a load on the yoke."""
+    s = lg.System("scotch yoke")
+    theta, x = s.coordinates("theta x")
+    J, M, r = s.parameters("J M r")
+    tau, P = s.inputs("tau P")
+    s.rigid_body(0, J, at=s.origin, frame=s.frame(theta, name="crank"), name="crank")
+    s.particle(M, at=s.origin + (x, 0), name="yoke")
+    s.force(tau, deflection=theta, name="motor")
+    s.force(-P, deflection=x, name="load")
+    s.constraint(x - r * cos(theta), name="pin")
+    return s
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("(J + M r^2 sin(theta)^2) theta'' + 2 M r^2 sin(theta) cos(theta) theta'^2 = tau + P r sin(theta)", "∂"),
+        ("T = 1/2 (J + M r^2) theta'^2\n(J + M r^2) theta'' = tau + P r sin(theta)", "sin(theta)^2 is missing"),
+        (
+            r"\[ f = x - r\cos\theta = 0,\qquad \frac{\partial f}{\partial\theta} = -r\sin\theta \]"
+            r"\begin{align} J\ddot\theta &= \tau - \lambda r\sin\theta\\ M\ddot x &= -P + \lambda\\"
+            r"x - r\cos\theta &= 0 \end{align}",
+            "no derivative of constraint 'pin' by a coordinate. The factors of the multiplier follow",
+        ),
+    ],
+)
+def test_mistakes_where_a_coordinate_of_the_system_was_eliminated(answer: str, said: str) -> None:
+    verdict = scotch_yoke().derive().check(answer)
+    (mistake,) = verdict.mistakes
+    assert said in str(mistake.what), str(mistake.what)

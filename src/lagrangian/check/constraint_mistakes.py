@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.constraint_slips import WrongConstraint
+from lagrangian.check.constraint_slips import SLOPE, WrongConstraint
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
 from lagrangian.model import time
@@ -33,12 +34,18 @@ def beside_constraints(
     """
     own = [x for x in found if not x.follows]
     told = tuple(x.mistake for x in own)
+    if len(own) == 1 and own[0].order == SLOPE and len(of_multipliers) == 1:
+        return (_with_factors(told[0]),)
     if not own or any(bounded.cancel(x.expr**2 - own[0].expr ** 2) != 0 for x in own[1:]):
         return (*of_multipliers, *told)
     if not of_multipliers or not _follow(truth, own[0], lines, judged):
         return (*told[:1], *of_multipliers)
-    what = text(*told[0].what.parts, " The factors of the multiplier follow from it.")
-    return (Mistake(told[0].name, what, told[0].why, told[0].step, told[0].element, None, told[0].brief),)
+    return (_with_factors(told[0]),)
+
+
+def _with_factors(mistake: Mistake) -> Mistake:
+    """A mistake from which the factors of a multiplier follow."""
+    return replace(mistake, what=text(*mistake.what.parts, " The factors of the multiplier follow from it."))
 
 
 def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine], judged: Sequence[Finding]) -> bool:

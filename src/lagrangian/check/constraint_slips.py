@@ -35,14 +35,19 @@ WHY = (
     ),
 )
 """Why, for a constraint, its first and its second derivative."""
+WHY_SLOPE = text(
+    "Change one coordinate alone, hold the others, and mind the sign of the derivative of a sine or cosine."
+)
+SLOPE = -1
+"""The order of a line ∂f/∂ξ = …"""
 
 
 @dataclass(frozen=True, eq=False)
 class WrongConstraint:
     """A line that does not say what the constraints do, the mistake, and by what it is differentiated for λ.
 
-    ``order`` is how often the constraint was differentiated. ``follows``: the line is the derivative of another such
-    line.
+    ``order`` is how often the constraint was differentiated by time, or `SLOPE`. ``follows``: the line is the
+    derivative of another such line.
     """
 
     finding: Finding
@@ -77,10 +82,23 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
         if above is not None:
             found.append(replace(above, finding=f, follows=True))
             continue
+        if not expr.has(*moving) and any(x in f.line.text for x in ("∂", "partial")):
+            found.append(WrongConstraint(f, _slope(truth, f.line), SLOPE))
+            continue
         slip = _slip(truth, f.line)
         if slip is not None or not expr.has(*moving):
             found.append(WrongConstraint(f, *(slip or (_elsewhere(truth, f.line), 0))))
     return tuple(found)
+
+
+def _slope(truth: Reference, line: AnsweredLine) -> Mistake:
+    """A line that says wrongly how a constraint changes with one coordinate."""
+    elements = list(dict.fromkeys(m.element.title for m in truth.derivation.multipliers.values()))
+    which = elements[0] if len(elements) == 1 else "a constraint"
+    what = text(*_begin(line), f" is not right: it is no derivative of {which} by a coordinate.")
+    return Mistake(
+        "constraint_slope_wrong", what, WHY_SLOPE, 6, elements[0] if len(elements) == 1 else None, None, what
+    )
 
 
 def _elsewhere(truth: Reference, line: AnsweredLine) -> Mistake:

@@ -129,6 +129,8 @@ def _oddness(number: Fraction, possible: Possible) -> float:
         return possible.change.site.sign_cost
     if number in (1, Fraction(-1, 2)):
         return 0.3
+    if number in (Fraction(-3, 4), Fraction(3)):
+        return 1.2  # a quarter, four times: rather a length or a speed that is squared
     return 0.9 if number.denominator <= 6 and abs(number.numerator) <= 6 else 1.6
 
 

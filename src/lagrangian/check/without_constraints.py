@@ -39,12 +39,16 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
     The answer says what they are, x = X + l sin θ, or they are angles that step 0 proposes.
     """
     own = {c.symbol for c in truth.model.coordinates}
-    turned = {d.expr for line in lines for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    turned = {d.expr for line in lines for d in _second(line.expr)}
     new = sorted((x for x in turned - own if isinstance(x, AppliedUndef)), key=str)
-    if not new or any(row.position is None for row in rows_of(truth.model)):
+    if any(row.position is None for row in rows_of(truth.model)):
         return None
     for table in _tables(truth, lines, new):
         kept = [c for c in truth.model.coordinates if c.symbol not in table]
+        change = ProposedChange(table, _words(table), True)
+        moving = [line.expr for line in lines if any(d.expr in table for d in _second(line.expr))]
+        if not new and not all(_is_zero(change.put(expr)) for expr in moving):
+            continue  # equations of motion with multipliers, or with a constraint put in here and there
         if len(kept) + len(new) != truth.n - len(rows_of(truth.model)):
             continue
         other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
@@ -55,7 +59,6 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
                 *(x.symbol for x in (*other.model.parameters, *other.model.coordinates, *other.model.inputs)),
             }
             unknown = every - known - own
-            change = ProposedChange(table, _words(table), True)
             return InStatedCoordinates(other, tuple(_moved(lines, change, table, unknown)), change)
     return None
 
@@ -66,10 +69,12 @@ def _tables(
     """What the coordinates that go are in the others: as the answer says, or as step 0 proposes."""
     named = {c.name: c.symbol for c in truth.model.coordinates}
     said = {named[str(x.name)]: x.expr for x in lines if x.kind == "definition" and str(x.name) in named}
-    said = {q: value for q, value in said.items() if value.has(*new) and not value.has(q)}
+    said = {q: value for q, value in said.items() if value.has(*(new or named.values())) and not value.has(q)}
     if said:
         yield cast("dict[sp.Expr, sp.Expr]", said)
     constraints = truth.derivation.constraints
+    if constraints is not None and not new:
+        yield _of_unwritten(truth, lines, {q: x for w in constraints.proposals if w.new is None for q, x in w.written})
     if constraints is None or len(new) != 1:
         return
     for way in constraints.proposals:
@@ -82,13 +87,18 @@ def _of_unwritten(
     truth: Reference, lines: Sequence[AnsweredLine], table: dict[sp.Expr, sp.Expr]
 ) -> dict[sp.Expr, sp.Expr]:
     """A table for coordinates that no line accelerates: of X = x − l sin θ, x = X + l sin θ if X″ is written."""
-    moved = {d.expr for line in lines for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    moved = {d.expr for line in lines for d in _second(line.expr)}
     found: dict[sp.Expr, sp.Expr] = {}
     for q, value in table.items():
         others = [c.symbol for c in truth.model.coordinates if value.has(c.symbol) and c.symbol not in moved]
         solved = solutions(value - q, others[0]) if q in moved and others else []
         found |= {others[0]: solved[0]} if solved else {q: value}
     return found
+
+
+def _second(expr: sp.Expr) -> list[Any]:
+    """The second derivatives in an expression."""
+    return [d for d in expr.atoms(sp.Derivative) if d.derivative_count > 1]
 
 
 def _reference(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
@@ -139,8 +149,13 @@ def _moved(
             yield replace(line, kind="statement")
             continue
         moved = replace(line, expr=change.put(line.expr))
-        holds = line.kind in ("equation", "identity") and sp.expand_trig(moved.expr).expand() == 0
+        holds = line.kind in ("equation", "identity") and _is_zero(moved.expr)
         yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
+
+
+def _is_zero(expr: sp.Expr) -> bool:
+    """Whether an expression is 0 when it is written out."""
+    return sp.expand_trig(expr).expand() == 0
 
 
 def _words(table: dict[sp.Expr, sp.Expr]) -> Any:

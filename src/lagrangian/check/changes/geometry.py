@@ -297,7 +297,8 @@ class GeometryChanges:
         by = [bounded.diff(right, x) for x in v if right.has(x)]
         more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
         rolled = [right + g * x / r for r in self.lengths[:4] for x in v if not right.has(x) for g in (1, -1)]
-        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7)}
+        turned = [replaced(right, {x: -x}) for x in v if len(by) > 1 and right.has(x)]
+        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7), **dict.fromkeys(turned, 1.5)}
         listed |= {**dict.fromkeys(more, 1.5), **dict.fromkeys(v, 1.45)}
         return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
 

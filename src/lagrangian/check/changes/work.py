@@ -55,6 +55,7 @@ class WorkChanges:
     def _arms(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
         """Every effort of an element times every arm, in place of its share or where it has none."""
         for effort, right in self._efforts(element, shares):
+            yield from self._moved_without_arm(element, shares, effort)
             for i in range(self.sites.n):
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
                 added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
@@ -74,6 +75,20 @@ class WorkChanges:
                             )
                             kind = "arm_added" if right[i] == 0 else "no_arm" if sign * arm == 1 else "arm"
                             yield _change(kind, cost, place, {i: extra}, right[i], sign * arm)
+
+    def _moved_without_arm(self, element: Element, shares: dict[int, Sum], effort: sp.Expr) -> Iterator[LocalChange]:
+        """The effort itself in another equation, in place of the one share that it has."""
+        if len(shares) != 1:
+            return
+        [(i, x)] = shares.items()
+        for j in (j for j in range(self.sites.n) if j != i):
+            for sign in (1, -1):
+                added = self._sum(sign * effort)
+                if added and added not in (x, scaled(x, -1)):
+                    words: Words = (f"what {element.title} adds to the equation of ", self.s.q[j])
+                    site = Site(words=words, brief=words, step=6, element=element, coordinate=j)
+                    moved = {j: added, i: scaled(x, -1)}
+                    yield _change("share_moved", 1.8 if sign == 1 else 2.0, site, moved, (self.s.q[i],), None)
 
     def _half_or_double(self, effort: sp.Expr, right: sp.Expr, site: Site) -> Iterator[LocalChange]:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
