@@ -137,7 +137,8 @@ def _equations(
         if j in solved and like is not None:
             accelerations = [c.acceleration for c in truth.model.coordinates]
             alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
-            others.insert(0, _differing(truth, *(truth.form(x) for x in solved[j]), alone))
+            form, right = (truth.form(x) for x in solved[j])
+            others.insert(0, _differing(truth, form, right, alone))
         told = [x for x in others if x is not None]
         if not told:
             found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])

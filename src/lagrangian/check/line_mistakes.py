@@ -127,7 +127,9 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
 
 def _element(possible: Possible) -> Element | None:
     """The element that a possible mistake concerns."""
-    return possible.change.site.element if possible.change is not None else possible.wrong.variant.element
+    if possible.change is not None:
+        return possible.change.site.element
+    return possible.wrong.variant.element if possible.wrong is not None else None
 
 
 def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:

@@ -67,7 +67,8 @@ def given(truth: Reference, lines: Sequence[AnsweredLine]) -> StatedQuantity:
     energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L", "D")}
     forces = {line.name: line.expr for line in lines if line.kind == "Xi"}
     Xi = tuple(forces.get(c.name) for c in truth.model.coordinates)
-    return StatedQuantity(*(energies.get(kind) for kind in ("T", "V", "L", "D")), Xi)
+    T, V, L, D = (energies.get(kind) for kind in ("T", "V", "L", "D"))
+    return StatedQuantity(T, V, L, D, Xi)
 
 
 def left_values(truth: Reference, L: sp.Expr) -> Array:
@@ -242,8 +243,8 @@ def equations_follow(truth: Reference, exprs: Sequence[sp.Expr], above: StatedQu
     P = CompiledExpressions(exprs).at(truth.states)
     half = truth.states.size // 2
     parts = (slice(0, half), slice(half, 2 * half))
-    finite = np.isfinite(P).all(axis=1)
+    finite: list[bool] = [bool(np.isfinite(p).all()) for p in P]
     return [
-        bool(good) and any(all(spanned(p[None, s], W[:, s]) for s in parts) for W in rows)
+        good and any(all(spanned(p[None, s], W[:, s]) for s in parts) for W in rows)
         for p, good in zip(P, finite, strict=True)
     ]

@@ -60,7 +60,7 @@ class WorkChanges:
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
                 added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
                 site = Site(words=words, brief=words, step=6, element=element, coordinate=i)
-                yield from self._half_or_double(effort, right[i], site)
+                yield from self._half_or_double(effort, right[i], site, i)
                 for arm in self.arms:
                     for sign in (1, -1):
                         if sign * arm == right[i] or (right[i].is_number and right[i] != 0 and arm == 1):
@@ -90,13 +90,13 @@ class WorkChanges:
                     moved = {j: added, i: scaled(x, -1)}
                     yield _change("share_moved", 1.8 if sign == 1 else 2.0, site, moved, (self.s.q[i],), None)
 
-    def _half_or_double(self, effort: sp.Expr, right: sp.Expr, site: Site) -> Iterator[LocalChange]:
+    def _half_or_double(self, effort: sp.Expr, right: sp.Expr, site: Site, i: int) -> Iterator[LocalChange]:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
         if not right.has(*self.lengths):
             return
         for times in (sp.S.Half, sp.Integer(2)):
             if extra := self._sum(effort * (times - 1) * right):
-                yield _change("arm", 1.5, site, {site.coordinate: extra}, right, times * right)
+                yield _change("arm", 1.5, site, {i: extra}, right, times * right)
 
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
         """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
