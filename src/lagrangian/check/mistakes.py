@@ -109,12 +109,12 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
-    """Whether a wrong line may have been meant otherwise: a Ξ that is right elsewhere, or what was not read."""
+    """Whether a wrong line may have been meant otherwise: a Ξ that is told elsewhere, or what was not read."""
     line = finding.line
     if any(str(x.func).startswith("⟨") for x in line.expr.atoms(AppliedUndef)):
         return True
     same = [f for f in findings if f.line.kind == line.kind == "Xi" and f.line.name == line.name]
-    return any(f.status.right for f in same)
+    return any(f.status.right for f in same) or finding in same[1:]
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
