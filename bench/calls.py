@@ -126,6 +126,7 @@ def forms() -> str:
     p = np.array([x.value for x in system.model.parameters], float)
     x, Q, V = np.concatenate([q, v]), np.tile(q, (STATES, 1)), np.tile(v, (STATES, 1))
     names, inputs = dict(zip(c.parameters, p.tolist(), strict=True)), {"F": 0.5}
+    symbols = {system[name]: 0.5 for name in inputs}, {system[name]: value for name, value in names.items()}
     each_p = np.tile(p, (STATES, 1))
     new = itertools.cycle([p * (1 + 1e-3 * k) for k in range(500)])
     each = {
@@ -134,6 +135,7 @@ def forms() -> str:
         "forward(q, v, u, p, t)": lambda: c.forward(q, v, u, p, t),
         "forward(q, v, p=another array every time)": lambda: c.forward(q, v, p=next(new)),
         "forward(q, v, u={…}, p={…})": lambda: c.forward(q, v, u=inputs, p=names),
+        "forward(q, v, u={…}, p={…}), symbols as keys": lambda: c.forward(q, v, u=symbols[0], p=symbols[1]),
         "forward([…], […])": lambda: c.forward([0.1, 0.2], [0.3, 0.1]),
         "inverse(q, v, a, u, p)": lambda: c.inverse(q, v, v, u, p),
         "mass_matrix(q, p=another array every time)": lambda: c.mass_matrix(q, next(new)),

@@ -130,6 +130,11 @@ def test_symbols_as_keys_and_one_input_alone_need_no_closer_look() -> None:
     ):
         np.testing.assert_array_equal(quick(([0.4], [0.0], u, p, 0.0)), expected)
     assert quick(([0.4], [0.0], 3.0, {s["theta"]: 0.5}, 0.0)) is None
+    turned = {s["L"]: 0.5, s["g"]: 9.81, s["m"]: 2.0}  # in another order, twice: it is known then
+    for _ in range(2):
+        np.testing.assert_array_equal(quick(([0.4], [0.0], {s["tau"]: 3.0}, turned, 0.0)), expected)
+    assert quick(([0.4], [0.0], 3.0, {s["L"]: 0.5, s["g"]: 9.81, "l": 2.0}, 0.0)) is None
+    np.testing.assert_array_equal(quick(([0.4], [0.0], 3.0, {"L": 0.5, "m": 2.0, "g": 9.81}, 0.0)), expected)
 
 
 @pytest.mark.parametrize(

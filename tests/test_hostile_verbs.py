@@ -12,6 +12,8 @@ from hostile_answers import answer
 from hostile_models import KINDS, LONGEST, model
 from lagrangian.bounded import questions
 from lagrangian.cli import main
+from lagrangian.worksheet.dice import Dice
+from lagrangian.worksheet.sides import moves
 from size import rest_slow
 
 STEPS = 250_000
@@ -90,6 +92,25 @@ def test_every_verb_ends_on_a_hostile_file(
 ) -> None:
     monkeypatch.setattr(questions, "QUESTION", SEEDS[seed])
     check_ends(seed, verb, tmp_path)
+
+
+HOOP = """
+name = "hoop"
+coordinates = { q = "", w = "" }
+parameters = { m = 1, a = 1, b = 1.5, c = 0.3, d = 0.4, e = 0.7, k = 2 }
+frame = [{ name = "f", angle = "-q/d" }]
+rigid_body = [{ mass = "m", inertia = "m*(a+b+c+d+e)^60*d^2", at = ["q", "d"], frame = "f" }]
+particle = [{ mass = "m", at = ["0", "w"] }]
+spring = [{ k = "k", deflection = "q - (a+b+c+d+e)^60*w" }, { k = "k", deflection = "q - w" }]
+"""
+
+
+def test_pictures_and_variants_of_long_constants_end() -> None:
+    """Whether a wheel is a hoop, and two springs lie beside each other, was asked of sums written out: for minutes."""
+    system = lg.loads(HOOP)
+    with at_most(3_000_000):
+        assert system.look().to_svg()
+        assert moves(system.model, Dice(1, 1)) == []
 
 
 FURUTA = built_in.system("furuta-pendulum")

@@ -248,6 +248,12 @@ def test_runs_are_shown_in_real_time_unless_they_are_short_or_long(seconds: floa
     assert usual_speed(seconds) == pytest.approx(speed)
 
 
+def test_a_run_that_stops_at_once_says_why_there_is_no_animation() -> None:
+    run = built_in.system("duffing").simulate(1.0, samples=51, max_steps=2, x=0.3)
+    with pytest.raises(lg.RunError, match=r"the run has only \d samples, as it stopped at t = .* s: \[E505\]"):
+        run.animate()
+
+
 @pytest.mark.slow
 def test_samples_that_are_too_far_apart_are_refused() -> None:
     run = built_in.system("duffing").simulate(100.0, samples=9)

@@ -57,7 +57,8 @@ class Slot:
     """The position of a group of inputs in a call, and the values that are accepted there."""
 
     __slots__ = (
-        "address", "default", "only", "pack", "pick", "place", "places", "put", "scalar", "shape", "size", "values"
+        "address", "default", "only", "pack", "pick", "place", "places", "put", "scalar", "shape", "size", "spelled",
+        "values",
     )  # fmt: skip
 
     def __init__(self, place: int, group: InputGroup) -> None:
@@ -65,6 +66,7 @@ class Slot:
         self.shape = (self.size,)
         self.places: dict[Any, int] = {name: k for k, name in enumerate(group.entries)}
         self.pick = _picking(group.entries)
+        self.spelled: tuple[tuple[Any, ...] | None, Callable[[Any], Any]] = None, tuple
         self.only = group.entries[0] if self.size == 1 else None
         numbers = struct.Struct(f"{self.size}d")
         self.pack = numbers.pack
@@ -85,10 +87,14 @@ class Slot:
         kind = type(given)
         if kind is dict:
             if len(given) == self.size:
-                try:
-                    given = self.pick(given)
-                except KeyError:  # the keys are symbols, or there is an unknown entry instead of this one
-                    given = self._filled(given)
+                keys, order = self.spelled
+                if keys is not None and next(iter(given)) is keys[0] and tuple(given) == keys:
+                    given = order(tuple(given.values()))
+                else:
+                    try:
+                        given = self.pick(given)
+                    except KeyError:  # the keys are symbols, or there is an unknown entry instead of this one
+                        given = self._spelled(given)
             else:
                 given = self._filled(given)
             if given is None:
@@ -99,6 +105,15 @@ class Slot:
             if type(number) is not float and type(number) not in PLAIN:  # the first is quicker
                 return None
         return given
+
+    def _spelled(self, given: Mapping[Any, Any]) -> Sequence[Any] | None:
+        """The values of a mapping for all entries whose keys are not their names; they are known from then on."""
+        filled = self._filled(given)
+        places = [self.places.get(key) for key in given]
+        if filled is not None and len(set(places)) == self.size:
+            order = itemgetter(*map(places.index, range(self.size))) if self.size > 1 else tuple
+            self.spelled = tuple(given), order  # together, as another thread may read them
+        return filled
 
     def _filled(self, given: Mapping[Any, Any]) -> list[Any] | None:
         """The values of a mapping, completed by the defaults; None if one of the names is unknown."""

@@ -15,6 +15,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.look.board import Board
 from lagrangian.model import (
     Capacitor,
@@ -190,9 +191,9 @@ def _factored(board: Board, element: CircuitBranch, charges: list[Coordinate], s
         expr: Any = model.expand(charge)
         slopes = board.stage.slopes(charge, board.q, board.p)
         factors = {i: float(slopes[model.coordinates.index(c)]) for i, c in enumerate(charges) if expr.has(c.symbol)}
-        given = sp.expand(expr.xreplace({c.symbol: sp.S.Zero for c in model.coordinates}))
+        given = bounded.expand(expr.xreplace({c.symbol: sp.S.Zero for c in model.coordinates}))
         if given != 0:
-            known = next((k for k, x in enumerate(supplied) if given in (x, sp.expand(-x))), None)
+            known = next((k for k, x in enumerate(supplied) if given in (x, bounded.expand(-x))), None)
             if known is None:
                 known = len(supplied)
                 supplied.append(-given if given.could_extract_minus_sign() else given)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.look.board import BODY, JOINT, Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player
 from lagrangian.look.holds import HoldKind, Motions
@@ -93,7 +94,7 @@ def _is_hoop(part: Player) -> bool:
     """Whether all mass of a wheel is on its rim: J = m R²."""
     if not isinstance(part.body, RigidBody) or part.radius is None:
         return False
-    return bool(sp.expand(part.body.tensor[0][0] - part.body.mass * part.radius**2) == 0)
+    return bool(bounded.expand(part.body.tensor[0][0] - part.body.mass * part.radius**2) == 0)
 
 
 def unwinds(motions: Motions, part: Player) -> bool:

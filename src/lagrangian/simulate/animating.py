@@ -64,6 +64,9 @@ class Pictured(Protocol):
         ...
 
 
+FEWEST = 8
+"""A run that stops after fewer samples is not animated, however many were asked for."""
+
 SHARE = 0.98
 """This share of the samples must be close enough; at an impact, one is not."""
 
@@ -226,5 +229,7 @@ def _check_samples(run: Recorded, scene: Scene, kernel: machine.Kernel, rates: A
 
 
 def _too_few(run: Recorded) -> RunError:
+    if not run.success and len(run.t) < FEWEST:
+        return RunError(f"the run has only {len(run.t)} samples, as it {run.message}", code="E406")
     what = f"the run has {len(run.t)} samples, which are too far apart for an animation"
     return RunError(what, fix=Advice("simulate with ", Argument("samples", str(4 * len(run.t)))), code="E406")

@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model import Damper, Element, Force, Model, Spring, Torque
 from lagrangian.records import dataclass, field
 from lagrangian.worksheet.dice import Dice
@@ -85,7 +86,9 @@ def _same(one: Any, other: Any) -> bool:
     """Whether two elements are attached at the same place."""
     if one.between is not None or other.between is not None:
         return one.between is not None and other.between is not None and set(one.between) == set(other.between)
-    return sp.expand(one.deflection - other.deflection) == 0 or sp.expand(one.deflection + other.deflection) == 0
+    return (
+        bounded.expand(one.deflection - other.deflection) == 0 or bounded.expand(one.deflection + other.deflection) == 0
+    )
 
 
 def _rest(element: Any) -> Any:
@@ -104,7 +107,7 @@ def _freed(model: Model) -> Iterator[Moved]:
         for one, other in permutations(places, 2):
             for axis in (0, 1):
                 mine, its = places[one][axis], places[other][axis]
-                rest = sp.expand(model.expand(element.deflection) - (mine - its))
+                rest = bounded.expand(model.expand(element.deflection) - (mine - its))
                 if rest.has(*own) or not mine.has(*own) or not its.has(*own):
                     continue
                 made = _with(element, **_grounded(element, one, mine, axis))
