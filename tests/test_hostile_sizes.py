@@ -11,6 +11,7 @@ from lagrangian.check import hardness
 from lagrangian.check.changes.ring import SumRing
 from lagrangian.derive.algebra import algebra
 from lagrangian.model import is_hard
+from lagrangian.worksheet.directions import positive_sense
 
 HEAD = """
 name = "hostile"
@@ -128,3 +129,20 @@ def test_a_slope_of_a_maximum_of_many_is_found_without_proofs() -> None:
     value = ring.of(model.elements[-1].potential(model))
     with at_most(400_000):
         assert ring.slope(value, model.coordinates[0].symbol)
+
+
+def test_the_direction_of_a_coordinate_with_long_slopes_is_not_said_after_a_bounded_number_of_calls() -> None:
+    """A worksheet asks for it: its search took over a minute."""
+    model = lg.loads(FILES["fractions"]).model
+    with at_most(3_000_000):
+        assert [positive_sense(model, c) for c in model.coordinates] == [None, None]
+
+
+def test_why_equations_too_long_to_write_hold_is_refused_with_what_there_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(algebra, "WORK", 1_000)
+    made = lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
+    with pytest.raises(
+        ModelError, match="why the equations hold is told with equations that are written out"
+    ) as caught:
+        _ = made.why
+    assert caught.value.fix == "system.derive() writes the steps in named quantities, and system.verify() checks them"

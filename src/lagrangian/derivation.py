@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import bounded, derive, dynamics
+from lagrangian.advice import Advice, Verb
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.errors import Error
@@ -139,7 +140,18 @@ class Derivation(Guided, derive.Derived):
         force on every body. Raises `ModelError` for a system that is given by its energies, which has no masses, and
         for one whose equations cannot be written in the coordinates alone.
         """
-        return derive.why(self if self.form == "expanded" else derive.derive(self.model))
+        if self.form == "expanded":
+            return derive.why(self)
+        try:
+            return derive.why(derive.derive(self.model))
+        except bounded.TooLarge as error:
+            raise bounded.TooLarge(
+                f"why the equations hold is told with equations that are written out, and {error.what}",
+                fix=Advice(
+                    Verb("derive"), " writes the steps in named quantities, and ", Verb("verify"), " checks them"
+                ),
+                code="E601",
+            ) from None
 
     @property
     def reasoning(self) -> Report[Model] | None:

@@ -12,6 +12,7 @@ from built_in import derivation
 from lagrangian.check import say
 from lagrangian.check.changes.pool import pool_of
 from lagrangian.check.reference import truth_of
+from lagrangian.check.words import STEPS, step_title
 
 
 @cache
@@ -162,3 +163,8 @@ rest = "l"
     said = [str(say.mistake(c, Fraction(1), d.model).what) for c in changes if c.kind == "deflection_left_out"]
     assert any("is taken as r; it is" in words for words in said)
     assert not any("sqrt" in words for words in said)
+
+
+def test_titles_of_steps_in_sentences_keep_the_capitals_of_names() -> None:
+    assert [step_title(step) for step in (3, 4, 5)] == ["potential energy", "Lagrangian", "left-hand sides"]
+    assert all(step_title(step).lower() == title.lower() for step, title in STEPS.items())

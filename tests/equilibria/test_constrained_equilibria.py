@@ -76,4 +76,4 @@ def test_where_nothing_balances_it_is_said() -> None:
     s.gravity((0, -1))
     s.constraint(y - x / 2, name="slope")
     found = s.equilibria()
-    assert not found and "no equilibrium in the box that satisfies the constraints" in found.notes[-1]
+    assert not found and "no equilibrium in the box searched that satisfies the constraints" in found.notes[-1]

@@ -10,6 +10,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.advice import Advice, Verb
 
 G = 9.81
 
@@ -82,6 +83,8 @@ def test_readers_of_a_file_are_told_what_to_write_there() -> None:
     with pytest.raises(lg.Error, match=r"E311.*(?s:.*)Fix: .*sense = 1 in \[\[friction\]\] while it slips") as caught:
         in_file.compile()
     assert caught.value.place is not None and "side" not in str(caught.value)
+    fix = caught.value.fix
+    assert isinstance(fix, Advice) and {x.name for x in fix.pieces if isinstance(x, Verb)} == {"simulate", "sweep"}
     with pytest.raises(lg.Error, match=r"E311(?s:.*)side = 1 or -1"):
         lg.loads(bead().to_toml()).compile()
 

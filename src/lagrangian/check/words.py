@@ -19,6 +19,14 @@ STEPS = {
     6: "Non-conservative forces",
 }
 """The steps of the lecture."""
+
+
+def step_title(step: int) -> str:
+    """Return the title of a step within a sentence; names keep their capitals."""
+    title = STEPS[step]
+    return title if title.startswith("Lagrang") else title[:1].lower() + title[1:]
+
+
 UNSEEN = frozenset({"not_squared", "lost", "lost_in_a_sum", "wrong_number"})
 """Kinds that say nothing new of an equation as second choices: a term is missing there, or has a wrong number."""
 
@@ -150,7 +158,7 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
     if fine and differing:
         yield text(f"Right in {finding.line.title}: what comes from {_listed(fine)}.")
     if differing:
-        places = [f"{element}, step {step} ({STEPS[step].lower()})" for element, step in differing]
+        places = [f"{element}, step {step} ({step_title(step)})" for element, step in differing]
         yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
 
 
@@ -162,7 +170,7 @@ def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
     concerns = f"; it concerns {_listed(elements)}" if elements else ""
-    return (f"This belongs to step {mistake.step}, {STEPS[mistake.step].lower()}{concerns}.",)
+    return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
 
 
 def _concerned(mistake: Mistake, verdict: Verdict) -> list[str]:

@@ -317,7 +317,8 @@ def _notes(
     for direction in task.free:
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
-        listed.append(f"no force depends on {what}, so any value will do; {names[0]} is held fixed")
+        so = "so any value will do; " if found else ""
+        listed.append(f"no force depends on {what}{', ' if so else '; '}{so}{names[0]} is held fixed")
     coordinates = [c.name for c in task.model.coordinates]
     for k, what, d in zip(task.steady.leading, task.steady.named(coordinates), task.steady.directions, strict=True):
         alone = np.count_nonzero(d) == 1
@@ -332,16 +333,15 @@ def _notes(
         which = "the constraint" if len(rows) == 1 else "the constraints"
         said = ", ".join(f"'{name}'" for name in rows[:6])
         listed.append(f"{which} on velocities, {said}, can hold forces and fix no coordinate: equilibria form families")
+    none = f"{'other ' if left_out else ''}equilibrium in the box{'' if task.box.given.any() else ' searched'}"
     if not found and task.held_forces is not None:
-        listed.append(
-            f"there is no {'other ' if left_out else ''}equilibrium in the box that satisfies the constraints"
-        )
+        listed.append(f"there is no {none} that satisfies the constraints")
     elif not found:
         h, _ = task.search.forces(starting_points(256, task.box.low, task.box.high))
         rows = zip(task.box.names, h.T, strict=True) if not task.orientations else ()  # whose h is along velocities
         one_sided = [n for n, row in rows if (row > 0).all() or (row < 0).all()]
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
-        listed.append(f"there is no {'other ' if left_out else ''}equilibrium in the box{why}")
+        listed.append(f"there is no {none}{why}")
     elif not sure and not any(e.dimension for e in found):
         listed.append("some were found from few starts: there may be more; increase starts, or narrow the box")
     return tuple(listed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lagrangian.advice import Advice, Verb
 from lagrangian.errors import ModelError
 from lagrangian.model.elements import Friction
 from lagrangian.model.model import Model
@@ -23,13 +24,18 @@ def check_no_friction(model: Model, what: str) -> None:
 
 def advice_for(friction: Friction) -> str:
     """What to do where it must be known whether a friction slips or sticks, in Python or in its file."""
-    first = "use simulate, ensemble or sweep; or a regime in which nothing jumps: "
+    regime = "; or a regime in which nothing jumps: "
     if friction.place is not None:
         sides = ", and side = 1 or -1, the sign of what presses" if len(friction.pressing) == 1 else ""
-        return (
-            f"{first}sense = 1 in [[friction]] while it slips and its deflection grows, -1 while it slips the other "
-            f"way{sides}; regime({{'{friction.name}': 0}}) in Python while it sticks"
+        return Advice(
+            "use ",
+            Verb("simulate"),
+            " or ",
+            Verb("sweep"),
+            f"{regime}sense = 1 in [[friction]] while it slips and its deflection grows, -1 while it slips the other "
+            f"way{sides}; while it sticks, in Python, system.regime({{'{friction.name}': 0}})",
         )
+    first = f"use simulate, ensemble or sweep{regime}"
     if len(friction.pressing) == 1:
         (row,) = friction.pressing
         return (

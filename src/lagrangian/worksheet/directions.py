@@ -7,7 +7,8 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.model import Coordinate, Model
+from lagrangian import bounded
+from lagrangian.model import Coordinate, Model, Point
 
 AXES = {
     (1, 0): "to the right",
@@ -39,19 +40,27 @@ def positive_sense(model: Model, coordinate: Coordinate) -> str | None:
         return None
     q = coordinate.symbol
     for body in model.bodies:
-        x, y = (model.expand(value) for value in model.position(body.at))
-        first = [sp.diff(value, q) for value in (x, y)]
+        try:
+            first, second, third = _slopes(model, body.at, q)
+        except bounded.TooLarge:  # what is so long is neither a line nor a circle
+            return None
         if all(value == 0 for value in first):
             continue
-        second = [sp.diff(value, q) for value in first]
         if all(value == 0 for value in second):
             return along(first)
-        cross = sp.simplify(first[0] * second[1] - first[1] * second[0])
-        third = [sp.diff(value, q) for value in second]
-        if all(sp.simplify(a + b) == 0 for a, b in zip(first, third, strict=True)) and cross != 0:
-            return "counter-clockwise" if _positive(cross) else "clockwise" if _positive(-cross) else None
-        return None
+        if any(bounded.simplify(a + b) != 0 for a, b in zip(first, third, strict=True)):
+            return None
+        cross = bounded.simplify(first[0] * second[1] - first[1] * second[0])
+        return "counter-clockwise" if _positive(cross) else "clockwise" if _positive(-cross) else None
     return None
+
+
+def _slopes(model: Model, point: Point, q: sp.Expr) -> list[list[sp.Expr]]:
+    """The first three derivatives of a position by a coordinate."""
+    found = [[model.expand(value) for value in model.position(point)]]
+    for _ in range(3):
+        found.append([bounded.diff(value, q) for value in found[-1]])
+    return found[1:]
 
 
 def along(vector: Sequence[Any]) -> str | None:

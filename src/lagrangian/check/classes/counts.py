@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from lagrangian.check.classes.feedback import step_title
 from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.verdict import Status
+from lagrangian.check.words import step_title
 from lagrangian.records import dataclass
 from lagrangian.viewed import Brief
 

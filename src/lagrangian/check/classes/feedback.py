@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from lagrangian.check.classes.marks import PartMark
 from lagrangian.check.verb import CheckedAnswer
 from lagrangian.check.verdict import Status
-from lagrangian.check.words import STEPS
+from lagrangian.check.words import step_title
 from lagrangian.model import Model
 from lagrangian.page.formula import Table, Text, text
 from lagrangian.page.report import Part, Report
@@ -16,12 +16,6 @@ from lagrangian.page.report import Part, Report
 def number(value: float) -> str:
     """Points in words: no more digits than needed."""
     return f"{round(value, 2):g}"
-
-
-def step_title(step: int) -> str:
-    """The title of a step within a sentence; names keep their capitals."""
-    title = STEPS[step]
-    return title if title.startswith("Lagrang") else title[:1].lower() + title[1:]
 
 
 def feedback_report(
