@@ -164,7 +164,7 @@ for (const far of [0, 4]) {
   const xs = ground.part.path.map(([, x]) => x * ground.counts[0]);
   drawn.push([Math.min(...xs), Math.max(...xs), ground.places(picture)[0][0]]);
 }
-console.log(JSON.stringify([drawn, ground.counts[0], picture.copies(floor, [1, 0], 60)]));
+console.log(JSON.stringify([drawn, ground.counts[0], picture.copies(floor, [1, 0, 0, 1, 0, 0, 1], 60)]));
 """
 
 
@@ -172,4 +172,19 @@ def test_the_ground_of_a_page_reaches_where_bodies_go_and_its_strokes_stay_even(
     (near, far), count, copies = in_node(GROUND, as_data(picture("rolling-disc").scene))
     assert near[0] == 0 and near[2] < count <= near[1] <= count + 2
     assert far[0] <= 0 and far[2] > count and far[1] >= far[2] + 2
-    assert all(moved % 10 == 0 for moved in copies) and len(copies) > 1
+    assert all(along % 10 == 0 and up == 0 for along, up in copies) and len(copies) > 1
+
+
+SLOPE = """
+const scene = JSON.parse(require("fs").readFileSync(0, "utf8"));
+const picture = new Picture(scene, () => {}), [floor] = scene.parts.filter((part) => part.kind === "floor");
+const [[, x0, y0], [, x1, y1]] = floor.path;
+console.log(JSON.stringify([[x1 - x0, y1 - y0], picture.copies(floor, [1, 0, 0, 1, 0, 0, 1], 400)]));
+"""
+
+
+def test_the_ground_of_an_incline_goes_on_along_the_slope() -> None:
+    (x, y), copies = in_node(SLOPE, as_data(picture("wheel-on-incline").scene))
+    assert abs(y) > 10 and len(copies) > 1
+    for along, up in copies:
+        assert along * y == pytest.approx(up * x, abs=1e-6)

@@ -51,6 +51,17 @@ def test_newton_and_euler_are_right_for_a_floating_body(floating: lg.System, flo
     assert floating_lines.check(lines[:5]).status is Status.INCOMPLETE
 
 
+def test_rotation_matrices_of_unit_quaternions_need_no_divisor(floating: lg.System, floating_lines: Any) -> None:
+    """R as step 1 prints it, 2 (ε_x ε_z − ε_y ε_w), is that of a quaternion of length 1, which the quaternion has."""
+    right = "m*body_vx' + m*(body_wy*body_vz - body_wz*body_vy) - m*c*(body_wy^2 + body_wz^2) = F - m*g*({})"
+    for up in ("2*body_qx*body_qz - 2*body_qy*body_qw", "(2*body_qx*body_qz - 2*body_qy*body_qw)/({})"):
+        square = "body_qx^2 + body_qy^2 + body_qz^2 + body_qw^2"
+        found = floating_lines.check(right.format(up.format(square)))
+        assert found.findings[0].status is Status.RIGHT, str(found)
+    wrong = floating_lines.check(right.format("2*body_qx*body_qz + 2*body_qy*body_qw"))
+    assert wrong.status is Status.WRONG
+
+
 def test_text_in_quasi_velocities_is_read(floating_lines: Any) -> None:
     right = "A*body_wx' + (C - B)*body_wy*body_wz = 0"
     found = floating_lines.check(right)

@@ -170,6 +170,22 @@ def test_a_sweep_fills_its_plot_and_can_be_stopped(page: Any) -> None:
     assert page.get_by_role("button", name="Run").is_enabled()
 
 
+def test_a_sweep_offers_and_tells_numbers_in_si_units_whatever_the_file_has(page: Any) -> None:
+    page.get_by_role("button", name="New model").click()
+    page.wait_for_selector("#derive-state.right")
+    field = page.locator("#model-editor textarea")
+    field.fill(field.input_value().replace('"40 N/m"', '"4 N/cm"'))
+    expect(page.locator("#derivation")).to_contain_text("4 N/cm")
+    page.get_by_role("link", name="Sweep").click()
+    page.get_by_label("Vary: the quantity").select_option("k")
+    assert page.get_by_label("k from, number").input_value() == "200"
+    expect(page.locator("#sweep .unit").first).to_have_text("N/m")
+    page.get_by_label("Values along each axis").select_option("10")
+    page.get_by_role("button", name="Run").click()
+    said = page.locator("#sweep .pane:last-child [role=status]")
+    expect(said).to_have_text(re.compile(r"^10 runs\. max x: least [^;]+ m at k = \d+ N/m\.( Note.*)?\s*$"))
+
+
 HOSTILE = {
     "script": "</script><script>document.title='run'</script>",
     "image": '"><img src=x onerror="document.title=\'run\'">',

@@ -48,6 +48,12 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
+def test_numbers_of_the_views_are_in_si_units_whatever_the_file_has(kind_app: Served) -> None:
+    answer = kind_app.ask("derive", {"model": CART.replace("2 kg", "200 g").replace("8 N/m", "2 N/mm")}).json()
+    assert answer["units"] == {"m": "kg", "k": "N/m", "x": "m", "F": "N"}
+    assert [p["value_si"] for p in answer["data"]["parameters"]] == [0.2, 2000.0]
+
+
 def check_pieces(sections: list[dict[str, str]]) -> None:
     for section in sections:
         parser = Balanced()

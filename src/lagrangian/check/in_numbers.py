@@ -17,6 +17,7 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian import dynamics
@@ -242,8 +243,7 @@ class _AnswerInNumbers:
         found = 0
         for spread in (0.0,) if given else (None, SPREAD):
             for drawn in _states(self.model, DRAWS * count if self.onto else count, spread=spread):
-                state = drawn if self.onto is None else self.onto.of(drawn)
-                if state is not None:
+                if (state := self.onto_rows(drawn)) is not None:
                     found += 1
                     yield state
                     if found == count:
@@ -277,9 +277,24 @@ class _AnswerInNumbers:
             other = dict(here)
             for group in ("v", "u"):
                 other[group] = source.uniform(-1.5, 1.5, len(here[group])).tolist()
-            state = other if self.onto is None else self.onto.of(other)
-            if state is not None:
+            if (state := self.onto_rows(other)) is not None:
                 yield self.at(state)
+
+    def onto_rows(self, here: Groups) -> Groups | None:
+        """The state moved onto the constraints, with unit quaternions; None where there is none."""
+        state = here if self.onto is None else self.onto.of(here)
+        return state if state is None else {**state, "q": _of_unit_length(self.model, np.array(state["q"])).tolist()}
+
+
+def _of_unit_length(model: Model, q: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The position q with quaternions of length 1: R of one of another length is the same, as long as it is divided by
+    the square of its length, which an answer need not do."""
+    places, q = {c.name: k for k, c in enumerate(model.coordinates)}, q.copy()
+    for frame in model.floating:
+        if frame.floating is not None:
+            turned = [places[c.name] for c in frame.floating.orientation]
+            q[turned] /= np.linalg.norm(q[turned])
+    return q
 
 
 def _states(model: Model, count: int, *, spread: float | None = None, still: bool = False) -> Iterator[Groups]:
@@ -289,6 +304,7 @@ def _states(model: Model, count: int, *, spread: float | None = None, still: boo
     """
     forward, source, found = dynamics.forward(model), np.random.default_rng(11), 0
     quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.orientation}
+    turned = [c.name in quaternions for c in model.coordinates]
     positive = np.array([c.positive for c in model.coordinates])
     p, t = [0.0], 0.0
     for _ in range(DRAWS + count):
@@ -299,8 +315,8 @@ def _states(model: Model, count: int, *, spread: float | None = None, still: boo
             p = [float(x if v is None else v * f) for x, v, f in zip(drawn, values, near, strict=True)]
             t = float(source.uniform(0.1, 0.9))
         q = source.uniform(-1.2, 1.2, len(model.coordinates))
-        turned = [c.name in quaternions for c in model.coordinates]
         q = np.where(turned, source.normal(size=len(q)), np.where(positive, np.abs(q) + 0.2, q))
+        q = _of_unit_length(model, q)
         n = len(model.velocities)
         v, a, u = (source.uniform(-1.0, 1.0, k).tolist() for k in (n, n, len(model.inputs)))
         state: Groups = {"q": q.tolist(), "v": v, "a": a, "u": u, "p": p, "t": [t]}

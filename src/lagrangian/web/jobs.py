@@ -84,13 +84,16 @@ def _notation(arguments: Arguments) -> Notation:
 
 
 def derive_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
-    """Derive a model: the data of ``lagrangian derive --json``, and its page in sections."""
+    """Derive a model: the data of ``lagrangian derive --json``, its page in sections, and the SI unit of every
+    parameter, coordinate and input, in which the other jobs take and give numbers."""
     arguments = Arguments(given, (*MODEL, "notation"))
     notation = _notation(arguments)
     derivation = _verified(opened(arguments))
     document = pages.lay_out(derivation, notation=notation, details=True)
     data = json.loads(pages.to_json(derivation, notation=notation))
-    return {"data": data, "title": document.title, "sections": pieces(document)}
+    model, units = derivation.model, plot.Units(derivation.model)
+    known = {x.name: units.of(x.symbol) for x in (*model.parameters, *model.coordinates, *model.inputs)}
+    return {"data": data, "title": document.title, "sections": pieces(document), "units": known}
 
 
 def look_job(given: dict[str, Any], part: Part) -> dict[str, Any]:

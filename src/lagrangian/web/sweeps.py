@@ -59,7 +59,7 @@ def sweep_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
         done.append(piece)
         (name,) = (n for n in piece if n == output or n.endswith(f" {output}"))
         unit = str(piece.words_of(name).get("units", ""))
-        part({"start": start, "unit": unit, "rows": [rounded(row) for row in _rows(piece[name])]})
+        part({"start": start, "name": name, "unit": unit, "rows": [rounded(row) for row in _rows(piece[name])]})
     return {"data": json.loads(as_json(figures(joined(done))))}
 
 

@@ -98,6 +98,7 @@ function show(answer, text) {
   writing.mark([]);
   const changed = model.dataOf !== text;
   model.data = answer.data;
+  model.units = answer.units;
   model.dataOf = text;
   const sheet = byId("derivation");
   const closed = new Set([...sheet.querySelectorAll("details.step:not([open])")].map((d) => d.dataset.step));

@@ -33,6 +33,8 @@ export const model = {
   text: "",
   /** The data of the last derivation without mistakes, and the text that it was made of. @type {any} */
   data: null,
+  /** The SI unit of every parameter, coordinate and input of it. @type {Record<string, string>} */
+  units: {},
   dataOf: "",
   /** Whether the person asked to derive this large model. */
   anyway: false,

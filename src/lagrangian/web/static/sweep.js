@@ -25,13 +25,13 @@ export function startSweep(lose) {
   document.addEventListener("derived", fresh);
 }
 
-/** What can vary: parameters around their values, initial values and inputs. */
+/** What can vary: parameters around their values, initial values and inputs; all in SI units. */
 function quantities() {
   const { parameters, coordinates, inputs } = model.data;
-  const found = parameters.map((/** @type {any} */ p) => ({ name: p.name, unit: p.unit ?? "", words: p.description, value: p.value_si ?? 1 }));
-  for (const c of coordinates) found.push({ name: c.name, unit: c.unit ?? "", words: `${c.description || c.name}, at the start`, value: null });
-  for (const u of inputs) found.push({ name: u.name, unit: u.unit ?? "", words: u.description, value: null });
-  return found;
+  const found = parameters.map((/** @type {any} */ p) => ({ name: p.name, words: p.description, value: p.value_si ?? 1 }));
+  for (const c of coordinates) found.push({ name: c.name, words: `${c.description || c.name}, at the start`, value: null });
+  for (const u of inputs) found.push({ name: u.name, words: u.description, value: null });
+  return found.map((/** @type {any} */ q) => ({ ...q, unit: unitOf(q.name) }));
 }
 
 /** @param {(error: unknown) => void} lose */
@@ -115,7 +115,7 @@ async function run(asked, { place, said, trouble, bar, go, stop }) {
   let axes = [];
   /** @type {any[][]} */
   const rows = [];
-  let unit = "";
+  let [kept, unit] = ["", ""];
   let drawing = 0;
   const draw = () => {
     drawing = 0;
@@ -128,11 +128,11 @@ async function run(asked, { place, said, trouble, bar, go, stop }) {
   try {
     await follow("sweep", asked, mine.signal, (message) => {
       if (message.error) { tell(trouble, message.error); said.textContent = ""; }
-      if (message.answer) said.replaceChildren(...summary(message.answer.data));
+      if (message.answer) said.replaceChildren(...summary(message.answer.data, kept, unit));
       if (message.part?.axes) axes = message.part.axes;
       if (message.part?.rows) {
         rows.splice(message.part.start, message.part.rows.length, ...message.part.rows);
-        unit = message.part.unit;
+        [kept, unit] = [message.part.name, message.part.unit];
         bar.value = rows.length / axes[0].values.length;
         drawing ||= requestAnimationFrame(draw);
       }
@@ -150,15 +150,20 @@ async function run(asked, { place, said, trouble, bar, go, stop }) {
 }
 
 /** @param {string} name */
-const unitOf = (name) => quantities().find((q) => q.name === name)?.unit ?? "";
+const unitOf = (name) => model.units[name] ?? "";
 
-/** The numbers of a sweep in words. @param {any} data */
-function* summary(data) {
+/** @param {string} name @param {number} x @param {string} unit */
+const valued = (name, x, unit) => `${name} = ${figure(x)}${unit && " "}${unit}`;
+
+/** The numbers of a sweep in words: of what was asked, not of what else a run stores. @param {any} data @param {string} kept @param {string} unit */
+function* summary(data, kept, unit) {
   yield `${data.runs} runs. `;
   if (data.failed) yield make("strong", {}, `${data.failed} of them failed. `);
-  for (const r of data.results) {
-    const where = Object.entries(r.where).map(([name, x]) => `${name} = ${figure(x)}`).join(", ");
-    yield `${r.name}: least ${figure(r.least)}, mean ${figure(r.mean)}, greatest ${figure(r.greatest)} at ${where}. `;
+  const r = data.results.find((/** @type {any} */ found) => found.name === kept);
+  if (r) {
+    const [least, mean, greatest] = [r.least, r.mean, r.greatest].map((x) => `${figure(x)}${unit && " "}${unit}`);
+    const where = Object.entries(r.where).map(([name, x]) => valued(name, x, unitOf(name))).join(", ");
+    yield `${r.name}: least ${least}, mean ${mean}, greatest ${greatest} at ${where}. `;
   }
   for (const notice of data.notices) yield `Note: ${notice}. `;
 }

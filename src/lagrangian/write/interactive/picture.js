@@ -10,10 +10,13 @@ function cornersOf({ disc, path }) {
   return [Math.min(...xs), Math.max(...xs)].flatMap((x) => [Math.min(...ys), Math.max(...ys)].map((y) => [x, y]));
 }
 
-/** How far the strokes of a floor are from each other: its longest line is not one of them. */
-function hatching(path) {
-  const starts = path.filter(([letter]) => letter === "M").slice(1).map(([, x]) => x);
-  return starts.length > 1 ? Math.abs(starts[1] - starts[0]) : 0;
+/** The line of a floor, which may be slanted, as one piece that whole strokes fill: where copies of it lie is n times this. */
+function pieceOf(path) {
+  const [[, x0, y0], [, x1, y1], ...strokes] = path;
+  const starts = strokes.filter(([letter]) => letter === "M"), length = Math.hypot(x1 - x0, y1 - y0);
+  const step = starts.length > 1 ? Math.hypot(starts[1][1] - starts[0][1], starts[1][2] - starts[0][2]) : 0;
+  const part = step > 0 && step < length ? (step * Math.floor(length / step + 1e-9)) / length : 1; // the strokes stay at equal distances
+  return [part * (x1 - x0), part * (y1 - y0)];
 }
 
 /** About how far dots that move with a charge are from each other [px], and how often the most that flowed sends them round. */
@@ -91,10 +94,10 @@ class Picture {
     return [cos * along, sin * along, -sin * beside, cos * beside, e, f, beside];
   }
 
-  trace(context, part, [a, b, c, d, e, f, factor], moved) {
+  trace(context, part, [a, b, c, d, e, f, factor], [along, up]) {
     const { left, top, zoom } = this;
-    const X = (x, y) => left + zoom * (a * (x + moved) + c * y + e);
-    const Y = (x, y) => top + zoom * (b * (x + moved) + d * y + f);
+    const X = (x, y) => left + zoom * (a * (x + along) + c * (y + up) + e);
+    const Y = (x, y) => top + zoom * (b * (x + along) + d * (y + up) + f);
     if (part.disc) {
       const [x, y, radius] = part.disc;
       context.arc(X(x, y), Y(x, y), Math.max(0, radius * factor * zoom), 0, 2 * Math.PI);
@@ -117,17 +120,13 @@ class Picture {
     if (closed) context.closePath();
   }
 
-  /** How far a floor has to be moved along itself, again and again, until it fills the frame. */
-  copies(part, place, width) {
-    if (part.kind !== "floor" || !part.path) return [0];
-    const xs = part.path.flatMap(([, ...n]) => n.filter((_, i) => i % 2 === 0));
-    const ys = part.path.flatMap(([, ...n]) => n.filter((_, i) => i % 2 === 1));
-    const length = Math.max(...xs) - Math.min(...xs) - (Math.max(...ys) - Math.min(...ys)), step = hatching(part.path);
-    const line = step > 0 && step < length ? step * Math.floor(length / step + 1e-9) : length; // the strokes stay at equal distances
-    const reach = line * Math.hypot(place[0], place[1]) * this.zoom;
-    if (!(reach > 8)) return [0];
+  /** By what a floor has to be moved along itself, again and again, until it fills the frame. */
+  copies(part, [a, b, c, d], width) {
+    if (part.kind !== "floor" || !part.path) return [[0, 0]];
+    const [x, y] = pieceOf(part.path), reach = Math.hypot(a * x + c * y, b * x + d * y) * this.zoom;
+    if (!(reach > 8)) return [[0, 0]];
     const most = Math.min(60, Math.ceil((2 * width) / reach));
-    return Array.from({ length: 2 * most + 1 }, (_, i) => (i - most) * line);
+    return Array.from({ length: 2 * most + 1 }, (_, i) => [(i - most) * x, (i - most) * y]);
   }
 
   /**
