@@ -402,8 +402,21 @@ def test_what_no_feedback_stabilises_is_named() -> None:
 
 
 def test_a_state_that_costs_nothing_and_does_not_decay_is_named() -> None:
-    with pytest.raises(RunError, match="the pole 0 of x would stay"):
-        built_in("cart-pole").linearize().lqr({"theta": 1}, 1)
+    s = lg.System("cart")
+    x, F, m = s.coordinate("x"), s.input("F"), s.parameter("m", "2 kg")
+    s.particle(m, at=s.origin + (x, 0))
+    s.force(F, deflection=x)
+    with pytest.raises(RunError, match="the pole 0 of x' would stay as it is, since no weight"):
+        s.linearize().lqr(0, 1)
+
+
+def test_a_coordinate_that_only_moves_on_and_costs_nothing_is_left_out_of_a_law() -> None:
+    """A motor's current, angle and speed are its states: its charge drifts while the law holds them."""
+    found = built_in("dc-motor").linearize().lqr({"theta": 1}, 1)
+    assert found.left_out == ("q",) and len(found.poles) == 3
+    assert not found.K[:, 0].any() and not found.S[0].any() and (found.poles.real < 0).all()
+    assert all(check.holds for check in found.verified) and "left out: no rate depends on it" in str(found)
+    assert not built_in("dc-motor").linearize().lqr({"theta": 1, "q": 0.1}, 1).left_out
 
 
 @pytest.mark.parametrize(

@@ -98,7 +98,7 @@ ACTUATORS = """<actuator>
   <motor joint="root" gear="1 2 3 4 5 6"/><motor jointinparent="root" gear="1 2 3 4 5 6"/>
   <motor name="thrust" site="thruster" gear="0 0 1 0 0 -.02"/>
   <general class="affine" joint="elbow"/><damper joint="elbow" kv="2" ctrlrange="0 1"/>
-  <velocity joint="wrist" kv="2" gear="1 .5 .2"/>
+  <velocity joint="wrist" kv="2" gear="1 .5 .2"/><position name="one" joint="elbow" kp="1" kv="1"/><velocity joint="slide" kv="1"/>
 </actuator>
 """
 DRIVEN = JOINTED + ACTUATORS + "</mujoco>"
@@ -136,7 +136,7 @@ def test_actuators_are_inputs_and_what_is_not_read_is_told():
     )
     system = lg.loads(text)
     names = [u.name for u in system.model.inputs]
-    assert names[:5] == ["u_elbow", "u_slide", "servo", "u_slide_2", "twist"] and len(names) == 12
+    assert names[:5] == ["u_elbow", "u_slide", "servo", "u_slide_2", "twist"] and len(names) == 14
     said = " ".join(n.text for n in system.notices)
     for part in (
         "servo drives elbow (control -1 to 2)",

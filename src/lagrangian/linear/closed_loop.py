@@ -9,7 +9,7 @@ law           ẋ of the nonlinear system with the law as its input has the slop
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -35,13 +35,18 @@ WIDTH = 1e-4
 
 
 def closed_loop(
-    linear: LinearModel, regulator: tuple[Array, Array, Array, Array], law: Mapping[sp.Expr, sp.Expr]
+    linear: LinearModel,
+    regulator: tuple[Array, Array, Array, Array],
+    law: Mapping[sp.Expr, sp.Expr],
+    left_out: Sequence[str] = (),
 ) -> tuple[Check, ...]:
-    """Return the checks of Q, R, K, S and of a law."""
+    """Return the checks of Q, R, K, S and of a law; all but that of the law without the states that are left out."""
     import scipy.linalg
 
-    Q, R, K, S = regulator
-    A, B = linear.A, linear.B
+    kept = [k for k, name in enumerate(linear.states) if name not in left_out]
+    inner, R, whole = np.ix_(kept, kept), regulator[1], linear.A - linear.B @ regulator[2]
+    Q, K, S = regulator[0][inner], regulator[2][:, kept], regulator[3][inner]
+    A, B = linear.A[inner], linear.B[kept]
     loop, cost = A - B @ K, Q + K.T @ R @ K
     pushed = S @ B @ np.linalg.solve(R, B.T @ S)
     terms = (A.T @ S, S @ A, pushed, Q)
@@ -64,7 +69,7 @@ def closed_loop(
             worst.real < 0,
             f"the one farthest right is {complex_figure(worst)}",
         ),
-        _law_check(linear, loop, law),
+        _law_check(linear, whole, law),
     )
 
 

@@ -54,12 +54,18 @@ def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
     """The regulator that minimizes ∫ (δxᵀQ δx + δuᵀR δu) dt: K = R⁻¹BᵀS, where S solves Riccati's equation.
 
     ``Q`` and ``R``: a matrix, a number (times the identity), or weights of the diagonal by name (0 if not named).
+    A coordinate on which no rate depends and that costs nothing, such as the charge of a motor, is left out.
     Raises `RunError` if an uncontrollable mode does not decay, if one that does not decay costs nothing, and for
     weights that do not fit.
     """
     import scipy.linalg  # slow to load
 
-    reach = controllable(linear.A, linear.B, linear.states)
+    q = _weights(Q, "Q", "state", linear.states)
+    r = _weights(R, "R", "input", linear.inputs)
+    kept = _kept(linear, q)
+    inner = np.ix_(kept, kept)
+    A, B, cost, states = linear.A[inner], linear.B[kept], q[inner], tuple(linear.states[k] for k in kept)
+    reach = controllable(A, B, states)
     lost = [m for m in reach.missing if not m.pole.real < 0]
     if lost:
         names = ", ".join(lost[0].combination)
@@ -68,30 +74,40 @@ def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
             fix="add an input that acts on it, or linearize without that coordinate",
             code="E522",
         )
-    q = _weights(Q, "Q", "state", linear.states)
-    r = _weights(R, "R", "input", linear.inputs)
     if np.linalg.eigvalsh(q).min() < -1e-12 * max(1.0, float(np.abs(q).max())):
         raise RunError("Q must be positive semidefinite", fix="give weights that are not negative", code="E501")
     if np.linalg.eigvalsh(r).min() <= 0:
         raise RunError("R must be positive definite", fix="give every input a positive weight", code="E501")
-    free = [
-        m for m in observable(linear.A, q, linear.states).missing if not abs(m.pole.real) > ON_THE_AXIS * abs(m.pole)
-    ]
+    free = [m for m in observable(A, cost, states).missing if not abs(m.pole.real) > ON_THE_AXIS * abs(m.pole)]
     if free:
         names = ", ".join(free[0].combination)
         raise RunError(
-            f"the pole {shown(free[0].pole)} of {names} would stay: Q costs nothing there", fix=WEIGHED, code="E522"
+            f"the pole {shown(free[0].pole)} of {names} would stay as it is, since no weight in Q makes this motion "
+            "cost anything",
+            fix=WEIGHED,
+            code="E522",
         )
     try:
-        S = np.asarray(scipy.linalg.solve_continuous_are(linear.A, linear.B, q, r), float)
+        found = np.asarray(scipy.linalg.solve_continuous_are(A, B, cost, r), float)
     except (np.linalg.LinAlgError, ValueError) as trouble:
         raise RunError(f"Riccati's equation has no solution: {trouble}", fix=WEIGHED, code="E522") from trouble
-    K: Array = np.asarray(np.linalg.solve(r, linear.B.T @ S), float)
-    poles: NDArray[np.complex128] = np.asarray(np.linalg.eigvals(linear.A - linear.B @ K), complex)
+    gains = np.linalg.solve(r, B.T @ found)
+    poles: NDArray[np.complex128] = np.asarray(np.linalg.eigvals(A - B @ gains), complex)
     if not (poles.real < 0).all():
         worst = complex(poles[int(np.argmax(poles.real))])
         raise RunError(f"the closed loop would have the pole {shown(worst)}", fix=WEIGHED, code="E522")
-    return Regulator(linear, q, r, K, S, poles[slowest_first(poles)])
+    S, K = np.zeros_like(q), np.zeros((len(r), len(q)))
+    S[inner], K[:, kept] = found, gains
+    left_out = tuple(name for name in linear.states if name not in states)
+    return Regulator(linear, q, r, K, S, poles[slowest_first(poles)], left_out)
+
+
+def _kept(linear: LinearModel, q: Array) -> list[int]:
+    """The places of the states without coordinates on which no rate depends, so that they may drift, and that cost
+    nothing."""
+    moving = {c.name for c in linear.model.coordinates}
+    free = ~(linear.A.any(axis=0) | q.any(axis=0))
+    return [k for k, name in enumerate(linear.states) if not (free[k] and name in moving)]
 
 
 def _weights(given: Any, what: str, noun: str, names: tuple[str, ...]) -> Array:

@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 TURNS = "The turns of a floating frame are 2 vec(e₀* ∘ e)/|e₀|² of its quaternion e, e₀ at the point."
 """How a law takes the minimal states of floating frames from their coordinates."""
 
+LEFT_OUT = " is left out: no rate depends on it, and it costs nothing. Only its rate is regulated; it may drift itself."
+"""What a law does not do about such a coordinate."""
+
 ZERO_GAIN_TOLERANCE = 1e-11
 """Entries below this fraction of the largest in their row are shown as zero."""
 
@@ -34,8 +37,9 @@ class Regulator(Written):
     """A regulator u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S``, the poles of A − B K [1/s], slowest
     first.
 
-    ``Q`` and ``R`` are the weights of states and inputs. ``law`` is this feedback as input symbol → expression of
-    coordinates and rates, for the inputs of a simulation.
+    ``Q`` and ``R`` are the weights of states and inputs. Coordinates that are ``left_out``, since no rate depends on
+    them and they cost nothing, have zeros in K and S, and their poles 0 are not among the poles. ``law`` is this
+    feedback as input symbol → expression of coordinates and rates, for the inputs of a simulation.
     """
 
     linear: LinearModel = field(repr=False)
@@ -44,6 +48,7 @@ class Regulator(Written):
     K: Array
     S: Array
     poles: NDArray[np.complex128]
+    left_out: tuple[str, ...] = ()
 
     @property
     def law(self) -> dict[sp.Expr, sp.Expr]:
@@ -65,7 +70,7 @@ class Regulator(Written):
     @cached_property
     def verified(self) -> tuple[Check, ...]:
         """The checks of S, of the poles and of the law, each with its figure; see `lagrangian.linear.closed_loop`."""
-        return closed_loop(self.linear, (self.Q, self.R, self.K, self.S), self.law)
+        return closed_loop(self.linear, (self.Q, self.R, self.K, self.S), self.law, self.left_out)
 
     def report(self) -> Report[Model]:
         """Return the report."""
@@ -85,6 +90,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
         _ordered(found, x, linear.states),
         formula(K, matrix(_swept(found.K, np.sqrt(np.abs(np.diag(found.S)))))),
         *([] if linear.back is None else [text(TURNS)]),
+        *(text(symbol(linear.model, name), LEFT_OUT) for name in found.left_out),
         text("As inputs of a run, such as `lagrangian simulate --input`:"),
         *(text(f"{name} = {law}") for name, law in _typed(found).items()),
         text("about the point"),
@@ -134,6 +140,7 @@ def _data(found: Regulator) -> dict[str, Any]:
         "K": found.K.tolist(),
         "S": found.S.tolist(),
         "poles": plain_numbers(found.poles),
+        "left_out": list(found.left_out),
         "law": _typed(found),
         "checks": [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in found.verified],
     }

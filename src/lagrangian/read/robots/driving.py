@@ -177,12 +177,14 @@ class Drives:
             return number("kp", g0, stiffness) * (u - L) - number("kv", -b2, damping) * rate + offset
         if actuator.kind == "velocity servo":
             return number("kv", g0, damping) * (u - rate) + offset
+        if actuator.kind == "motor":
+            return u
         gain = number("gain0", g0, effort) + number("gain1", g1, stiffness) * L + number("gain2", g2, damping) * rate
         return gain * u + offset + number("bias1", b1, stiffness) * L + number("bias2", b2, damping) * rate
 
     def _number(self, name: str, value: float, unit: str | None, what: str, source: RobotActuator) -> sp.Expr:
-        """A number of an actuator: a parameter, unless it is 0, 1 or −1."""
-        if value in (-1.0, 0.0, 1.0):
+        """A number of an actuator: a parameter, unless it is 0, or a 1 or −1 without a unit that would get lost."""
+        if not value or (unit is None and abs(value) == 1.0):
             return sp.Integer(int(value))
         return self.assembly.parameter(name, value, unit, what, source.place)
 
