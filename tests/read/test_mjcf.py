@@ -96,9 +96,9 @@ ACTUATORS = """<actuator>
   <position name="servo" joint="elbow" kp="7" gear="-2" ctrlrange="-1 2"/><velocity joint="slide" kv="4" gear=".5"/>
   <motor name="twist" joint="shoulder" gear="1 2 -.5"/><motor jointinparent="shoulder" gear=".1 .2 .3"/>
   <motor joint="root" gear="1 2 3 4 5 6"/><motor jointinparent="root" gear="1 2 3 4 5 6"/>
-  <motor name="thrust" site="thruster" gear="0 0 1 0 0 -.02"/>
+  <motor name="thrust" site="thruster" gear="0 0 1 0 0 -.02"/><velocity joint="slide" kv="1"/>
   <general class="affine" joint="elbow"/><damper joint="elbow" kv="2" ctrlrange="0 1"/>
-  <velocity joint="wrist" kv="2" gear="1 .5 .2"/><position name="one" joint="elbow" kp="1" kv="1"/><velocity joint="slide" kv="1"/>
+  <velocity joint="wrist" kv="2" gear="1 .5 .2"/><position name="one" joint="elbow" kp="1" kv="1"/>
 </actuator>
 """
 DRIVEN = JOINTED + ACTUATORS + "</mujoco>"
