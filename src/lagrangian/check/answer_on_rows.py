@@ -23,6 +23,9 @@ from lagrangian.verify.states import evaluated, state_groups
 
 Array: TypeAlias = NDArray[np.float64]
 
+ROUNDING = 1e-6
+"""The least size of an equation, in those of its terms: one that says 0 = 0 is no other than rounding everywhere."""
+
 
 @dataclass(frozen=True, eq=False)
 class AnswerAt:
@@ -59,6 +62,7 @@ class AnswerOnRows:
         self.truth, self.unknown, self.count = truth, list(unknown), len(lines)
         self.on_rows, self.programs = _programs(d)
         wanted: list[sp.Expr] = [line.expr for line in lines]
+        wanted += [sp.Add(*[sp.Abs(x, evaluate=False) for x in sp.Add.make_args(line.expr)]) for line in lines]
         self.along: list[sp.Expr] = list(d.minimal.S.flat()) if d.minimal is not None else []
         self.coordinates = truth.model.coordinates
         atoms = [x for c in self.coordinates for x in (c.symbol, c.rate, c.acceleration)]
@@ -70,8 +74,10 @@ class AnswerOnRows:
         """Up to ``count`` random states on the rows; with ``given`` the parameters keep their values."""
         return self.on_rows.states(self.sampler, count, 1, given=given)
 
-    def _values(self, here: dict[sp.Basic, float]) -> Array:
-        return np.array(self.sampler.at(here)[self.skipped : self.skipped + self.count])
+    def _values(self, here: dict[sp.Basic, float], *, terms: bool = False) -> Array:
+        """P, or the sums of the sizes of its terms."""
+        first = self.skipped + self.count * terms
+        return np.array(self.sampler.at(here)[first : first + self.count])
 
     def at(self, here: tuple[State, Groups]) -> AnswerAt:
         """The answer at one state with the true accelerations, which are put into it."""
@@ -87,8 +93,9 @@ class AnswerOnRows:
         size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(self._values(state))
         off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
         size = np.maximum(size, np.abs(self._values({**still, **off})))
+        size = np.maximum(size, ROUNDING * self._values(state, terms=True))
         A, M = np.array(rows["A"], float).reshape(-1, n), np.array(mass["M"], float).reshape(n, n)
-        S = self.sampler.at(state)[self.skipped + self.count :]
+        S = self.sampler.at(state)[self.skipped + 2 * self.count :]
         along = np.array(S).reshape(n, -1) if self.along else np.zeros((n, 0))
         return AnswerAt(
             value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)

@@ -5,7 +5,7 @@ An answer may write y″ or r φ″ for the same thing, and may have put one int
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import sympy as sp
@@ -33,6 +33,12 @@ class OnConstraints(Reference):
     def put_in(self, expr: sp.Expr) -> sp.Expr:
         """An expression in the other coordinates alone."""
         return _with(expr, self.table)
+
+    def force(self, Xi: Sequence[sp.Expr], i: int) -> sp.Expr:
+        """Ξ_i where a motion of ξ_i moves the coordinates that follow from it: Ξ_i + Σ Ξ_d ∂ξ_d/∂ξ_i."""
+        coordinates = self.model.coordinates
+        moved = [bounded.diff(self.table.get(c.symbol, c.symbol), coordinates[i].symbol) for c in coordinates]
+        return sp.Add(*[x * y for x, y in zip(Xi, moved, strict=True)])
 
 
 def held(truth: Reference) -> OnConstraints | None:

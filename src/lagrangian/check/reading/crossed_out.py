@@ -1,4 +1,7 @@
-r"""Takes off an answer what is crossed out, which is no part of it: ~~V = k r²~~, <s>…</s>, \sout{…}."""
+r"""Takes off an answer what is crossed out, which is no part of it: ~~V = k r²~~, <s>…</s>, \sout{…}.
+
+A remark says it of the line in front of it: V = m g z   <- crossed out.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +13,13 @@ from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _BETWEEN = re.compile(r"~~(?=[^\s~])[^~\n]{1,1000}~~|<(?P<tag>s|del|strike)>[^<>\n]{1,1000}</(?P=tag)>", re.IGNORECASE)
 _COMMAND = re.compile(r"\\(?:sout|xout)\s?\{")
+_SAID = re.compile(
+    r"(?:<-+|←|\(|\[|//|#|%|--|—|…|\.\.\.)[ \t]{0,4}(?:this )?(?:line |is )?"
+    r"(?:(?:crossed|struck|scratched)[ -](?:out|through)|(?:durch)?gestrichen)[ \t]{0,4}(?=[,;:.)\]\n]|\Z)",
+    re.IGNORECASE,
+)
+"""A remark that begins with these words."""
+_WORDS = ("crossed", "struck", "scratched", "gestrichen")
 _MOST = 50
 
 
@@ -22,11 +32,28 @@ def without_crossed_out(written: TracedText, notes: dict[str, None]) -> TracedTe
 
 
 def _edits(text: str) -> Iterator[Edit]:
+    lines: list[tuple[int, int]] = []
+    if any(word in text.lower() for word in _WORDS):
+        said = [m.start() for m in _SAID.finditer(text)][:_MOST]
+        lines = sorted({(text.rfind("\n", 0, k) + 1, _end(text, k)) for k in said})
+    yield from ((*line, " ") for line in lines)
+    for start, end in _marked(text):
+        if not any(a <= start < b for a, b in lines):
+            yield start, end, " "
+
+
+def _marked(text: str) -> Iterator[tuple[int, int]]:
     if "~~" in text or "<" in text:
-        yield from ((*m.span(), " ") for m in _BETWEEN.finditer(text))
+        yield from (m.span() for m in _BETWEEN.finditer(text))
     elif "out" in text:
         end = 0
         for match in list(_COMMAND.finditer(text))[:_MOST]:
             if match.start() >= end:
                 end = closing(text, match.end())
-                yield match.start(), end, " "
+                yield match.start(), end
+
+
+def _end(text: str, start: int) -> int:
+    """The end of a line."""
+    end = text.find("\n", start)
+    return len(text) if end < 0 else end

@@ -11,6 +11,7 @@ _COVERS = "underbrace overbrace underbracket overbracket underset overset stackr
 _UNDER = re.compile(rf"\\(?:{'|'.join(_COVERS.split())})\s*\{{")
 _DROPPED_FIRST = frozenset(["underset", "overset", "stackrel"])
 _SIGN = re.compile(r"\s*\{\s*([=+<>-]|\\equiv)\s*\}")
+_SIGNED = re.compile(r"\{\s*(?:\{\}\s*)?[+-]")
 _COLOURED = re.compile(
     r"\\(?:textcolor|colorbox|mathcolor)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}\s*(?=\{)|\\color\s*\{[^{}]*\}"
 )
@@ -57,6 +58,9 @@ def _uncovered(text: str, match: re.Match[str]) -> str:
         letters[start:stop] = " " * (stop - start)
 
     drop(match.start(), inside)
+    if (signed := _SIGNED.match(text, inside)) is not None:  # what is printed is a − b
+        drop(inside, signed.end() - 1)
+        drop(end - 1, end)
     if name in _DROPPED_FIRST:
         drop(inside, end)
         if (sign := _SIGN.match(text, end)) is not None:

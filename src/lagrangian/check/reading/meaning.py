@@ -13,7 +13,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, only_name
-from lagrangian.check.reading.placeholders import ENERGIES, is_vector, slope, variation
+from lagrangian.check.reading.own_slopes import own_slope
+from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
 from lagrangian.check.reading.words import RECIPROCALS
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
@@ -93,7 +94,9 @@ class Meaning(ExpressionReader):
         return self._rated(value, order, node)
 
     def _rated(self, value: Value, order: int, node: Node) -> Value:
-        """The derivative by time, taken ``order`` times."""
+        """The derivative by time, taken ``order`` times; ∂L/∂ξ̇ of an L without a value changes with time, too."""
+        unset = [d for d in value.atoms(sp.Derivative) if is_placeholder(d.expr) and d.variables != (time,)]
+        value = value.xreplace({d: slope(str(d.expr), d.variables) for d in unset})
         for _ in range(order):
             value = self._differentiated(value, time, node)
         return value
@@ -131,13 +134,32 @@ class Meaning(ExpressionReader):
                 )
         variable = self.value(by)
         if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
-            self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
+            return self._own_slope(kind, energy, by)
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
         if energy is None or not moving or self.names.is_unknown(variable):
             if kind not in ENERGIES:
                 return slope(key(kind), variable)
             return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
         return self._differentiated(self.names.model.expand(energy), variable, node)
+
+    def _own_slope(self, kind: str, energy: sp.Expr | None, by: Node) -> sp.Expr:
+        """The derivative by a coordinate of the answer's own, which its meaning in those of the system determines.
+
+        Where that is not enough, or the energy has no value, it is a quantity that is not judged.
+        """
+        if (named := only_name(by)) is not None:
+            base, dotted = undotted(named[0])
+            _, meaning, dots = self._meaning(base)
+            order = named[1] + dotted + dots
+            if energy is not None:
+                whole = self.names.model.expand(energy)
+                found = own_slope(meaning, order, lambda variable: self._differentiated(whole, variable, by))
+                if found is not None:
+                    self._spend(found, by)
+                    return found
+            if order <= 1 and meaning.has(AppliedUndef):
+                return slope(key(kind), f"{base} {order}")
+        self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
 
     def _variation(self, node: Node) -> sp.Expr:
         found = only_name(node.children[1])

@@ -1,0 +1,156 @@
+"""Derivatives and generalized forces in coordinates of an answer's own, and with constraints put in.
+
+Oracle: the equations of a slider in a turning table and of a Scotch yoke, by hand. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+@cache
+def table() -> lg.Derivation:
+    """A slider at the place s of a slot, at the distance h from the axle of a table that a motor turns."""
+    s = lg.System("slider in a turntable")
+    phi, u = s.coordinates("phi s")
+    J, m, h, k, b, d = s.parameters("J m h k b d")
+    tau = s.inputs("tau")
+    frame = s.frame(phi, name="table")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=frame, name="table")
+    s.particle(m, at=frame.point(u, h), name="slider")
+    s.spring(k, deflection=u)
+    s.damper(b, deflection=u)
+    s.damper(d, deflection=phi)
+    s.torque(tau, on=frame)
+    return s.derive()
+
+
+@cache
+def yoke() -> lg.Derivation:
+    """A crank's pin in the slot of a yoke that pushes against a force P."""
+    s = lg.System("Scotch yoke")
+    theta, x = s.coordinates("theta x")
+    J, M, r, d = s.parameters("J M r d")
+    P, tau = s.inputs("P tau")
+    crank = s.frame(theta, name="crank")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=crank, name="crank")
+    at = s.point("yoke", (x, 0))
+    s.particle(M, at=at, name="yoke")
+    s.damper(d, deflection=theta)
+    s.torque(tau, on=crank)
+    s.force((-P, 0), at=at)
+    s.constraint(x - r * sp.cos(theta), name="pin")
+    return s.derive()
+
+
+TURNED = """\
+u = -s
+T = 1/2*J*phi'^2 + 1/2*m*(u' + h*phi')^2 + 1/2*m*u^2*phi'^2
+dT/du' = m*(u' + h*phi')
+d/dt(dT/du') = m*u'' + m*h*phi''
+dT/du = m*u*phi'^2
+(J + m*h^2 + m*u^2)*phi'' + m*h*u'' + 2*m*u*u'*phi' + d*phi' = tau
+m*u'' + m*h*phi'' - m*u*phi'^2 + b*u' + k*u = 0
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [
+        ("dT/du' = m*(u' + h*phi')", "dT/du' = m*(u' - h*phi')"),
+        ("= m*u'' + m*h*phi''\n", "= m*u'' - m*h*phi''\n"),
+        ("dT/du = m*u*phi'^2", "dT/du = -m*u*phi'^2"),
+    ],
+)
+def test_an_energy_is_differentiated_by_a_coordinate_of_the_answers_own(now: str, wrong: str) -> None:
+    assert table().check(TURNED).right
+    assert now in TURNED and not table().check(TURNED.replace(now, wrong)).right
+
+
+def test_a_coordinate_that_is_no_sum_of_others_changes_its_rate() -> None:
+    """With s = u²: ∂T/∂u and d/dt ∂T/∂u' hold the squares of rates that the chain rule gives."""
+    text = """\
+s = u^2
+T = 1/2*J*phi'^2 + 1/2*m*(2*u*u' - h*phi')^2 + 1/2*m*u^4*phi'^2
+d/dt dT/du' = 4*m*u^2*u'' + 8*m*u*u'^2 - 2*m*h*u*phi'' - 2*m*h*u'*phi'
+dT/du = 4*m*u*u'^2 - 2*m*h*u'*phi' + 2*m*u^3*phi'^2
+4*m*u^2*u'' + 4*m*u*u'^2 - 2*m*h*u*phi'' - 2*m*u^3*phi'^2 + 4*b*u^2*u' + 2*k*u^3 = 0
+(J + m*h^2 + m*u^4)*phi'' - m*h*(2*u*u'' + 2*u'^2) + 4*m*u^3*u'*phi' + d*phi' = tau
+"""
+    assert table().check(text).right
+    assert not table().check(text.replace("8*m*u*u'^2", "4*m*u*u'^2")).right
+
+
+def test_a_derivative_of_an_energy_without_a_value_is_not_judged_and_told() -> None:
+    rows = "\n".join(TURNED.splitlines()[-2:])
+    found = table().check(f"u = -s\nd/dt(dL/du') = m*u'' + m*h*phi''\n{rows}")
+    assert found.right and any("was not judged" in str(note) for note in found.notes)
+
+
+PUT_IN = """\
+x = r cos(theta)
+T = J theta'^2/2 + M r^2 theta'^2 sin(theta)^2/2
+∂T/∂theta' = (J + M r^2 sin(theta)^2) theta'
+Q_theta = tau - d theta' + P r sin(theta)
+(J + M r^2 sin(theta)^2) theta'' + M r^2 theta'^2 sin(theta) cos(theta) = tau - d theta' + P r sin(theta)
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [
+        ("theta' + P r sin(theta)\n(J", "theta' - P r sin(theta)\n(J"),
+        ("∂T/∂theta' = (J + M", "∂T/∂theta' = (J - M"),
+    ],
+)
+def test_forces_and_derivatives_with_the_constraint_put_in(now: str, wrong: str) -> None:
+    assert yoke().check(PUT_IN).right
+    assert now in PUT_IN and not yoke().check(PUT_IN.replace(now, wrong)).right
+
+
+def test_a_force_with_the_constraint_put_in_is_not_that_beside_another_coordinates() -> None:
+    """Where Ξ_x is stated, x is a coordinate, and P belongs to its equation alone."""
+    rows = "J theta'' = tau - d theta' - lambda r sin(theta)\nM x'' = -P - lambda\nx = r cos(theta)"
+    assert yoke().check(f"Q_theta = tau - d theta'\nQ_x = -P\n{rows}").right
+    assert not yoke().check(f"Q_theta = tau - d theta' + P r sin(theta)\nQ_x = -P\n{rows}").right
+
+
+def test_a_force_where_a_coordinate_of_the_answers_own_replaces_another() -> None:
+    """A mass on a moving cart, the spring's length w in place of its place z: the damper pulls at w alone."""
+    s = lg.System("relative")
+    y, z = s.coordinates("y z")
+    m, M, k, b = s.parameters("m M k b")
+    F = s.inputs("F")
+    s.particle(M, at=s.point("cart", (y, 0)), name="cart")
+    s.particle(m, at=s.point("seat", (z, 0)), name="seat")
+    s.spring(k, deflection=z - y)
+    s.damper(b, deflection=z - y)
+    s.force(F, deflection=y)
+    d = s.derive()
+    rows = "(M + m)*y'' + m*w'' = F\nm*(y'' + w'') + b*w' + k*w = 0"
+    assert d.check(f"w = z - y\nQ_y = F\n{rows}").right
+    assert not d.check(f"w = z - y\nQ_y = F - b*w'\n{rows}").right
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["V = -k*s^2   <- crossed out", "V = k*s^2  (crossed out, the half is missing)", "V = k*s^2  // durchgestrichen"],
+)
+def test_a_line_that_a_remark_calls_crossed_out_is_not_judged(said: str) -> None:
+    rows = """(J + m*h^2 + m*s^2)*phi'' - m*h*s'' + 2*m*s*s'*phi' + d*phi' = tau
+m*s'' - m*h*phi'' - m*s*phi'^2 + b*s' + k*s = 0"""
+    found = table().check(f"{said}\nV = k*s^2/2\n{rows}")
+    assert found.right and any("crossed out" in str(note) for note in found.notes)
+    assert not table().check(f"{said}\nV = k*s^2\n{rows}").right
+
+
+def test_terms_crossed_out_in_a_sum_keep_their_signs() -> None:
+    text = r"m \ddot s \cancel{{}- m h} \cancel{{}+ m h} - m h \ddot\varphi - m s \dot\varphi^2 + b \dot s + k s = 0"
+    other = r"(J + m h^2 + m s^2) \ddot\varphi - m h \ddot s + 2 m s \dot s \dot\varphi + d \dot\varphi = \tau"
+    assert table().check(f"${text}$\n\n${other}$").right
+    assert not table().check(f"${text.replace('{{}+', '{{}-')}$\n\n${other}$").right
