@@ -35,6 +35,8 @@ _OPEN_END = re.compile(r"[-+⋅·*/(=^,]\s*\Z")
 _SAID = re.compile(r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2,}:[ \t]*\Z|\A[ \t]*\(%i\d{1,4}\)")
 """A line of words, or one that was typed."""
 _BAR = re.compile("[─━]+")
+_RIGHT_SIDE = re.compile(r"[ \t]{0,3}=[^=]")
+"""What a program prints below a drawn side: = 0."""
 _FRAME = re.compile("[\u2502\u2503\u250c-\u254b]")
 _ARROW = "↪"
 _ON_ONE_LINE = "write it on one line, (a)/(b); in SymPy, print() in place of pprint()"
@@ -170,7 +172,10 @@ def _joined(pieces: Sequence[_Drawing]) -> list[str]:
 
 
 def _one(lines: Sequence[str], space: _Space) -> str | None:
-    """A drawing on one line; None if it is none, or says nothing."""
+    """A drawing on one line; None if it is none, or says nothing. A right side printed below belongs to it."""
+    if len(lines) > 2 and _RIGHT_SIDE.match(lines[-1]) and not any("=" in x for x in lines[:-1]):
+        made = _one(lines[:-1], space)
+        return f"{made} {lines[-1].strip()}" if made is not None else None
     text = "\n".join(lines)
     drawn, hyphens = _DRAWN.search(text) is not None, _HYPHENS.search(text) is not None
     raised, tall = any(map(_RAISED.fullmatch, lines)), _TALL.search(text) is not None

@@ -67,6 +67,7 @@ _ARROW = re.compile(rf"{_SPACE}(?:{_ARROWS})")
 _EQUALS = re.compile(r"\\(?:coloneqq|triangleq|equiv|stackrel\{!\}\{=\}|eqdef)(?![A-Za-z])|:=")
 _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
+_BLANK = re.compile(r"\n[ \t]*+\n")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
@@ -145,15 +146,17 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = without_units(without_braces(_with_points(_without_words(_unboxed(text)))))
     rows: list[AnswerRow] = []
+    end = 0
     for at, piece, hard in _cut(text, lines):
         kept = _labels(piece)
         if not _content(kept):
             continue
-        if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard):
+        if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
             gap = at + start - previous.start - len(previous.text)
             rows[-1] = AnswerRow(previous.start, previous.text + " " * gap + kept)
         elif "\\" in kept or not plain_words(kept):
             rows.append(AnswerRow(at + start, kept))
+        end = at + len(piece)
     return [part for row in rows for part in _parts(_tidy(row))]
 
 
@@ -229,11 +232,11 @@ def _content(piece: str) -> bool:
     return any(m["content"] not in (None, ".", ",", ";") for m in _PIECE.finditer(piece))
 
 
-def _continues(before: str, piece: str, hard: bool) -> bool:
-    """Whether a row continues the previous one."""
+def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
+    """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
     if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
         return True
-    return bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
+    return apart is None and bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
 
 
 def _tidy(row: AnswerRow) -> AnswerRow:

@@ -109,9 +109,10 @@ class Lines:
         return lines
 
     def _complete(self) -> bool:
-        """Whether there is an equation with accelerations for every coordinate, perhaps in one of matrices."""
+        """Whether there is an equation with accelerations for every degree of freedom, perhaps in one of matrices."""
         moving = [s for s in self._statements if any(map(self.subjects.accelerates, s.sides))]
-        return len(moving) >= len(self.model.coordinates) or any(self._has_matrices(s.sides) for s in moving)
+        free = len(self.model.coordinates) - len(self.model.constraints)
+        return len(moving) >= free or any(self._has_matrices(s.sides) for s in moving)
 
     def _is_general(self, i: int, error: ParseError) -> bool:
         """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""

@@ -19,6 +19,13 @@ _ITALIC = re.compile(r"(?<=[\s(,])(\*|_)(?=[^\W\d_]{3})([^\W\d_]+(?:[ -][^\W\d_]
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
 _QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
 _BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
+_TERM = re.compile(
+    r"[ \t]*[-–][ \t]+(?![$]|\\[(\[]|[^\W\d]\w*(?:\{\w{1,12}\})?['’′]{0,2}[ \t]*[:=]"
+    r"|[^\W\d_]{2,}:?[ \t]+[^\W\d_]{2,}(?!\w)[ \t:])"
+)
+"""A line that begins with a minus or a bullet and goes on with a formula, not with words or a name and its value."""
+_PRINTED = re.compile(r"\{\\left\(t \\right\)\}|\\frac\{d(?:\^\{2\})?\}\{d t")
+"""How SymPy prints LaTeX, in which a blank stands behind a minus."""
 _SIGNED = re.compile(r"[ \t]*[-+–]")
 _UNFINISHED = re.compile(r"^(?=[^=]*['′″²³*^()\u0307\u0308])[^=:]*[^\s=:.,;][ \t]*$")
 """A line that ends in mathematics and has no equals sign."""
@@ -61,7 +68,19 @@ def sentences_apart(text: TracedText) -> TracedText:
 
 def bullets(text: str) -> int:
     """Return how many statements begin with what may be a bullet: - m x'' + k x = 0."""
-    return len(_BULLET.findall(text))
+    return 0 if are_signs(text) else len(_BULLET.findall(text))
+
+
+def may_be_signs(text: str) -> bool:
+    """Whether what begins lines may be a minus as well as a bullet: all with an equals sign begin with it, and nothing
+    shows that they are a list, such as words in front of an equation or a name that one defines."""
+    stated = [line for line in text.split("\n") if "=" in line and _BULLET.match(line)]
+    return bool(stated) and all(map(_TERM.match, stated))
+
+
+def are_signs(text: str) -> bool:
+    """Whether lines that may begin with a minus are those of a program that puts a blank behind it."""
+    return _PRINTED.search(text) is not None and may_be_signs(text)
 
 
 def all_bullets(text: str, *, marked: bool = False) -> bool:
@@ -72,7 +91,20 @@ def all_bullets(text: str, *, marked: bool = False) -> bool:
     if any("=" in line and _SIGNED.match(line) and _UNFINISHED.search(above) for above, line in pairwise(lines)):
         return False  # an equation goes on in the next line
     marks = [m.group().strip() if (m := _BULLET.match(line)) else "" for line in stated]
+    if not marked and are_signs(text):
+        return False
     return len(marks) > (0 if marked else 1) and len(set(marks)) == 1 and marks[0] != ""
+
+
+def are_bullets(text: str, chosen: bool | None, notes: dict[str, None], *, marked: bool) -> bool:
+    """Whether what may be bullets at the beginning of lines is read so, which a note tells if it may be a minus;
+    ``chosen`` decides if it is not None."""
+    if chosen is not None:
+        return chosen
+    listed = all_bullets(text, marked=marked)
+    if listed and may_be_signs(text):
+        notes.setdefault("The sign at the beginning of lines was read as that of a list.")
+    return listed
 
 
 def without_bullets(text: str) -> str:

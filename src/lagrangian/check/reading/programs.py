@@ -60,6 +60,10 @@ _PLAIN_DOTS = re.compile(r"\\(?P<dots>d{1,2})ot\s*\\?(?P<of>[^\W\d_]\w*)")
 _COMMAND = re.compile(r"\\(?P<word>[A-Za-z]+)")
 _PLAIN_CALL = re.compile(rf"(?<![\w\\])(?:sin|cos|tan|sqrt)\s*\(|(?<![\w\\])(?:{'|'.join(SPELLED.values())})(?!\w)")
 _LATEX = re.compile(r"\\[A-Za-z]|[_^]\{")
+_PARTIAL_RATE = re.compile(
+    r"\\frac\s?\{\s?\\partial\s?(?P<two>\^\s?(?:2|\{2\})\s?)?\}\s?\{\s?\\partial\s?t\s?(?(two)\^\s?(?:2|\{2\})\s?)\}"
+)
+"""How MATLAB's latex() writes rates: \\frac{\\partial ^2}{\\partial t^2} x\\left(t\\right)."""
 _GREEK = {word: letter for letter, word in SPELLED.items() if letter != "ς"}
 _CALLS = re.compile(r"(?<![\w.\\])(?P<name>frac|Rational|pow|power|square|mat|vec)\(")
 _SHAPES = {
@@ -93,7 +97,8 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     if _is_mixed(written.text):
         written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])
     if _LATEX.search(written.text):
-        return written
+        written = written.sub(_PARTIAL_RATE, lambda m: r"\frac{d^2}{dt^2}" if m["two"] else r"\frac{d}{dt}")
+        return written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     from_typst = _is_typst(written.text)
     if from_typst:
         written = _without_typst(written)

@@ -25,11 +25,18 @@ from lagrangian.check.reading.line_forms import Statement, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines
 from lagrangian.check.reading.listed_values import without_values
-from lagrangian.check.reading.markup import all_bullets, bullets, sentences_apart, without_bullets, without_markup
+from lagrangian.check.reading.markup import (
+    are_bullets,
+    bullets,
+    sentences_apart,
+    without_bullets,
+    without_markup,
+)
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
+from lagrangian.check.reading.program_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.program_marks import without_program_marks, without_terminators
 from lagrangian.check.reading.program_names import with_program_names
@@ -39,7 +46,7 @@ from lagrangian.check.reading.remarks import is_remark, may_redefine
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
 from lagrangian.check.reading.said_values import SaidValues, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
-from lagrangian.check.reading.sessions import without_session
+from lagrangian.check.reading.sessions import without_prompts, without_session
 from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.stands_for import (
     with_stated_letters,
@@ -177,7 +184,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
-    listed = all_bullets(text, marked=text != plain.text and not latex) if reading.listed is None else reading.listed
+    listed = are_bullets(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     choice = bool(bullets(text))
     text = without_bullets(text) if listed else text
     source = plain.source(typed, text)
@@ -222,9 +229,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
-    unknown = tuple(lines.names.unknown.values())
     doubt = together(lines.doubts) if lines.doubts else None
-    return Answer(made, notation, unknown, notes, said, unread, tuple(again), doubt)
+    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, said, unread, tuple(again), doubt)
 
 
 def _without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -235,13 +241,12 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    session = without_session(
-        without_long_names(without_tags(without_crossed_out(without_terminators(TracedText(text)), names.notes))),
-        taken,
-        commands.append,
-    )
+    typed_in = without_crossed_out(without_terminators(without_maxima(TracedText(text))), names.notes)
+    prompted = without_prompts(without_long_names(without_tags(typed_in)))
+    code = without_code(prompted, taken, commands.append, session=is_session(text))
+    session = without_session(code, taken, commands.append)
     if commands:
-        names.notes.setdefault(_left_out(text, commands))
+        names.notes.setdefault(told_commands(text, commands))
     tagless = solved_matrices(without_drawn_formulas(session, typed))
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
@@ -260,13 +265,6 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
     return sentences_apart(on_one_line(plain))
-
-
-def _left_out(text: str, commands: Sequence[int]) -> str:
-    """What to say about commands of a program at these places."""
-    at = [str(x) for x in dict.fromkeys(text.count("\n", 0, x) + 1 for x in commands)]
-    named = f"Lines {', '.join(at[:-1])} and {at[-1]} hold" if len(at) > 1 else f"Line {at[0]} holds"
-    return f"{named} commands of a program, which state no equation and were not judged."
 
 
 def _value(lines: Lines, written: str) -> float | None:

@@ -24,9 +24,14 @@ MOST, LONGEST = 400, 6_000
 _NAME = r"[^\W\d]\w{0,39}+"
 _PROMPT = re.compile(
     r"(?P<before>(?:^|(?<=\s))[ \t]*+)(?:In|Out)[ \t]?\[\d{1,4}\](?://\w{1,20}+)?[ \t]*+(?::?=|:)?[ \t]*+"
-    r"|^[ \t]*+(?:>>>|\.\.\.:?|julia>|sage:)[ \t]++",
+    r"|^(?P<cell>[ \t]*+\[\d{1,4}\]:[ \t])"
+    r"|^(?P<more>[ \t]*+\.\.\.:?(?:[ \t]|$))"
+    r"|^[ \t]*+(?:>>>|julia>|sage:)[ \t]++"
+    r"|^[ \t]*+(?:Out|Output)(?:[ \t]\d{1,4})?:[ \t]*+$",
     re.MULTILINE,
 )
+_BREAK = re.compile(r"(?P<mark>['\"])(?:\\[nrt]){1,4}(?P=mark)")
+"""A string that only breaks a line."""
 _MAGIC = re.compile(r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$", re.MULTILINE)
 _CALLED = re.compile(
     rf"(?:(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)[ \t]*+=(?!=)[ \t]*+)?"
@@ -53,7 +58,7 @@ _CLOSING = {"(": ")", "[": "]", "{": "}"}
 _SHOW = (
     "print pprint display disp simplify expand factor collect trigsimp nsimplify together cancel latex pretty Simplify "
     "FullSimplify Expand Factor Collect TeXForm InputForm MatrixForm TraditionalForm Print ratsimp trigreduce tex tex1 "
-    "mprint mpprint mlatex vprint vpprint init_printing"
+    "mprint mpprint mlatex vprint vpprint init_printing lprint eval combine grind trigrat ratexpand trigexpand"
 )
 _SHOWING = frozenset(_SHOW.split())
 """Functions that show what is in their brackets, which they leave as it is or simplify."""
@@ -68,7 +73,7 @@ _FORM = (
     "Eq Equality Equal Matrix MutableDenseMatrix ImmutableDenseMatrix ImmutableMatrix Rational Integer diff Diff D "
     "Derivative der dot ddot pow power square abs array matrix vector diag Array Piecewise piecewise"
 )
-_MATHEMATICAL = frozenset(_FORM.split())
+MATHEMATICAL = frozenset(_FORM.split())
 """Functions of which expressions consist."""
 _MEANT = "diff dt doit simplify expand subs T evalf applyfunc col row"
 _METHODS = frozenset(_MEANT.split())
@@ -83,13 +88,17 @@ class Piece:
     end: int
 
 
+def without_prompts(written: TracedText) -> TracedText:
+    """Return an answer without prompts and without commands to a notebook."""
+    written = written.sub(_BREAK, lambda m: " ").sub(_PROMPT, _unprompted)
+    return written.sub(_MAGIC, lambda m: "")
+
+
 def without_session(written: TracedText, taken: Callable[[str], bool], left_out: Callable[[int], None]) -> TracedText:
-    """Return an answer without prompts and commands; ``left_out`` is told where each of these was.
+    """Return an answer, whose prompts are taken off, without commands; ``left_out`` is told where each of these was.
 
     ``taken`` says whether a name belongs to the system.
     """
-    written = written.sub(_PROMPT, lambda m: "\n" if m["before"] is not None and not m["before"] else " ")
-    written = written.sub(_MAGIC, lambda m: "")
     text, edits = written.text, list[Edit]()
     for piece in pieces(text):
         for start, end, made in _edits(text, piece, taken):
@@ -97,6 +106,13 @@ def without_session(written: TracedText, taken: Callable[[str], bool], left_out:
             if (start, end) == (piece.start, piece.end):
                 left_out(written.origins[start] if written.origins else start)
     return written.edited(apart(edits))
+
+
+def _unprompted(match: re.Match[str]) -> str:
+    """What stands in the place of a prompt; how far the lines of a block are indented stays as it is."""
+    if match["more"]:
+        return ""
+    return "\n" if match["before"] == "" or match["cell"] else " "
 
 
 def pieces(text: str) -> Iterator[Piece]:
@@ -125,12 +141,12 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
             yield piece.start, piece.end, ""
         return
     if (applied := _APPLIED.fullmatch(written)) is not None:
-        if _is_program(applied["first"]) or _is_program(applied["second"]):
+        if is_program(applied["first"]) or is_program(applied["second"]):
             yield piece.start, piece.end, ""
         return
     while (match := _whole_call(written)) is not None and match["name"] in _SHOWING:
         inside = written[match.end() : -1]
-        if not (_STATED.search(_plain(inside)) or carries(inside)) or _KEYWORD.search(inside):
+        if not (_STATED.search(_plain(f"({inside})")) or carries(inside)) or _KEYWORD.search(inside):
             break
         at = piece.start + match.end()
         if match["to"]:
@@ -171,16 +187,16 @@ def _command(written: str, taken: Callable[[str], bool]) -> bool:
     if match is None or carries(written[match.end() :]):
         return False
     name, of = match["name"], match["of"]
-    if name in _MATHEMATICAL or function_of(name) is not None or (taken(name) and not of):
+    if name in MATHEMATICAL or function_of(name) is not None or (taken(name) and not of):
         return False
     if match["to"] and any(taken(x.strip()) for x in match["to"].split(",")):
         return name in ("ReferenceFrame", "Point", "symbols", "dynamicsymbols", "Symbol", "Function", "var")
     if of:
         return name not in _METHODS
-    return _is_program(name) or _STRING.search(written) is not None or _KEYWORD.search(written) is not None
+    return is_program(name) or _STRING.search(written) is not None or _KEYWORD.search(written) is not None
 
 
-def _is_program(name: str) -> bool:
+def is_program(name: str) -> bool:
     """Whether a name is that of a function of a program."""
     return name in _SHOWING or name in _WORKING or _HUMPED.fullmatch(name) is not None
 

@@ -1,0 +1,126 @@
+"""Pasted code around what programs print: what is typed states nothing unless it is an equation, and what is printed
+counts.
+
+Oracle: the equations of the cart with a pole and of the pendulum. Every form has a wrong twin, which stays wrong.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+X = "(M + m)*Derivative(x(t), (t, 2)) + b*Derivative(x(t), t) - F"
+X = f"{X} - l*m*sin(theta(t))*Derivative(theta(t), t)**2 + l*m*cos(theta(t))*Derivative(theta(t), (t, 2))"
+ANGLE = "(J + l**2*m)*Derivative(theta(t), (t, 2)) + l*m*cos(theta(t))*Derivative(x(t), (t, 2)) - g*l*m*sin(theta(t))"
+PRINTED = f"Eq({X}, 0)\n\nEq({ANGLE}, 0)"
+LATEX_X = (
+    r"- F + b \frac{d}{d t} x{\left(t \right)} - l m \sin{\left(\theta{\left(t \right)} \right)} \left(\frac{d}{d t} "
+    r"\theta{\left(t \right)}\right)^{2} + l m \cos{\left(\theta{\left(t \right)} \right)} \frac{d^{2}}{d t^{2}} "
+    r"\theta{\left(t \right)} + \left(M + m\right) \frac{d^{2}}{d t^{2}} x{\left(t \right)} = 0"
+)
+LATEX_ANGLE = (
+    r"- g l m \sin{\left(\theta{\left(t \right)} \right)} + l m \cos{\left(\theta{\left(t \right)} \right)} "
+    r"\frac{d^{2}}{d t^{2}} x{\left(t \right)} + \left(J + l^{2} m\right) \frac{d^{2}}{d t^{2}} "
+    r"\theta{\left(t \right)} = 0"
+)
+MAXIMA_X = "(M+m)*'diff(x,t,2)+l*m*cos(theta)*'diff(theta,t,2)-l*m*sin(theta)*'diff(theta,t,1)^2+b*'diff(x,t,1) = F"
+MAXIMA_ANGLE = "(l^2*m+J)*'diff(theta,t,2)+l*m*cos(theta)*'diff(x,t,2)-g*l*m*sin(theta) = 0"
+MAPLE_X = (
+    "(M+m)*diff(x(t),t,t)+l*m*cos(theta(t))*diff(theta(t),t,t)-l*m*sin(theta(t))*diff(theta(t),t)^2 = F-b*diff(x(t),t)"
+)
+MAPLE_ANGLE = "(l^2*m+J)*diff(theta(t),t,t)+l*m*cos(theta(t))*diff(x(t),t,t)-g*l*m*sin(theta(t)) = 0"
+
+
+def twins(written: str, old: str, new: str, name: str = "cart-pole") -> None:
+    """An answer is right, and wrong with its pieces replaced."""
+    assert old in written
+    verdict = derivation(name).check(written)
+    assert verdict.right, verdict.to_text()
+    assert not derivation(name).check(written.replace(old, new)).right
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"In [3]: xp, yp = x + l*sin(theta), l*cos(theta)\n   ...: Q = {{x: F - b*x.diff(t), theta: 0}}\n"
+        f"   ...: for q in (x, theta):\n   ...:     v = q.diff(t)\n   ...:     print(Eq(L.diff(v).diff(t), Q[q]),"
+        f" '\\n')\n\n{PRINTED}",
+        f"Notebook, cell 4\n\nfor q, Q in ((x, F), (theta, 0)):\n    print(Eq(Lag.diff(q.diff(t)).diff(t), Q))\n\n"
+        f"Out:\n\n{PRINTED}",
+    ],
+)
+def test_loops_tuples_and_tables_state_nothing(session: str) -> None:
+    twins(session, "l*m*cos", "l*m*sin")
+
+
+def test_a_minus_that_begins_printed_latex_is_no_bullet() -> None:
+    session = "[7]: print(latex(V))\n\n\\frac{g l m}{2}\n\n[8]: for e in eqs: print(latex(e))\n\n"
+    session += f"{LATEX_X}\n{LATEX_ANGLE}"
+    twins(session, "\n- g l m", "\ng l m")
+    both = session.replace("\n- g l m", "\ng l m").replace("\n- F", "\nF")
+    assert not derivation("cart-pole").check(both).right
+    said = " ".join(map(str, derivation("cart-pole").check(session).notes))
+    assert "frac{g l m}{2}' was not judged" in said and "Lines 1 and 5 hold commands" in said
+
+
+def test_a_bullet_that_may_be_a_minus_is_told() -> None:
+    rows = "- (M+m) x'' + b x' + m l cos(theta) theta'' - m l sin(theta) theta'^2 = F\n"
+    rows += "- (J + m l^2) theta'' + m l cos(theta) x'' - m g l sin(theta) = 0"
+    said = [str(note) for note in derivation("cart-pole").check(rows).notes]
+    assert "The sign at the beginning of lines was read as that of a list." in said
+    twins(rows, "- m g l", "+ m g l")
+    words = rows.replace("- (M", "- cart: (M").replace("- (J", "- pole: (J")
+    assert not any("that of a list" in str(note) for note in derivation("cart-pole").check(words).notes)
+
+
+def test_a_session_of_maxima_is_read() -> None:
+    session = (
+        f"(%i1) depends([x,theta],t)$\n(%i2) c:l*cos(theta)$  s:l*sin(theta)$\n"
+        "(%i4) T:1/2*M*diff(x,t)^2+1/2*m*diff(x+s,t)^2+1/2*m*diff(c,t)^2+1/2*J*diff(theta,t)^2$  V:m*g*c$\n"
+        "(%i6) el(q,f):=diff(diff(T-V,diff(q,t)),t)-diff(T-V,q)=f$\n"
+        f"(%i7) el(x,F-b*diff(x,t));\n(%o7) {MAXIMA_X}\n(%i8) eq2: {MAXIMA_ANGLE};\n(%o8) {MAXIMA_ANGLE}"
+    )
+    twins(session, "-g*l*m", "+g*l*m")
+    twins(session, "V:m*g*c", "V:-m*g*c")
+    twins(session, "l*m*cos(theta)*'diff(theta", "l*m*sin(theta)*'diff(theta")
+
+
+def test_procedures_of_ones_own_in_maple_are_commands() -> None:
+    session = (
+        '> restart: read "el.mpl":   # EL is the left-hand side\n> L := 1/2*(M+m)*diff(x(t),t)^2'
+        "+m*l*cos(theta(t))*diff(x(t),t)*diff(theta(t),t)\n>     +1/2*(J+m*l^2)*diff(theta(t),t)^2"
+        "-m*g*l*cos(theta(t)):\n> eq1 := EL(L,x(t)) = F-b*diff(x(t),t):  eq2 := EL(L,theta(t)) = 0:\n"
+        f"> lprint(eq1);\n{MAPLE_X}\n> lprint(eq2);\n{MAPLE_ANGLE}"
+    )
+    twins(session, "-g*l*m", "+g*l*m")
+    said = " ".join(map(str, derivation("cart-pole").check(session).notes))
+    assert "commands of a program" in said
+
+
+def test_an_equation_with_a_procedure_in_it_is_not_left_out() -> None:
+    with pytest.raises(ParseError):
+        derivation("cart-pole").check(f"> {MAPLE_X}\n> (l^2*m+J)*diff(theta(t),t,t) + GL(V,theta(t)) = 0;")
+
+
+def test_a_right_side_that_is_printed_below_a_drawing_belongs_to_it() -> None:
+    drawn = (
+        '>>> pprint(lhs); print("= 0")\n\n'
+        "      2                                      \n"
+        " 2   d                                       \n"
+        "L ⋅m⋅───(θ(t))                       d       \n"
+        "       2                           b⋅──(θ(t))\n"
+        "     dt          L⋅g⋅m⋅sin(θ(t))     dt      \n"
+        "────────────── + ─────────────── + ──────────\n"
+        "      2                 2              2     \n= 0"
+    )
+    twins(drawn, " + ───────────────", " - ───────────────", "pendulum")
+
+
+@pytest.mark.parametrize("second", [r"\frac{\partial ^2}{\partial t^2}", r"\frac{\partial^{2}}{\partial t^{2}}"])
+def test_rates_as_matlab_writes_them_in_latex_are_read(second: str) -> None:
+    rows = (
+        f"$$L^2\\,m\\,{second} \\theta \\left(t\\right)"
+        "+b\\,\\frac{\\partial }{\\partial t} \\theta \\left(t\\right)"
+        "+L\\,g\\,m\\,\\sin \\left(\\theta \\left(t\\right)\\right)=0$$"
+    )
+    twins(rows, "+L\\,g", "-L\\,g", "pendulum")
