@@ -170,3 +170,13 @@ def test_letters_exchanged_in_springs_and_dampers_are_one_mistake() -> None:
     lines = "T = M*z'^2/2 + J*p'^2/2\nV = k*(z + c*p)^2/2 + e*(z - a*p)^2/2\nD = b*(z' + c*p')^2/2 + d*(z' - a*p')^2/2"
     (mistake,) = s.derive().check(lines).mistakes
     assert mistake.name == "exchanged" and "whole derivation" in str(mistake.what), str(mistake.what)
+
+
+def test_a_mistake_in_a_derivative_is_told_at_its_line() -> None:
+    rate = "d/dt(dL/dx') = (M+m)*x'' + m*l*cos(theta)*theta''\n"
+    pole = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0\n"
+    row = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' = F"
+    for rows in (pole, f"{pole}{row}"):
+        verdict = derived("cart-pole").check(rate + rows)
+        (mistake,) = verdict.mistakes
+        assert mistake.name == "product_rule" and verdict.first_wrong.line.number == 1, str(mistake.what)

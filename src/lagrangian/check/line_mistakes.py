@@ -12,12 +12,14 @@ from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.changes.pool import Pool, Possible
 from lagrangian.check.own_terms import own_term
 from lagrangian.check.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
-from lagrangian.check.stated import dissipation, index_of, without_dampers
+from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Element, Force, Torque
 
 ENERGIES = ("T", "V", "L", "Xi")
+DERIVED = ("p-rate", "slope", "left")
+"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, and the first less the second."""
 MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
 MOST_TOGETHER = 10
@@ -41,6 +43,8 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
             of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
             found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
+    if line.kind in DERIVED and i is not None:
+        return _of_derivative(pool, line, i), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -65,6 +69,16 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
+    """The likely mistakes of one equation alone that lead to its d/dt ∂L/∂ξ̇, to its ∂L/∂ξ or to both."""
+    right = right_value(pool.truth, line, i)
+    sign = -1 if line.kind == "slope" else 1
+    values = CompiledExpressions([sign * (line.expr - right)]).at(pool.truth.states) if right is not None else None
+    if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return []
+    return [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
 
 
 def _of_whole_damper(possible: Possible) -> bool:
