@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.changes.pool import Pool, Possible
-from lagrangian.check.own_terms import own_term
+from lagrangian.check.own_terms import LINES, own_term
 from lagrangian.check.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Mistake
@@ -78,7 +78,15 @@ def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     values = CompiledExpressions([sign * (line.expr - right)]).at(pool.truth.states) if right is not None else None
     if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
         return []
-    return [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
+    found = [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
+    return [e for e in found if all(_step(t.mistake) == LINES["equation"] for t in e.told)] or found
+
+
+def _step(possible: Possible) -> int | None:
+    """The step in which a possible mistake is made."""
+    if possible.change is not None:
+        return possible.change.site.step
+    return possible.wrong.step if possible.wrong is not None else None
 
 
 def _of_whole_damper(possible: Possible) -> bool:

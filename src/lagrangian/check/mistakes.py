@@ -298,7 +298,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
 def _joined(pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]]) -> list[tuple[Told, Alignment | None]]:
     """The chosen mistakes, the same one at two places as one: in the springs and in the dampers, everywhere."""
     left = list(chosen)
-    for (a, under), (b, _) in combinations(chosen, 2):
+    of_lines = [(t, under) for t, under in chosen if under is None]  # an equation may be the right one times −1
+    for (a, under), (b, _) in combinations(of_lines, 2):
         one, two = a.mistake.change, b.mistake.change
         if one is None or two is None or (one.kind, a.times) != (two.kind, b.times) or one.written != two.written:
             continue
