@@ -55,9 +55,71 @@ def test_the_carts_of_3b_pull_at_each_other_by_the_spring_alone() -> None:
     assert vanishes(along - (s["m2"] * (a1 + a2) + s["k"] * s["x2r"] - s["F"]))
 
 
+HOOP = """name = "hoop with a pendulum in it"
+[coordinates]
+x = "hub"
+phi = "hoop, clockwise"
+theta = "pendulum from the vertical"
+[parameters]
+M = "2 kg"
+R = "0.3 m"
+m = "0.5 kg"
+l = "0.2 m"
+b = "0.02 N*m*s"
+[points]
+H = ["x", "R"]
+P = { from = "H", offset = ["l*sin(theta)", "-l*cos(theta)"] }
+[[rigid_body]]
+name = "hoop"
+mass = "M"
+inertia = "M*R^2"
+at = "H"
+frame = "-phi"
+[[particle]]
+name = "bob"
+mass = "m"
+at = "P"
+[[damper]]
+b = "b"
+deflection = "phi + theta"
+"""
+
+
+def test_a_damper_between_a_body_and_a_rod_acts_on_both_and_only_what_moves_is_in_its_box() -> None:
+    d = lg.loads(HOOP).derive()
+    assert "Damper b acts, at one end at least, on a part without mass" in d.why.to_text(width=400)
+    said = d.to_text(width=400)
+    assert "In the box: rigid body 'hoop', particle 'bob'" in said and "outside the box" not in said
+    assert "what turns with θ and rigid body 'hoop' do not turn when only x moves: it adds nothing" in said
+
+
+SLOT = """name = "slot"
+[coordinates]
+psi = "lever"
+s = "block along the slot"
+[parameters]
+m = "2 kg"
+J = "0.3 kg*m^2"
+[[rigid_body]]
+name = "lever"
+mass = "m"
+inertia = "J"
+at = ["0.1*cos(psi)", "0.1*sin(psi)"]
+frame = "psi"
+[[particle]]
+name = "block"
+mass = "m"
+at = ["s*cos(psi)", "s*sin(psi)"]
+"""
+
+
+def test_a_length_along_a_lever_that_turns_is_relative_to_its_angle() -> None:
+    assert "block along the slot; relative to ψ" in str(lg.loads(SLOT).derive())
+
+
 def test_a_torque_on_a_lever_without_mass_is_passed_on_to_the_mass() -> None:
     text = derivation("lecture-1").why.to_text(width=400)
-    assert "Spring k, damper b and torque τ act on no mass but on a part without mass" in text
+    assert "Spring k, damper b and torque τ act, at one end at least, on a part without mass" in text
 
 
 # -- textbooks ------------------------------------------------------------------------------------------------------

@@ -45,6 +45,15 @@ def test_a_line_has_the_estimate_and_covariance_of_linear_regression() -> None:
     np.testing.assert_allclose(found.residuals[0]["x"], np.polyval(slope, T) - values, atol=1e-9)
 
 
+def test_a_report_without_sigma_does_not_praise_the_fit_and_tells_residuals_that_are_no_noise() -> None:
+    """The data accelerate, the glider does not: σ is estimated from the misfit, and the residuals form an arc."""
+    noise = 0.01 * np.random.default_rng(2).normal(size=101)
+    t = np.linspace(0.0, 2.0, 101)
+    right, wrong = (str(glider().fit({"t": t, "x": 0.3 + 0.8 * t + a * t**2 + noise}, ["x'", "x"])) for a in (0.0, 0.5))
+    assert "it says nothing of it" in right and "range of the data" in right and "not random" not in right
+    assert "χ² = " not in right and "residuals of x are not random" in " ".join(wrong.split())
+
+
 def test_a_given_sigma_is_taken_as_it_is() -> None:
     """The covariance is (XᵀX)⁻¹ σ², whatever is left over."""
     values = 0.3 + 0.8 * T + 0.05 * np.random.default_rng(2).normal(size=21)

@@ -401,6 +401,21 @@ def test_what_no_feedback_stabilises_is_named() -> None:
         built_in("lecture-3a").linearize().lqr(1, 1)
 
 
+def test_a_regulator_without_an_input_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["regulate", "-e", "pendulum", "--at", "theta=0.3"]) != 0
+    assert "the system has no input" in capsys.readouterr().err
+
+
+def test_a_kink_of_friction_is_told_with_its_name_and_what_helps() -> None:
+    s = lg.System("block")
+    x, m = s.coordinate("x"), s.parameter("m", 2.0)
+    s.particle(m, at=s.origin + (x, 0))
+    s.friction(0.3, normal=9.81 * m, deflection=x, name="floor")
+    with pytest.raises(RunError, match=r"'floor' turns round.*no linearization") as error:
+        s.linearize()
+    assert "regime({'floor': 1})" in str(error.value)
+
+
 def test_a_state_that_costs_nothing_and_does_not_decay_is_named() -> None:
     s = lg.System("cart")
     x, F, m = s.coordinate("x"), s.input("F"), s.parameter("m", "2 kg")

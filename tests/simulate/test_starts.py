@@ -27,7 +27,15 @@ def test_a_rough_guess_is_moved_and_told() -> None:
     assert run.success and run["x**2 + y**2"] == pytest.approx(np.full(1001, 4.0), abs=1e-12)
     assert run["x"][0] / run["y"][0] == pytest.approx(-0.5 / 1.7)
     (notice,) = run.notices
-    assert notice.code == "E303" and "y from -1.7 to -1.91" in str(notice) and "and 1 more" in str(notice)
+    assert notice.code == "E303" and "y from -1.7 to -1.91" in str(notice) and "x from 0.5 to 0.564" in str(notice)
+
+
+def test_of_what_was_moved_the_given_values_are_named() -> None:
+    """x' was given and becomes smaller; y' and others that follow are counted."""
+    s = bob()
+    run = s.simulate(0.1, x=1.2, y=-1.6, initial={"x'": 1.0})
+    (notice,) = run.notices
+    assert "x' from 1 to 0.64" in str(notice) and "and 1 more" in str(notice)
 
 
 def test_an_exact_start_is_left_alone_and_nothing_is_said() -> None:

@@ -137,3 +137,26 @@ def test_a_deflection_of_terms_that_do_not_fit_is_refused_with_the_element(kind:
     with pytest.raises(ModelError, match=rf"{kind} 'k': the units inside its deflection, .* do not fit") as caught:
         check_dimensions(s.model)
     assert caught.value.code == "E408"
+
+
+def test_a_unit_that_does_not_fit_in_a_named_point_of_a_file_is_shown_there() -> None:
+    """The pin, which also has the point, comes far below."""
+    text = """name = "m"
+[coordinates]
+phi = "crank"
+x = "block"
+[parameters]
+m = "1 kg"
+d = "2 m"
+[points]
+A = ["d*cos(phi)", "d + m*sin(phi)"]
+B = ["x", 0]
+[[particle]]
+mass = "m"
+at = "B"
+[[pin]]
+between = ["A", "B"]
+"""
+    with pytest.raises(lg.ModelError, match="point 'A': the units inside its position") as error:
+        lg.loads(text).derive()
+    assert error.value.place is not None and error.value.place.line == 9

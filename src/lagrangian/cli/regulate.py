@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     from lagrangian.system import System
 
 
+DECLARED = Advice("declare one under [inputs], and let a force, a torque or a voltage source have it as its value")
+
+
 def regulate(
     file: OptionalFile = None,
     example: Example = None,
@@ -72,7 +75,10 @@ def regulate(
       lagrangian regulate cart.toml -Q 1 -R 0.1 --json
     """
     wanted = chosen(format, json, output, force)
-    linear = _linearized(open_system(file, example), point(at, values, inputs, fixed))
+    system = open_system(file, example)
+    if not system.model.inputs:
+        raise RunError("the system has no input, so nothing can be regulated", fix=DECLARED, code="E401")
+    linear = _linearized(system, point(at, values, inputs, fixed))
     found = linear.lqr(_weights(state_weights, "-Q", "theta"), _weights(input_weights, "-R", "F"))
     put_report(found.report(), wanted, width, output)
     if any(check.holds is False for check in found.verified):

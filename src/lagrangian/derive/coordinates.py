@@ -265,8 +265,7 @@ def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp
     for other in symbols:
         if other is s or not all(any(depends(model, x, other) for x in p) for p in mine):
             continue
-        mixed = any(bounded.diff(x, s, other) != 0 for p in mine for x in p)
-        if not mixed and any(any(depends(model, x, other) for x in p) for p in others):
+        if any(any(depends(model, x, other) for x in p) for p in others):
             candidates.append(other)
     return min(candidates, key=lambda x: (reach[x], -symbols.index(x)), default=None)
 

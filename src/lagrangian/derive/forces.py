@@ -16,7 +16,7 @@ from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derived import Step
 from lagrangian.derive.ends import find_ends
-from lagrangian.model import DEFLECTION, Action, Damper, Element, Friction, Model, Words, time
+from lagrangian.model import DEFLECTION, Action, Damper, Element, Friction, Model, Point, Words, time
 from lagrangian.page.formula import (
     Check,
     Heading,
@@ -95,7 +95,14 @@ def _story(context: Context, element: Element, ends: tuple[Action, ...], index: 
     if not inside:
         if outside and outside[0] == DEFLECTION:
             return text(*beyond, " does not change with the box: it adds nothing")
-        return text(*beyond, f" {'is' if len(outside) <= 1 else 'are'} outside the box: it adds nothing")
+        one = len(outside) <= 1
+        inner = {(body.title,) for body in context.wiggle.moved[index]}
+        if riding := [end for end in ends if end.on in inner]:
+            how = "move along the force" if isinstance(riding[0].target, Point) else "turn"
+            return text(
+                *beyond, f" {'does' if one else 'do'} not {how} when only ", c.symbol, " moves: it adds nothing"
+            )
+        return text(*beyond, f" {'is' if one else 'are'} outside the box: it adds nothing")
     if virtual.is_zero:
         if len(inside) > 1:
             return text(*listed, " are inside the box and move together: the pair cancels")

@@ -56,6 +56,11 @@ class FitProblem:
         """The names of the measured columns, the same in every run."""
         return tuple(c.name for c in self.runs[0].data.columns)
 
+    def ranges(self) -> dict[str, float]:
+        """The greatest minus the least measured value of every column, over all runs."""
+        columns = [[run.data.columns[k].values for run in self.runs] for k in range(len(self.titles))]
+        return {name: float(np.ptp(np.concatenate(x))) for name, x in zip(self.titles, columns, strict=True)}
+
     def compared(self, z: Array) -> tuple[list[Array], list[Array]]:
         """y(z) − y_measured of every column of every run, and the derivatives, each (samples, unknowns).
 

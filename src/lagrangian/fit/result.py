@@ -27,6 +27,12 @@ from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]
 
+UNLIKELY = 4.0
+"""Standard deviations of the number of stretches of one sign beyond which residuals are no noise."""
+
+ROUNDING = 1e-6
+"""Residuals below this fraction of the range of the data are rounding, in which there is order."""
+
 USUAL = 0.95
 """The confidence of the intervals in tables."""
 
@@ -40,8 +46,9 @@ class Fit(Written):
     ``sigma`` is the standard deviation of the noise of each column, given or estimated; ``known_sigma`` says which.
     ``residuals`` has for each run the model minus the data by column, NaN where a sample is missing. ``undetermined``
     names the unknowns that cannot be told apart, ``at_bound`` those on a bound. ``runs`` are the runs with the
-    estimate. ``chi2`` is Σ (residual/σ)², ``dof`` the number of samples minus that of what is determined. ``success``
-    says whether the search ended at a minimum, and ``message`` how. ``checks`` hold the residuals and their derivatives
+    estimate. ``chi2`` is Σ (residual/σ)², ``dof`` the number of samples minus that of what is determined. ``ranges``
+    has the greatest minus the least value of each column of the data. ``success`` says whether the search ended at a
+    minimum, and ``message`` how. ``checks`` hold the residuals and their derivatives
     against runs that were integrated without variational equations.
     """
 
@@ -62,6 +69,7 @@ class Fit(Written):
     success: bool
     message: str
     units: Mapping[str, str] = field(repr=False)
+    ranges: Mapping[str, float] = field(default_factory=dict[str, float], repr=False)
     checks: tuple[Check, ...] = field(default=(), repr=False)
 
     @property
@@ -171,11 +179,41 @@ def _left_over(fit: Fit) -> Part:
         found = np.concatenate([run[name] for run in fit.residuals])
         count, missing = int(np.isfinite(found).sum()), int(np.isnan(found).sum())
         largest = float(np.nanmax(np.abs(found)))
-        figures = (str(count), str(missing), figure(sigma), figure(largest))
+        figures = (str(count), str(missing), figure(sigma), figure(largest), figure(fit.ranges.get(name, np.nan)))
         rows.append((text(Verbatim(name)), *(text(x) for x in figures)))
-    header = (text("column"), text("samples"), text("missing"), text(f"σ, {given}"), text("largest residual"))
-    said = text(f"χ² = {figure(fit.chi2)} with {fit.dof} degrees of freedom.")
-    return Part(text("Model minus data"), (Table(header, tuple(rows)), said))
+    header = ("column", "samples", "missing", f"σ, {given}", "largest residual", "range of the data")
+    if fit.known_sigma:
+        said = f"χ² = {figure(fit.chi2)} with {fit.dof} degrees of freedom."
+    else:
+        said = (
+            "σ was estimated from these residuals, so χ² equals the degrees of freedom whatever the fit is like: it "
+            "says nothing of it. With the σ of the measurement, sigma=…, it would."
+        )
+    uneven = [text(Verbatim(words)) for name in fit.sigma if (words := _not_random(fit, name))]
+    return Part(text("Model minus data"), (Table(tuple(map(text, header)), tuple(rows)), text(said), *uneven))
+
+
+def _not_random(fit: Fit, name: str) -> str:
+    """What the test of Wald and Wolfowitz finds: residuals that keep their sign for longer than noise does."""
+    stretches, expected, variance = 0, 0.0, 0.0
+    for run in fit.residuals:
+        signs = run[name][np.isfinite(run[name]) & (run[name] != 0)] > 0
+        n, up = len(signs), int(signs.sum())
+        if n < 2 or up in (0, n):
+            stretches, expected = stretches + (n > 0), expected + n / 2
+            variance += n / 4
+            continue
+        mean = 2 * up * (n - up) / n + 1
+        stretches, expected = stretches + 1 + int((signs[1:] != signs[:-1]).sum()), expected + mean
+        variance += (mean - 1) * (mean - 2) / (n - 1)
+    rounding = ROUNDING * fit.ranges.get(name, 0.0)
+    if fit.sigma[name] <= rounding or not expected - stretches > UNLIKELY * variance**0.5 > 0:
+        return ""
+    return (
+        f"The residuals of {name} are not random: they keep their sign in {stretches} stretches, where noise has about "
+        f"{expected:.0f}. The model misses something, or an input or a start was not as it is given (inputs that are "
+        "not given are 0); the deviations above are then too small."
+    )
 
 
 def _data(fit: Fit) -> dict[str, Any]:

@@ -310,5 +310,6 @@ def _result(
         success=bool(found.success),
         message=ENDED[int(found.status)],
         units={name: units.of(symbols[owner]) for name, owner in zip(names, owners, strict=True)},
+        ranges=Entries(problem.ranges(), "ranges"),
         checks=problem.checks(z, sigma),
     )

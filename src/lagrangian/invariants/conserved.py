@@ -129,15 +129,15 @@ def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, .
             pushing = [name for name, A, _ in system.pushes_of_rows if not A[k].is_zero]
             parts: list[Any] = [L, " does not contain ", q, ", but its momentum changes"]
             if not force.is_zero or not pushing:
-                parts += [" at the rate ", force.expr(), *((", and",) if pushing else ())]
-            parts += [f" as {_constraints(pushing)} along it"] if pushing else []
+                parts += [" at the rate ", force.expr(), *((", and also",) if pushing else ())]
+            parts += [f" because {_constraints(pushing)} along ", q] if pushing else []
             listed.append(text(*parts))
     if not any(c.kind in ("energy", "mixed") for c in found):
         driving = [name for name, _, a0 in system.pushes_of_rows if not a0.is_zero]
         parts = ["the energy changes"]
         if not system.power.is_zero or not driving:
-            parts += [" at the rate ", system.power.expr(), *((", and",) if driving else ())]
-        parts += [f" as {_constraints(driving)} what it moves"] if driving else []
+            parts += [" at the rate ", system.power.expr(), *((", and also",) if driving else ())]
+        parts += [f" because {_constraints(driving)} what it moves"] if driving else []
         for u in system.moved_by(system.energy):
             parts += [", and at ", (-system.lagrangian.diff(u.symbol)).expr(), " times the rate of ", u.symbol]
             parts.append(" if that changes")

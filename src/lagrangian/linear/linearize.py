@@ -30,6 +30,7 @@ from lagrangian.linear.rest import TIMES, OperatingPoint, rest
 from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
+from lagrangian.model.without_friction import advice_for
 from lagrangian.records import dataclass
 from lagrangian.values.values import Given, Named
 
@@ -238,9 +239,12 @@ class Linearizer:
             step = STEP * source.choice([-1.0, 1.0], len(here.x)) * source.uniform(0.5, 1.0, len(here.x))
             near = self.values(program, x=here.x + step, u=here.u, p=here.p, t=t)[output]
             if not _largest(near - start - slope @ step) <= 1e-3 * size * STEP:
+                frictions = self.model.frictions
+                why = f" ({frictions[0].title} turns round or begins to slip)" if frictions else ""
+                smooth = "choose a point next to it, or replace abs, sign, min, max and piecewise by a smooth law"
                 raise RunError(
-                    f"{what} has a kink or a jump at {here.shown}: it has no linearization there",
-                    fix="choose a point next to it, or replace abs, sign, min, max and piecewise by a smooth law",
+                    f"{what} has a kink or a jump at {here.shown}{why}: it has no linearization there",
+                    fix=advice_for(frictions[0]) if frictions else smooth,
                     code="E525",
                 )
 

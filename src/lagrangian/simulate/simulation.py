@@ -34,7 +34,7 @@ from lagrangian.simulate.settings import ATOL, DEFAULT, RTOL, SMOOTH, RunSetting
 from lagrangian.simulate.starts import held, onto_constraints
 from lagrangian.simulate.switching import with_stops
 from lagrangian.simulate.trajectory import Trajectory
-from lagrangian.values.values import Given
+from lagrangian.values.values import Given, key_name
 from lagrangian.viewed import Entries
 
 _log = logging.getLogger(__name__)
@@ -77,11 +77,11 @@ def simulate(
     drift.check_method(model, name)
     slipping.check_method(model, name)
     rtol, atol, smooth = _tolerances(settings, program)
-    longest = float(settings.max_step)
     p = given.parameter_values(params)
     notices = check_masses(model, p)
     guess = initial_state(given, model, program, in_file.get("initial", {}), initial, by_name)
-    x0, moved = onto_constraints(model, guess, p, float(instants[0]), held(model, settings.fixed))
+    told = [*map(key_name, initial if isinstance(initial, Mapping) else ()), *by_name]
+    x0, moved = onto_constraints(model, guess, p, float(instants[0]), held(model, settings.fixed), told=told)
     knowing, spare = spared.of_run(model, x0, p, float(instants[0]))
     _log.info("simulating from t = %g s to %g s", instants[0], instants[-1])
     task = Task(
@@ -95,7 +95,7 @@ def simulate(
         atol,
         None if settings.step is None else float(settings.step),
         events_of(model, settings.events),
-        Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
+        Bounds(settings.max_steps, settings.max_events, float(settings.max_step), settings.timeout),
         settings.project,
         smooth,
     )

@@ -37,10 +37,11 @@ def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
 
 
 def onto_constraints(
-    model: Model, x: Array, p: Array, t: float, fixed: Sequence[str], *, compiled: bool = True
+    model: Model, x: Array, p: Array, t: float, fixed: Sequence[str], *, told: Iterable[str] = (), compiled: bool = True
 ) -> tuple[Array, tuple[Notice, ...]]:
     """The start nearest to x that satisfies every constraint, and a notice about coordinates that were moved.
 
+    The notice has all values that the call ``told``, and of the others the one that moved most.
     ``compiled`` is that of `consistent`.
     """
     if not model.constraints:
@@ -50,16 +51,15 @@ def onto_constraints(
     q, v = consistent(model, x[:n], x[n : n + m], p, t, fixed=fixed, compiled=compiled)
     found = np.concatenate([q, v, x[n + m :]])
     change = np.abs(found - x)
-    most = int(np.argmax(change))
-    if change[most] <= MOVED:
+    moved = [int(k) for k in np.argsort(-change) if change[k] > MOVED]
+    if not moved:
         return found, ()
     names = [*(c.name for c in model.coordinates), *(v.name for v in model.velocities)]
-    moved = int((change > MOVED).sum())
-    others = f", and {moved - 1} more" if moved > 1 else ""
-    said = (
-        f"moved onto the constraints: {names[most]} from {x[most]:.6g} to {found[most]:.6g}{others}; "
-        "coordinates in fixed stay as given"
-    )
+    given = set(told)
+    shown = [k for k in moved if names[k] in given] or moved[:1]
+    others = f", and {len(moved) - len(shown)} more" if len(moved) > len(shown) else ""
+    listed = ", ".join(f"{names[k]} from {x[k]:.6g} to {found[k]:.6g}" for k in shown)
+    said = f"moved onto the constraints: {listed}{others}; coordinates in fixed stay as given"
     return found, (Notice(Code.E303, "start of the run", said),)
 
 

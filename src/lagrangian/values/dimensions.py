@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
 from typing import Any, cast
 
 import sympy as sp
@@ -265,8 +266,8 @@ def _checked(model: Model) -> Dimensions | None:
     for definition in model.definitions:
         _settle(dims, definition.symbol, definition.expression, f"definition '{definition.name}'", definition.place)
     for element in model.elements:
-        for what, expr, wanted in _claims(model, element, dims):
-            _claim(dims, element, what, expr, wanted)
+        for bearer, what, expr, wanted in _claims(model, element, dims):
+            _claim(dims, bearer, what, expr, wanted)
     return dims
 
 
@@ -276,12 +277,8 @@ def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Pla
         if found is not None and not _number_explains(expr):
             dims.equal(dims.of(symbol) or NONE, found)
     except Mismatch as wrong:
-        raise ModelError(
-            f"{where} adds a quantity in {wrong.found} to one in {wrong.wanted}",
-            place=place,
-            fix="check the units in it",
-            code="E408",
-        ) from None
+        what = f"{where} adds a quantity in {wrong.found} to one in {wrong.wanted}"
+        raise ModelError(what, place=place, fix="check the units in it", code="E408") from None
 
 
 def _inside(dims: Dimensions, element: Any, what: str, expr: sp.Expr) -> Dim | None:
@@ -329,25 +326,26 @@ def _atoms(expr: sp.Expr) -> set[sp.Basic]:
     return (expr.free_symbols - {time}) | expr.atoms(AppliedUndef)
 
 
-Claim = tuple[str, sp.Expr, Dim]
+Claim = tuple[Any, str, sp.Expr, Dim]
 
 
 def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
-    """The statements of an element about its expressions: (description, expression, dimension)."""
+    """The statements of an element about its expressions: (what has it, description, expression, dimension)."""
     for key, point in element.points():
         at = point
         while not at.is_origin and id(at) not in dims.seen:  # what the dimension depends on was already determined
             dims.seen[id(at)] = at
+            own = SimpleNamespace(title=f"point '{at.name}'", place=at.place) if at.name and at.place else None
             for x in at.offset:
-                yield f"position ({key})", x, LENGTH
+                yield own or element, "position" if own else f"position ({key})", x, LENGTH
             at = at.parent
     for key, frame in element.frames():
-        yield f"angle ({key})", frame.angle, NONE
+        yield element, f"angle ({key})", frame.angle, NONE
     for measure in element.measures(model):
         if measure.local:  # the meaning of the symbol in the law of this element only
             dims.solved[measure.expr] = _unit(dims, element, measure)
         else:
-            yield measure.what, measure.expr, _unit(dims, element, measure)
+            yield element, measure.what, measure.expr, _unit(dims, element, measure)
     if isinstance(element, Friction) and element.pressing:
         yield from _pressed(model, element, dims)
 
@@ -360,9 +358,9 @@ def _pressed(model: Model, friction: Friction, dims: Dimensions) -> Iterator[Cla
     for named in named_conditions(model):
         if named.name in friction.pressing and (force := multiplier_dimension(dims, named)) is not None:
             unit = ENERGY.times(along, -1).times(force, -1)
-            yield "coefficient", friction.mu, unit
+            yield friction, "coefficient", friction.mu, unit
             if friction.static is not None:
-                yield "coefficient at rest", friction.static, unit
+                yield friction, "coefficient at rest", friction.static, unit
 
 
 def multiplier_dimension(dims: Dimensions, row: NamedCondition) -> Dim | None:

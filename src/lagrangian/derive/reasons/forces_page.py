@@ -210,8 +210,8 @@ def _passed_on(why: Reasoning) -> Iterator[Item]:
         return
     one = len(titles) == 1
     yield text(
-        f"{capital(and_(titles))} act{'s' if one else ''} on no mass but on a part without mass (a lever, a rod, a "
-        "shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
+        f"{capital(and_(titles))} act{'s' if one else ''}, at one end at least, on a part without mass (a lever, a "
+        "rod, a shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
         Name("R"),
         " contains that, too.",
     )

@@ -48,7 +48,7 @@ RUNNERS: dict[str, tuple[str, Runner]] = {
 
 
 NOT_RUN: dict[str, str] = {
-    "wasm": "only within the page that moves, whose run `lagrangian verify --exports` compares",
+    "wasm": "by itself: the check below of the page that moves runs it",
     "simulink": "S-functions run in Simulink alone",
 }
 """Targets that are run by nothing here, and why."""
