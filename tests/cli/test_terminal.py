@@ -114,6 +114,7 @@ def test_the_door_is_the_only_way_out() -> None:
 
 MISTAKES = {
     "an option": (["derive", "--breif"], "no such option: --breif"),
+    "an option like no other": (["sweep", "-e", "pendulum", "--keep", "y"], "`lagrangian sweep --help` shows"),
     "a verb": (["derve"], "Did you mean 'derive'"),
     "a value": (["derive", "x.toml", "--width", "3"], "'--width': it should be greater than or equal to 40"),
     "nothing to work on": (["derive"], "--example NAME"),

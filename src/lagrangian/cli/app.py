@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Annotated
 
@@ -77,6 +78,12 @@ def _near_choice(what: str) -> list[str]:
     return [f"'{choice}'" for choice in get_close_matches(given, choices, n=2, cutoff=0.6) or begins]
 
 
+def _similar(what: str, options: Iterable[str]) -> list[str]:
+    """Those of the options that Typer offers which are similar to the one that was given, not only by their dashes."""
+    given = what.rpartition(" ")[2].strip("-'")
+    return [x for x in options if get_close_matches(given, [x.strip("-")], cutoff=0.6)]
+
+
 _CHOICES = re.compile(r"'(?P<given>[^']*)' is not one of (?P<known>'.*')")
 
 _MISUSE: type[Exception] = typer.BadParameter.__mro__[1]
@@ -89,7 +96,7 @@ def _said(wrong: Exception) -> Error:
     if isinstance(wrong, typer.BadParameter):
         what = wrong.format_message()
     what = " ".join(what.replace("Value error, ", "").replace("Input should be", "it should be").split())
-    near = getattr(wrong, "possibilities", None) or _near_choice(what)
+    near = _similar(what, getattr(wrong, "possibilities", None) or []) or _near_choice(what)
     verb = context.command_path if context is not None else NAME
     fix = f"Did you mean {' or '.join(near)}?" if near else f"`{verb} --help` shows what it takes, with examples"
     return Error(what[:1].lower() + what[1:].rstrip("."), fix=fix)
