@@ -8,7 +8,7 @@ from __future__ import annotations
 import pytest
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 
 CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
 POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
@@ -106,3 +106,39 @@ def test_derivatives_of_a_quantity_of_ones_own_are_judged() -> None:
     assert right(f"{sheet.splitlines()[0]}\n{sheet.splitlines()[1]}\n{CART}\n{POLE}")
     assert not right(f"{sheet.splitlines()[0]}\ndR/dx' = 2 b x'\n{CART}\n{POLE}")
     assert not right(f"{sheet}{CART}\n{POLE}")
+
+
+@pytest.mark.parametrize(
+    ("sign", "spoken", "other"), [("- m g", "minus m g", "plus m g"), ("- m g", "\nminus m g", "\nplus m g")]
+)
+def test_words_between_mathematics_are_signs(sign: str, spoken: str, other: str) -> None:
+    assert right(f"{CART}\n{POLE.replace(sign, spoken).replace('= 0', 'equals 0')}")
+    assert not right(f"{CART}\n{POLE.replace(sign, other)}")
+    assert right(f"{CART}\n(J + m l^2) times theta'' + m l x'' cos theta = m g l sin theta")
+
+
+def test_d_dt_alone_in_latex_is_the_derivative_of_the_slope_above() -> None:
+    above = r"\[\frac{\partial L}{\partial \dot x} = (M+m)\dot x + m l \dot\theta\cos\theta\]"
+    rate = r"\[\frac{d}{dt} = (M+m)\ddot x + m l\ddot\theta\cos\theta - m l\dot\theta^2\sin\theta\]"
+    assert right(f"{above}\n{rate}\n{CART}\n{POLE}")
+    assert not right(f"{above}\n{rate.replace('- m l', '- 2 m l')}\n{CART}\n{POLE}")
+    one = above.replace(r"\]", rate.replace(r"\[", r" \Rightarrow "))
+    assert right(f"{one}\n{CART}\n{POLE}")
+
+
+def test_a_misspelled_name_is_read_where_the_answer_is_right_then() -> None:
+    misspelled = POLE.replace("sin theta", "sin theeta")
+    assert right(f"{CART}\n{misspelled}")
+    assert "misspelled" in str(derivation("cart-pole").check(f"{CART}\n{misspelled}"))
+    assert not right(f"{CART}\n{misspelled.replace('- m g', '+ m g')}")
+
+
+def test_a_damper_in_front_of_a_name_with_primes_is_a_factor() -> None:
+    s = System("pendulum")
+    phi = s.coordinates("phi")
+    J, d, k = s.parameters("J d k")
+    s.kinetic(J * phi.diff() ** 2 / 2)
+    s.damper(d, deflection=phi)
+    s.spring(k, deflection=phi)
+    assert s.derive().check("J phi'' + dphi' + kphi = 0").right
+    assert not s.derive().check("J phi'' + dphi'' + kphi = 0").right

@@ -49,6 +49,32 @@ def with_derivatives(text: TracedText) -> TracedText:
     return text.edited(edits)
 
 
+_ENERGY = r"(?:[TLVD]|\\math(?:cal|scr)\s?\{[^{}]\}|\\mathcal\s[A-Z])(?:\^\s?(?:\*|\{\*\}))?"
+_FRACTION = r"\\[dt]?frac\s?"
+_LATEX_SLOPE = (
+    rf"(?P<slope>{_FRACTION}\{{\\partial\s?{_ENERGY}\s?\}}\s?"
+    r"\{\\partial\s?(?P<by>\\dot\s?[^{}]{0,20}(?:\{[^{}]{1,20}\}[^{}]{0,20}){0,2})\})\s{0,4}&?\s{0,4}="
+)
+_LATEX_ALONE = (
+    rf"(?P<alone>{_FRACTION}\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?\}}\s?\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?t\s?\}})"
+    r"\s{0,4}(?P<is>&?\s{0,4}(?:=|\\(?:to|rightarrow|Rightarrow)(?![A-Za-z])))"
+)
+_LATEX = re.compile(rf"{_LATEX_SLOPE}|{_LATEX_ALONE}")
+
+
+def with_derivatives_in_latex(text: TracedText) -> TracedText:
+    """Return an answer in LaTeX in which d/dt alone says of what it is the derivative: of the last slope above."""
+    edits: list[tuple[int, int, str]] = []
+    above: str | None = None
+    for match in _LATEX.finditer(text.text):
+        if match["slope"]:
+            above = match["slope"]
+        elif above is not None:
+            aligned = "&" if "&" in match["is"] else ""
+            edits.append((*match.span(), rf"\Rightarrow \frac{{d}}{{dt}}\left({above}\right) {aligned}= "))
+    return text.edited(edits)
+
+
 def _value(text: str, start: int, end: int) -> re.Match[str] | None:
     """An arrow with an expression that accelerates behind it, and no equals sign."""
     found = _GIVES.search(text, start, end)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -12,7 +12,7 @@ from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.crossed_out import without_crossed_out
-from lagrangian.check.reading.derived_lines import with_derivatives
+from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
@@ -44,10 +44,11 @@ from lagrangian.check.reading.programs import without_long_names, without_progra
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
 from lagrangian.check.reading.remarks import is_remark, may_redefine
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
-from lagrangian.check.reading.said_values import SaidValues, said_values
+from lagrangian.check.reading.said_values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
 from lagrangian.check.reading.sessions import without_prompts, without_session
 from lagrangian.check.reading.spans import statements
+from lagrangian.check.reading.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -61,7 +62,7 @@ from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
-from lagrangian.read.letters import SPELLED, key
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 MAX_ANSWER = 60_000
@@ -74,7 +75,6 @@ LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
-_DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -83,6 +83,7 @@ _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
+_PRIMED = re.compile(rf"(?<!\w)((?>{_NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
@@ -152,9 +153,17 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
     said = said_values(typed, names, _words(lines, typed), latex=latex)
 
     def read(with_values: SaidValues) -> Answer:
-        return _answer(_completed(text, with_values.values, latex=latex), model, place, reading, [])
+        return _answer(completed(text, with_values.values, latex=latex), model, place, reading, [])
 
     others = (*answer.others, *(partial(read, x) for x in said))
+    if near := misspelled(names, model.symbols):
+
+        def corrected() -> Answer:
+            told = [f"'{name}' was read as {value}, misspelled." for name, value in near.items()]
+            found = read(SaidValues(near, False))
+            return replace(found, notes=(*told, *found.notes))
+
+        others = (*others, corrected)
     answer = replace(answer, others=others)
     for sure in (x for x in said if x.sure):
         try:
@@ -164,13 +173,6 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
         told = [f"'{name}' was read as {value}, as the words say." for name, value in sure.values.items()]
         return replace(found, notes=(*told, *found.notes), others=(*found.others, lambda: answer, *others))
     return answer
-
-
-def _completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
-    """An answer with the values of names as statements behind it."""
-    marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
-    spelled = {x: f"\\{x}" if latex and re.match(r"[^\W\d_]*", x)[0] in SPELLED.values() else x for x in values}  # type: ignore[index]
-    return text.rstrip() + "".join(f"\n\n{marks[0]}{spelled[x]} = {value}{marks[1]}" for x, value in values.items())
 
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
@@ -192,6 +194,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     lines.names.dependents = dependents(text, lambda name: bool(lines.names.scope.meanings(name)[0]))
     words = _words(lines, text)
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
+    text = text if latex else with_spoken_signs(text, words)
+    source = source if latex else plain.source(typed, text)
     written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
     rows = plain_rows(text, words) if written is None else latex_rows(written.text)
@@ -224,7 +228,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     others += [x for x, asked in less_likely if asked and reading == LIKELIEST]
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
-    doubtful = [note] if (note := changing_words(given)) else []
+    doubtful = [note] if (note := changing_words(given if latex else with_spoken_signs(given, words))) else []
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
     notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
@@ -257,7 +261,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
     if _LATEX.search(said.text):
-        said = with_open_text(without_sets(said))
+        said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
         said = with_stated_values(with_derivatives(said), taken)
         own = {key(name) for name in lines.model.symbols}
@@ -305,8 +309,9 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(match[2])
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
+    primed = [m[1] for m in _PRIMED.finditer(text)]
     lines.names.scope.taken = frozenset(key(name) for name in own)
-    return Words(lines.names, own, alone, used)
+    return Words(lines.names, own, alone, used, primed)
 
 
 def _parsed(

@@ -14,17 +14,21 @@ answer is right with it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
 from itertools import islice, pairwise, product
 
 from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.spans import spans
 from lagrangian.check.reading.words import Words
-from lagrangian.read.letters import key
+from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
 
 MOST, MOST_NAMES = 12, 6
 """The most readings that are proposed, and names for which they are sought."""
+
+SHORTEST, NEAR = 4, 0.8
+"""The letters of a name that may have a wrong one, and how similar it must be."""
 
 _LONGEST = 3_000
 """The most characters of a sentence."""
@@ -60,6 +64,7 @@ _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
 _ENDS = re.compile(r"(?<=[\w)\]}$'’′″²³])[.;](?=\s|\Z)|\n[ \t]*\n|\n(?=[ \t]*(?:\\|[A-Z(]|[^\n=]{0,200}=))")
 _MATH = re.compile(r"(?<!\\)\$(?P<dollar>[^$\n]{1,300})\$|\\\((?P<round>[^\n]{1,300}?)\\\)")
+_DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
 _STATES = re.compile(r"[=<>≈≡]|\\(?:approx|equiv|ll|gg|leq?|geq?|to|neq|begin|quad|qquad)(?![A-Za-z])")
 _DISPLAY = re.compile(
     r"\$\$.*?\$\$|\\\[.*?\\\]|\\begin\{(?P<kind>(?:equation|align|gather|eqnarray|multline|flalign)\*?)\}.*?"
@@ -99,6 +104,23 @@ def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool)
         others = {x: v for y in readings if y.sure for x, v in y.values.items()}
         readings.insert(0, SaidValues({**others, **numbered}, True))
     return readings
+
+
+def misspelled(unknown: Sequence[str], known: Iterable[str]) -> dict[str, str]:
+    """The names of the system that ``unknown`` ones may be with a letter wrong: theeta is theta; no number differs."""
+    listed, found = list(known), dict[str, str]()
+    for name in unknown[:MOST_NAMES]:
+        close = get_close_matches(name, listed, 1, NEAR) if len(name) >= SHORTEST else []
+        if close and re.sub(r"\D", "", name) == re.sub(r"\D", "", close[0]) and name not in SPELLED.values():
+            found[name] = close[0]
+    return found
+
+
+def completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
+    """An answer with the values of names as statements behind it."""
+    marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
+    spelled = {x: f"\\{x}" if latex and re.match(r"[^\W\d_]*", x)[0] in SPELLED.values() else x for x in values}  # type: ignore[index]
+    return text.rstrip() + "".join(f"\n\n{marks[0]}{spelled[x]} = {value}{marks[1]}" for x, value in values.items())
 
 
 def _readings(found: dict[str, dict[str, bool]]) -> Iterator[SaidValues]:

@@ -74,15 +74,23 @@ class Words:
     """What the words of one answer may mean, before its statements are read.
 
     ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
-    with primes or next to an operator, which are names.
+    with primes or next to an operator, which are names; ``primed`` are those with primes.
     """
 
-    def __init__(self, names: Names, own: Iterable[str], alone: Iterable[str], used: Iterable[str]) -> None:
+    def __init__(
+        self,
+        names: Names,
+        own: Iterable[str],
+        alone: Iterable[str],
+        used: Iterable[str],
+        primed: Iterable[str] = (),
+    ) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
         self._own = {key(x) for x in own if function_of(x) is None and not _is_moving_product(x)}
         self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
+        self._primed = frozenset(primed)
         self._split: dict[str, str] = {}
         self._products: dict[str, bool] = {}
         self.flipped = False
@@ -102,8 +110,8 @@ class Words:
         """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
         if self.names.known(word) or key(undotted(word)[0]) in self._own:
             return True
-        if word[:1] == "d" and undotted(word)[1] and self.is_name("d"):
-            return False  # dφ̇ is d φ̇, where d is a damper
+        if word[:1] == "d" and (undotted(word)[1] or word in self._primed) and self.is_name("d"):
+            return False  # dφ̇ and dphi' are d φ̇, where d is a damper
         return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
 
     def is_name(self, word: str) -> bool:
