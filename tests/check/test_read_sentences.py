@@ -181,7 +181,7 @@ def test_an_equation_that_cannot_be_read_is_never_passed_over() -> None:
     [
         "But F must be replaced by 2 F everywhere.",
         "where k is half of the spring constant",
-        "plus m1 g",
+        "plus the weight m1 g",
         "(with k replaced by k/2)",
         "The right-hand side counts times two.",
     ],
