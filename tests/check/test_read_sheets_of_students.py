@@ -142,3 +142,4 @@ def test_a_damper_in_front_of_a_name_with_primes_is_a_factor() -> None:
     s.spring(k, deflection=phi)
     assert s.derive().check("J phi'' + dphi' + kphi = 0").right
     assert not s.derive().check("J phi'' + dphi'' + kphi = 0").right
+    assert s.derive().check("dphi = phi'\nJ dphi' + d dphi + kphi = 0").right  # here it is a name

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
@@ -83,7 +84,7 @@ _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
-_PRIMED = re.compile(rf"(?<!\w)((?>{_NAME}))['’′″](?!s\b)")
+_PRIMED = re.compile(rf"(?<![\w/])((?>{_NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
@@ -309,7 +310,8 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(match[2])
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
-    primed = [m[1] for m in _PRIMED.finditer(text)]
+    counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
+    primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.taken = frozenset(key(name) for name in own)
     return Words(lines.names, own, alone, used, primed)
 

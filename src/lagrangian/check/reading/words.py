@@ -74,7 +74,7 @@ class Words:
     """What the words of one answer may mean, before its statements are read.
 
     ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
-    with primes or next to an operator, which are names; ``primed`` are those with primes.
+    with primes or next to an operator, which are names; ``primed`` are those that never stand without primes.
     """
 
     def __init__(
