@@ -88,6 +88,7 @@ def test_labels_in_front_are_no_factors() -> None:
         assert right(labelled)
         assert not right(labelled.replace("- m g l sin", "+ m g l sin"))
     assert right(f"[x]   {CART}\n[theta]   {POLE}")
+    assert not right(f"[l]   {CART}\n[b]   {POLE.replace('(J + m l^2)', '(J/b + m l^2/b)')}")  # factors
     assert right(f"x)   {CART}\ntheta)   -m g l sin theta + {POLE.replace(' - m g l sin theta', '')}")
 
 
@@ -115,6 +116,11 @@ def test_words_between_mathematics_are_signs(sign: str, spoken: str, other: str)
     assert right(f"{CART}\n{POLE.replace(sign, spoken).replace('= 0', 'equals 0')}")
     assert not right(f"{CART}\n{POLE.replace(sign, other)}")
     assert right(f"{CART}\n(J + m l^2) times theta'' + m l x'' cos theta = m g l sin theta")
+
+
+def test_what_words_add_at_the_end_is_not_left_out() -> None:
+    assert right(f"{CART} by Lagrange\n{POLE}")
+    assert not right(f"{CART} plus friction\n{POLE}")
 
 
 def test_d_dt_alone_in_latex_is_the_derivative_of_the_slope_above() -> None:

@@ -137,7 +137,8 @@ def numbering(text: str, words: Words) -> Numbering:
     before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
     first_names = [m for line in lines if (m := _COORDINATE.match(line))]
     written = [m["round"] or m["square"] for m in first_names]
-    far = all(m["square"] or len(m["gap"]) > 1 for m in first_names) and len(set(written)) == len(written)
+    apart = all(m["square"] or len(m["gap"]) > 1 for m in first_names) and len(set(written)) == len(written)
+    far = apart and all(words.names.changes(x) or not words.is_name(x) or words.is_own(x) for x in written)
     called = [words.names.scope.meanings(x)[0] for x in written]
     coordinates = [c.name for c in words.names.model.coordinates]
     named = sorted(x[0] for x in called if x) == sorted(coordinates)

@@ -45,6 +45,8 @@ CHANGING = frozenset(
     ["twice", "half", "double", "triple", "minus", "negative", "times", "halb", "halbe", "doppelt", "doppelte", "mal"]
 )
 """Words that change the value of what stands behind them, and are not left out in silence."""
+ADDING = CHANGING | {"plus"}
+"""Also the word that adds something, which makes part of a label: springs plus weight."""
 _OFTEN, _DERIVES = "twice|once|zweimal|deux fois", "differentiated?|derived|abgeleitet|differenziert|dérivée?"
 _DERIVED = re.compile(
     rf"\b(?:{_OFTEN})\s++(?:{_DERIVES})\b|\b(?:{_DERIVES})\s++(?:{_OFTEN})\b",
@@ -256,6 +258,8 @@ def without_tail(text: str, words: Words, *, led: bool = False) -> str:
         ):
             break
         end, count, linked, below = match.start(1), count + 1, linked or links, match[1].lower()
+    if below in ADDING:
+        return text  # … = F plus the friction
     apart = count == 1 and text[max(0, end - 2) : end].isspace()  # D = …   Rayleigh
     if count < (1 if linked or apart or led else 2) or not _ENDS.search(text[:end]):
         return text

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.plain_tokens import TOKEN
-from lagrangian.check.reading.prose import CHANGING, LINKING, moves
+from lagrangian.check.reading.prose import ADDING, LINKING, moves
 from lagrangian.check.reading.words import Words, function_of
 from lagrangian.records import dataclass
 
@@ -87,7 +87,7 @@ def statements(text: str, words: Words) -> list[MathSpan]:
     """Return the statements in a text that cannot be parsed as a whole; empty if something else may belong to them."""
     found = spans(text, words)
     rest = _rest(text, found)
-    if not found or any(x.lower() in CHANGING or x.lower() == "plus" for x in re.findall(r"[^\W\d_]+", rest)):
+    if not found or any(x.lower() in ADDING for x in re.findall(r"[^\W\d_]+", rest)):
         return []
     for span in found:
         first, last = text[span.start : span.end].lstrip()[:1], text[span.start : span.end].rstrip()[-1:]
