@@ -231,10 +231,10 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     made = lines.read(statements, errors)
     doubtful = [note] if (note := changing_words(given if latex else with_spoken_signs(given, words))) else []
     notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
-    notation = "latex" if latex else "text"
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None
+    notation = "latex" if latex else "text"
     return Answer(made, notation, tuple(lines.names.unknown.values()), notes, said, unread, tuple(again), doubt)
 
 
