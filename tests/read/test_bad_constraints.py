@@ -116,6 +116,7 @@ BAD = {
         "E310",
         "friction 1: the row 'floor' presses",
     ),
+    "floating section": ('[[floating]]\nname="b"\n', "E405", "mean 'frame' with floating = true"),
     "section of books": ('[[nonholonomic]]\nexpression="x\'"\n', "E405", "mean 'velocity_constraint'"),
     "joint of books": ('[[hinge]]\nbetween=["P","Q"]\n', "E405", "mean 'pin'"),
     "numbered": ('[[constraint]]\nexpression="x\'"\n', "E419", "] constraint 1: the"),

@@ -28,10 +28,22 @@ MEANT_SECTIONS = {
         "weld": "fixed fixed_joint rigid_connection",
         "rolling": "roll no_slip rolling_contact wheel",
         "rope": "cable string belt",
+        "particle": "mass point_mass mass_point",
+        "rigid_body": "body link disc disk cylinder beam",
+        "frame": "floating floating_frame free_body ball_frame free",
+        "damper": "dashpot",
+        "friction": "coulomb dry_friction stiction",
+        "torque": "motor moment couple",
     }.items()
     for meant in names.split()
 }
-"""Names of constraints in books and other programs, and the sections that describe them here."""
+"""Names in books and other programs, and the sections that describe the same here."""
+
+WITH = {
+    **dict.fromkeys(("floating", "floating_frame", "free_body", "free"), " with floating = true"),
+    "ball_frame": " with ball = true",
+}
+"""What a section needs to be what was meant."""
 
 MAX_NESTING = 12
 _STRINGS = re.compile(
@@ -187,7 +199,11 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     if kind == "extra_forbidden":
         known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
         meant = (MEANT_SECTIONS if len(path) == 1 else MEANT).get(str(name))
-        hint = f"Did you mean '{meant}'?" if meant in known else did_you_mean(str(name)[:64], known)
+        hint = (
+            f"Did you mean '{meant}'{WITH.get(str(name), '')}?"
+            if meant in known
+            else did_you_mean(str(name)[:64], known)
+        )
         listed = "known: " + ", ".join(known)
         return ParseError(
             f"unknown field {shown(str(name))}",
