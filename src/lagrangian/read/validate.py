@@ -189,6 +189,15 @@ def _toml_error(message: str, text: str, name: str) -> ParseError:
 # -- what pydantic found ------------------------------------------------------------------------------------------
 
 
+def _known(name: str, path: Path, data: dict[str, Any]) -> str:
+    """The fields that are known where an unknown one stands, and the one that may be meant."""
+    known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
+    meant = (MEANT_SECTIONS if len(path) == 1 else MEANT).get(name)
+    hint = f"Did you mean '{meant}'{WITH.get(name, '')}?" if meant in known else did_you_mean(name[:64], known)
+    listed = "known: " + ", ".join(known)
+    return f"{hint} ({listed})" if hint else listed
+
+
 def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> ParseError:
     """Return the first error in the file, unknown fields before missing ones (a misspelled field is both)."""
     found = [(_path(e["loc"], data), e) for e in error.errors(include_url=False)]
@@ -197,19 +206,11 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     kind, name = first["type"], path[-1]
     element = owner(path, data) or None
     if kind == "extra_forbidden":
-        known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
-        meant = (MEANT_SECTIONS if len(path) == 1 else MEANT).get(str(name))
-        hint = (
-            f"Did you mean '{meant}'{WITH.get(str(name), '')}?"
-            if meant in known
-            else did_you_mean(str(name)[:64], known)
-        )
-        listed = "known: " + ", ".join(known)
         return ParseError(
             f"unknown field {shown(str(name))}",
             element=element or "the file",
             place=index.of_key(path),
-            fix=f"{hint} ({listed})" if hint else listed,
+            fix=_known(str(name), path, data),
             code="E405",
         )
     if kind == "missing":
