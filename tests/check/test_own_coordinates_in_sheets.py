@@ -154,3 +154,62 @@ def test_terms_crossed_out_in_a_sum_keep_their_signs() -> None:
     other = r"(J + m h^2 + m s^2) \ddot\varphi - m h \ddot s + 2 m s \dot s \dot\varphi + d \dot\varphi = \tau"
     assert table().check(f"${text}$\n\n${other}$").right
     assert not table().check(f"${text.replace('{{}+', '{{}-')}$\n\n${other}$").right
+
+
+@cache
+def arms() -> lg.Derivation:
+    """Two arms, the second by its angle relative to the first, in a horizontal plane."""
+    s = lg.System("arms")
+    p, r = s.coordinates("phi psi")
+    m, M, a, k, c = s.parameters("m M a k c")
+    first = s.frame(p, name="first")
+    end = first.point(a, 0)
+    s.particle(M, at=end, name="elbow")
+    second = s.frame(r, parent=first, origin=end, name="second")
+    s.particle(m, at=second.point(a, 0), name="hand")
+    s.spring(k, deflection=r)
+    s.damper(c, deflection=r)
+    return s.derive()
+
+
+ABSOLUTE = """\
+theta = phi + psi
+T = M a^2 phi'^2/2 + m a^2 (phi'^2 + theta'^2 + 2 phi' theta' cos(theta - phi))/2
+∂T/∂phi' = (M + m) a^2 phi' + m a^2 theta' cos(theta - phi)
+∂T/∂theta' = m a^2 theta' + m a^2 phi' cos(theta - phi)
+∂T/∂phi = m a^2 phi' theta' sin(theta - phi)
+∂T/∂theta = -m a^2 phi' theta' sin(theta - phi)
+Q_2 = -c (theta' - phi')
+(M + m) a^2 phi'' + m a^2 theta'' cos(theta - phi) - m a^2 theta'^2 sin(theta - phi) - k (theta - phi) = -Q_2
+m a^2 theta'' + m a^2 phi'' cos(theta - phi) + m a^2 phi'^2 sin(theta - phi) = -k (theta - phi) - c (theta' - phi')
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [
+        ("∂T/∂phi' = (M + m) a^2 phi' + m", "∂T/∂phi' = (M + 2 m) a^2 phi' + m"),
+        ("∂T/∂phi = m", "∂T/∂phi = -m"),
+        ("∂T/∂theta = -m", "∂T/∂theta = m"),
+        ("Q_2 = -c", "Q_2 = c"),
+    ],
+)
+def test_derivatives_beside_an_absolute_angle_hold_it(now: str, wrong: str) -> None:
+    """With θ held, ∂T/∂φ' is another one than with ψ held: all derivatives of an answer are in its own coordinates."""
+    found = arms().check(ABSOLUTE)
+    assert found.right and "it follows from the energies above" in found.to_text()
+    assert now in ABSOLUTE and not arms().check(ABSOLUTE.replace(now, wrong)).right
+
+
+def test_a_numbered_force_may_be_that_of_a_coordinate_of_the_answers_own() -> None:
+    """Instead of s, u = s/h: the power b s'² is Q_2 u' with Q_2 = −h b s'."""
+    rows = """\
+u = s/h
+Q_1 = tau - d*phi'
+Q_2 = -b*h^2*u'
+(J + m*h^2 + m*h^2*u^2)*phi'' - m*h^2*u'' + 2*m*h^2*u*u'*phi' + d*phi' = tau
+m*h^2*(u'' - phi'' - u*phi'^2) + b*h^2*u' + k*h^2*u = 0
+"""
+    assert table().check(rows).right
+    assert not table().check(rows.replace("Q_2 = -b*h^2", "Q_2 = b*h^2")).right
+    assert not table().check(rows.replace("Q_2 = -b*h^2", "Q_s = -b*h^2")).right

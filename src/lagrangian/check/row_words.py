@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import sympy as sp
@@ -12,15 +13,21 @@ from lagrangian.check.rows import Kind, ReferenceRow, RowComparison
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.page.formula import Terms, Text, text
 
+_DERIVES = re.compile(r"∂|\\partial|\bd ?[TVLℒ]\*?/d|\\mathcal ?\{?L")
+"""In a line that says what a derivative of an energy is."""
+
 
 def findings_of(truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison) -> list[Finding]:
     """The findings for every equation, without a comparison of wrong ones."""
-    return [
-        Finding(line, Status.WRONG)
-        if row.kind is Kind.WRONG
-        else Finding(line, _status(row), _note(truth, row, line.expr), name_of(truth, row.index))
-        for line, row in zip(lines, comparison.rows, strict=True)
-    ]
+    return [_finding(truth, line, row) for line, row in zip(lines, comparison.rows, strict=True)]
+
+
+def _finding(truth: Reference, line: AnsweredLine, row: ReferenceRow) -> Finding:
+    if row.kind is Kind.WRONG:
+        return Finding(line, Status.WRONG)
+    if row.kind is Kind.NOTHING and _DERIVES.search(line.text) is not None:
+        return Finding(line, Status.RIGHT, text("it follows from the energies above"))
+    return Finding(line, _status(row), _note(truth, row, line.expr), name_of(truth, row.index))
 
 
 def name_of(truth: Reference, index: int | None) -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -19,6 +20,9 @@ from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
 from lagrangian.records import dataclass
+
+_NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QF])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
+"""A force that is called by the number of its coordinate."""
 
 
 @dataclass(frozen=True)
@@ -110,7 +114,7 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
         left = on.put_in(rest)
         if zero_everywhere(truth, left) or harmless(truth, line, left) is not None:
             return Finding(line, Status.EQUIVALENT, text("with the constraint put in"), coordinate)
-    if line.kind == "Xi" and i is not None and (note := _along_others(truth, lines, i, line.expr)) is not None:
+    if line.kind == "Xi" and i is not None and (note := _along_others(truth, lines, i, line)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     undamped = without_dampers(truth, line, i, lines) if line.kind == "Xi" else None
     right = right if undamped is None else undamped
@@ -128,25 +132,28 @@ def _on_constraints(truth: Reference) -> OnConstraints | None:
     return held(truth) if truth.derivation.multipliers else None
 
 
-def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, value: sp.Expr) -> Text | None:
+def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, line: AnsweredLine) -> Text | None:
     """What to say of a Ξ_i that is right where ξ_i moves other coordinates, of which then no Ξ is stated.
 
     Constraints determine them, or a coordinate of the answer's own, w = f(ξ), that replaces ξ_k: with w held, ξ_i moves
     ξ_k by −(∂f/∂ξ_i)/(∂f/∂ξ_k).
     """
-    stated = {line.name for line in lines if line.kind == "Xi"}
+    stated = {x.name for x in lines if x.kind == "Xi"}
     free = [c.symbol for c in truth.model.coordinates if c.name not in stated]
     symbols = [c.symbol for c in truth.model.coordinates]
     on = _on_constraints(truth)
     follows = on is not None and symbols[i] not in on.table and all(x in free for x in symbols if x in on.table)
-    if on is not None and follows and zero_everywhere(truth, on.put_in(value - on.force(truth.Xi, i))):
+    if on is not None and follows and zero_everywhere(truth, on.put_in(line.expr - on.force(truth.Xi, i))):
         return text("with the constraint put in")
-    for w in (line for line in lines if line.kind == "definition"):
+    for w in (x for x in lines if x.kind == "definition"):
         slopes = [bounded.diff(truth.expand(w.expr), x) for x in symbols]
+        own = slopes[i] != 0 and _NUMBERED.match(line.text) is not None
+        if own and zero_everywhere(truth, slopes[i] * line.expr - truth.Xi[i]):  # Q_3, where w is the third coordinate
+            return text("with ", Name(str(w.name)), " as a coordinate in place of ", symbols[i])
         for k, x in enumerate(symbols):
             if k == i or x not in free or slopes[k] == 0 or slopes[i] == 0:
                 continue
-            if zero_everywhere(truth, value - truth.Xi[i] + truth.Xi[k] * slopes[i] / slopes[k]):
+            if zero_everywhere(truth, line.expr - truth.Xi[i] + truth.Xi[k] * slopes[i] / slopes[k]):
                 return text("with ", Name(str(w.name)), " as a coordinate in place of ", x)
     return None
 

@@ -27,7 +27,7 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
-from lagrangian.check.reading.nodes import is_matrix, only_name
+from lagrangian.check.reading.nodes import differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tells, without_parts
 from lagrangian.check.reading.placeholders import (
@@ -157,6 +157,7 @@ class Lines:
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
         self.subjects.left = set(self.subjects.leading)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
+        self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
 
     def _has_matrices(self, sides: Sequence[Tree]) -> bool:

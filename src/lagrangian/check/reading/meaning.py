@@ -13,7 +13,6 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, only_name
-from lagrangian.check.reading.own_slopes import own_slope
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
 from lagrangian.check.reading.words import RECIPROCALS
 from lagrangian.model.names import time
@@ -133,8 +132,10 @@ class Meaning(ExpressionReader):
                     fix="write ∂L/∂x1', or state the energy on an earlier line",
                 )
         variable = self.value(by)
+        if (found := self._own_slope(kind, energy, variable, by)) is not None:
+            return found
         if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
-            return self._own_slope(kind, energy, by)
+            self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
         if energy is None or not moving or self.names.is_unknown(variable):
             if kind not in ENERGIES:
@@ -142,24 +143,23 @@ class Meaning(ExpressionReader):
             return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
         return self._differentiated(self.names.model.expand(energy), variable, node)
 
-    def _own_slope(self, kind: str, energy: sp.Expr | None, by: Node) -> sp.Expr:
-        """The derivative by a coordinate of the answer's own, which its meaning in those of the system determines.
-
-        Where that is not enough, or the energy has no value, it is a quantity that is not judged.
-        """
-        if (named := only_name(by)) is not None:
-            base, dotted = undotted(named[0])
-            _, meaning, dots = self._meaning(base)
-            order = named[1] + dotted + dots
-            if energy is not None:
-                whole = self.names.model.expand(energy)
-                found = own_slope(meaning, order, lambda variable: self._differentiated(whole, variable, by))
-                if found is not None:
-                    self._spend(found, by)
-                    return found
-            if order <= 1 and meaning.has(AppliedUndef):
-                return slope(key(kind), f"{base} {order}")
-        self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
+    def _own_slope(self, kind: str, energy: sp.Expr | None, variable: sp.Expr, by: Node) -> sp.Expr | None:
+        """The derivative in an answer with coordinates of its own; where nothing says which ones these replace, or the
+        energy has no value, it is a quantity that is not judged. None in the coordinates of the system."""
+        if (named := only_name(by)) is None:
+            return None
+        base, dotted = undotted(named[0])
+        name, meaning, dots = self._meaning(base)
+        order = named[1] + dotted + dots
+        own = not isinstance(meaning, (AppliedUndef, sp.Symbol)) and meaning.has(AppliedUndef) and order <= 1
+        chart = self.names.coordinates()
+        if chart is not None and energy is not None and (own or meaning in self.names.moving_symbols):
+            whole = self.names.model.expand(energy)
+            order = 1 if isinstance(variable, sp.Derivative) else order
+            found = chart.slope(key(name) if own else meaning, order, lambda x: self._differentiated(whole, x, by))
+            self._spend(found, by)
+            return found
+        return slope(key(kind), f"{base} {order}") if own else None
 
     def _variation(self, node: Node) -> sp.Expr:
         found = only_name(node.children[1])

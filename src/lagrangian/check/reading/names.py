@@ -15,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
@@ -71,6 +72,9 @@ class Names:
         """The names that a statement of the answer gives a matrix."""
         self.defined: set[str] = set()
         """The names that a statement of the answer defines."""
+        self.differentiated: tuple[str, ...] = ()
+        """The names by which the answer differentiates energies."""
+        self.moving_symbols: set[sp.Expr] = {c.symbol for c in model.coordinates}
         self.dependents: frozenset[str] = frozenset()
         """The quantities that the answer states with what they depend on: I(r)."""
         self._moving: set[str] = set()
@@ -197,6 +201,25 @@ class Names:
         if kind == "L" and "L" not in self.stated and {"T", "V"} <= self.stated.keys():
             return self.stated["T"] - self.stated["V"]
         return self.stated.get(kind)
+
+    def coordinates(self) -> OwnCoordinates | None:
+        """The coordinates of the answer's own by which it differentiates; None if those of the system do."""
+        meanings: dict[str, sp.Expr] = {}
+        kept: set[sp.Expr] = set()
+        for written in self.differentiated:
+            stems = [written, *(stem for _, stem in spelled_rates(written))]
+            known = next((names[0] for x in stems if (names := self.scope.meanings(x)[0])), None)
+            if known is not None:
+                kept.add(self.scope[known])
+                continue
+            base = key(undotted(written)[0])
+            if base not in self.own:
+                self.later(base)
+            _, value = self.own.get(base, ("", sp.S.Zero))
+            if not isinstance(value, sp.Expr) or not value.has(AppliedUndef):
+                return None
+            meanings[base] = value
+        return own_coordinates(meanings, kept & self.moving_symbols)
 
     def is_unknown(self, symbol: sp.Basic) -> bool:
         """Whether a symbol, or the symbol of which it is the rate, is unknown to the model."""

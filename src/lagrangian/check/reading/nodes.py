@@ -120,3 +120,10 @@ def only_name(tree: Node) -> tuple[Token, int] | None:
         return None
     token, primes = tree.children
     return token, len(primes or "")  # type: ignore[return-value]
+
+
+def differentiated_by(trees: Sequence[Tree]) -> tuple[str, ...]:
+    """The names by which energies are differentiated somewhere, each once."""
+    partial = (part for tree in trees for part in tree.iter_subtrees() if part.data == "partial")
+    found = (only_name(part.children[1]) for part in partial)
+    return tuple(dict.fromkeys(str(x[0]) for x in found if x is not None))

@@ -223,7 +223,7 @@ class Subjects:
         if of_kinetic and ("T" in self.names.stating or self.names.energy("T") is not None):
             return None
         found = only_name(side.children[1])
-        if found is None:
+        if found is None or self.names.coordinates() is not None:
             return None
         token, primes = found
         names, dots = self.names.scope.meanings(token)
