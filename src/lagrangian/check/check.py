@@ -13,6 +13,7 @@ from lagrangian.check.candidates import too_long
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.declared import declared, speeds
 from lagrangian.check.eliminated import without_forces
+from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import Judged, judged_lines
 from lagrangian.check.lines import filled, without_forms
@@ -53,7 +54,8 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
     verdict = _checked(truth, judged, hint, explain)
-    verdict = replace(verdict, notes=(*unjudged, *verdict.notes))
+    general = untrue_in_general(truth, filled(truth, judged))
+    verdict = replace(verdict, notes=(*unjudged, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")

@@ -12,6 +12,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.difference import differences
 from lagrangian.check.held import OnConstraints, held
+from lagrangian.check.motion_names import names_of_motion
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -19,6 +20,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 _NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QF])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
@@ -133,10 +135,10 @@ def _on_constraints(truth: Reference) -> OnConstraints | None:
 
 
 def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, line: AnsweredLine) -> Text | None:
-    """What to say of a Ξ_i that is right where ξ_i moves other coordinates, of which then no Ξ is stated.
+    """What to say of a Ξ_i that is right where ξ_i moves other coordinates.
 
-    Constraints determine them, or a coordinate of the answer's own, w = f(ξ), that replaces ξ_k: with w held, ξ_i moves
-    ξ_k by −(∂f/∂ξ_i)/(∂f/∂ξ_k).
+    Constraints determine them, and no Ξ of these is stated; or a coordinate of the answer's own, w = f(ξ), replaces ξ_k
+    in all equations: with w held, ξ_i moves ξ_k by −(∂f/∂ξ_i)/(∂f/∂ξ_k), and Ξ_w = Ξ_k/(∂f/∂ξ_k).
     """
     stated = {x.name for x in lines if x.kind == "Xi"}
     free = [c.symbol for c in truth.model.coordinates if c.name not in stated]
@@ -145,16 +147,18 @@ def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, line:
     follows = on is not None and symbols[i] not in on.table and all(x in free for x in symbols if x in on.table)
     if on is not None and follows and zero_everywhere(truth, on.put_in(line.expr - on.force(truth.Xi, i))):
         return text("with the constraint put in")
-    for w in (x for x in lines if x.kind == "definition"):
+    used = names_of_motion(truth, lines)
+    gone = [k for k, c in enumerate(truth.model.coordinates) if key(c.name) not in used]
+    for w in (x for x in lines if x.kind == "definition" and key(str(x.name)) in used):
         slopes = [bounded.diff(truth.expand(w.expr), x) for x in symbols]
-        own = slopes[i] != 0 and _NUMBERED.match(line.text) is not None
+        own = i in gone and slopes[i] != 0 and _NUMBERED.match(line.text) is not None
         if own and zero_everywhere(truth, slopes[i] * line.expr - truth.Xi[i]):  # Q_3, where w is the third coordinate
             return text("with ", Name(str(w.name)), " as a coordinate in place of ", symbols[i])
-        for k, x in enumerate(symbols):
-            if k == i or x not in free or slopes[k] == 0 or slopes[i] == 0:
-                continue
-            if zero_everywhere(truth, line.expr - truth.Xi[i] + truth.Xi[k] * slopes[i] / slopes[k]):
-                return text("with ", Name(str(w.name)), " as a coordinate in place of ", x)
+        for k in (k for k in gone if k != i and 0 not in (slopes[i], slopes[k])):
+            of_w = truth.Xi[k] / slopes[k]
+            others = [x.expr for x in lines if x.kind == "Xi" and index_of(truth, x.name) == k]
+            if all(zero_everywhere(truth, x - of_w) for x in (*others, (truth.Xi[i] - line.expr) / slopes[i])):
+                return text("with ", Name(str(w.name)), " as a coordinate in place of ", symbols[k])
     return None
 
 

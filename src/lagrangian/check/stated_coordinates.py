@@ -6,7 +6,6 @@ system's: with u = x − Y sin ωt, m ü = 0 says m ẍ + m Y ω² sin ωt = 0.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, cast
@@ -15,16 +14,16 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.coordinates import ProposedChange, in_these
+from lagrangian.check.motion_names import names_of_motion
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import text
-from lagrangian.read.letters import key, undotted
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 MOST = 4
 """The largest number of coordinates that are replaced."""
-WORD = re.compile(r"[^\W\d_][^\W_]*(?:_?\{?\w+\}?)?")
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +48,7 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     if all(line.expr in q for line in stated):
         return None
     others = tuple(line for line in lines if line.kind != "definition")
-    named = {key(undotted(w)[0]) for line in others if _moves(truth, line) for w in WORD.findall(line.text)}
-    named |= {key(w.translate(str.maketrans("", "", "{}"))) for w in named}
+    named = names_of_motion(truth, lines)
     gone = [c.symbol for c in truth.model.coordinates if key(c.name) not in named]
     if not stated or len(stated) != len(gone) or len(gone) > MOST or len(gone) > len(q):
         return None
@@ -76,10 +74,6 @@ def _places(truth: Reference, expr: sp.Expr) -> bool:
     """Whether an expression is one of positions alone."""
     c = truth.model.coordinates
     return expr.has(*(x.symbol for x in c)) and not expr.has(*(y for x in c for y in (x.rate, x.acceleration)))
-
-
-def _moves(truth: Reference, line: AnsweredLine) -> bool:
-    return line.expr.has(*(y for x in truth.model.coordinates for y in (x.rate, x.acceleration)))
 
 
 def _words(new: dict[Any, sp.Expr]) -> Any:

@@ -24,7 +24,8 @@ Kind: TypeAlias = Literal[
     definition  a name of the person's own, or a coordinate of the model in new ones
     identity    lhs = rhs holds whatever the motion: the rate of a name that was defined before
     given       the value of a parameter of the model in others, which is an assumption: J = m R²/2
-    statement   a general truth that holds nothing of this system: d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ, before L was given
+    statement   a general truth that holds nothing of this system: d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ, before L was given;
+                or what the quantity ``name`` is in such terms
 """
 
 

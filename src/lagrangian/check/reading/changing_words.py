@@ -11,9 +11,14 @@ _CHANGES = re.compile(
     r"\b(?:replaced? (?:by|with)|"
     r"(?:half|twice|double|triple)(?: of)? (?:the|that|this|its)|times (?:two|three|four|ten|\d+)|else add|"
     r"(?:to|must|should) (?:add|subtract))\b|"
-    r"(?:^|\.\.\.|…)[ \t]{0,9}(?:plus|minus)\b",
+    r"(?:^|\.\.\.|…)[ \t]{0,9}(?:plus|minus|negative|negated)\b",
     re.IGNORECASE | re.MULTILINE,
 )
+_BEHIND = re.compile(
+    r"(?<![\w-])(?:twice|doubled|halved|tripled|negative|negated|less[ ](?:the|that)|without|except|opposite|reversed)"
+    r"(?![\w-])"
+)
+"""Such words behind the last equals sign of a line."""
 _DERIVED = re.compile(r"\b(?:differentiat|deriv)\w{0,5}\b", re.IGNORECASE)
 """What is done twice or must be done without changing a value."""
 _MOST = 5
@@ -25,7 +30,7 @@ def changing_words(text: str) -> str | None:
     lines = [
         number
         for number, line in enumerate(text.split("\n"), 1)
-        if _CHANGES.search(line) is not None and _DERIVED.search(line) is None
+        if (_CHANGES.search(line) is not None or _changes_behind(line)) and _DERIVED.search(line) is None
     ]
     if not lines:
         return None
@@ -33,3 +38,9 @@ def changing_words(text: str) -> str | None:
     told = ", ".join(map(str, lines[:_MOST])) + more
     which = f"line {told}" if len(lines) == 1 else f"lines {told}"
     return f"Words on {which} may change an equation; they were not judged, only what stands as an equation was."
+
+
+def _changes_behind(line: str) -> bool:
+    """Whether words behind the last equals sign of a line, which an equation of motion may be, change it."""
+    head, _, tail = line.rpartition("=")
+    return bool(head) and _BEHIND.search(tail) is not None

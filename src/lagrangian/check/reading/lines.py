@@ -234,10 +234,12 @@ class Lines:
         kind: Kind = subject.kind
         name = subject.name
         lhs: sp.Expr | None = None
+        if is_general(value) and kind == "Xi" and name is not None:
+            return made_line("statement", generalized_force(name), value, None, sides[0], side, reader)
         if is_general(value):
             if any(not is_placeholder(x) for x in value.atoms(AppliedUndef)):
                 self._not_judged(reader, "an energy in it has no value")  # L = T - V + λ (x² + y² - l²)
-            return made_line("statement", None, value, None, sides[0], side, reader)
+            return made_line("statement", None, value, name or kind, sides[0], side, reader)
         if kind in ENERGIES and (given := self.subjects.parameter(sides[0], value)) is not None:
             return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
@@ -366,5 +368,6 @@ class Lines:
     def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:
         """Tell that an equation of this system is not judged, because it derives something that has no value."""
         rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
-        if any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
+        alone = any((is_slope(x) or is_slope(-x)) and not is_general(y) for x, y in ((left, right), (right, left)))
+        if alone or any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
             self._not_judged(reader, "nothing says what is differentiated there")

@@ -19,6 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from itertools import islice
 
+from lagrangian.check.reading.sessions import carries
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _NAME = r"[^\W\d]\w{0,23}+"
@@ -46,6 +47,7 @@ _TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
 _DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
 _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\()", re.MULTILINE)
 _LINE_COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
+_WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
 _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
 
 
@@ -61,6 +63,13 @@ def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> 
     written = written.edited(_diagonals(written.text))
     written = written.edited(_equations_in_comments(written.text))
     return written.edited(_fields(written.text, taken))
+
+
+def told_comments(text: str) -> Iterator[str]:
+    """What to say about lines that are comments, or headings, and hold an equation of motion."""
+    for match in islice(_WHOLE_LINE_COMMENT.finditer(text), MOST):
+        if "=" in match["said"] and len(match["said"]) < LONGEST and carries(match["said"]):
+            yield f"'{' '.join(match.group().split())}' was not judged: it is a comment."
 
 
 def without_terminators(written: TracedText) -> TracedText:

@@ -39,7 +39,7 @@ from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.program_functions import without_functions
-from lagrangian.check.reading.program_marks import without_program_marks, without_terminators
+from lagrangian.check.reading.program_marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_long_names, without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
@@ -186,6 +186,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
+    commented = () if latex else told_comments(plain.text)
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     listed = are_bullets(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     choice = bool(bullets(text))
@@ -230,7 +231,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
     doubtful = [note] if (note := changing_words(given if latex else with_spoken_signs(given, words))) else []
-    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
+    notes = (*commented, *aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None

@@ -1,0 +1,67 @@
+"""Equations of an answer with energies that no line states: d/dt ∂L/∂ẋ − ∂L/∂x = F, ∂V/∂θ = m g l sin θ.
+
+With the right energies they hold, or a note tells that they do not. Those of no coordinate, d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i =
+Ξ_i, say nothing of the system.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, slope
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import Kind, compare, zero_everywhere
+from lagrangian.check.stated import dissipation
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+
+
+def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[Text]:
+    """What to say of such equations that do not hold; of those with accelerations only where there are no multipliers,
+    which have names and scales of the answer's own. A statement with a name only gives that a value."""
+    for line in lines:
+        if line.kind != "statement" or line.name is not None or not (used := _slopes(truth, line.expr)):
+            continue
+        expr = cast("sp.Expr", line.expr.xreplace({x: value for x, (_, value) in used.items()}))
+        if any(map(is_placeholder, expr.atoms(AppliedUndef))) or not _known(truth, expr):
+            continue
+        moving = expr.has(*[c.acceleration for c in truth.model.coordinates])
+        if moving and truth.derivation.multipliers:
+            continue
+        holds = compare(truth, [expr]).rows[0].kind is not Kind.WRONG if moving else zero_everywhere(truth, expr)
+        if not holds:
+            *others, last = sorted({kind for kind, _ in used.values()})
+            named = f"{', '.join(others)} and {last}" if others else last
+            yield text(
+                f"'{line.text}' was not judged, since no line states {named}; with what is right for the system, "
+                "it does not hold."
+            )
+
+
+def _slopes(truth: Reference, expr: sp.Expr) -> dict[Any, tuple[str, sp.Expr]]:
+    """The derivatives of energies without a value in an expression: the energy of each, and its right value."""
+    atoms = expr.atoms(sp.Derivative, AppliedUndef)
+    found: dict[Any, tuple[str, sp.Expr]] = {}
+    for kind, name in ENERGIES.items():
+        for c in truth.model.coordinates:
+            for by in (c.symbol, c.rate):
+                alone = slope(str(name), (by,))
+                rate = sp.Derivative(alone, time)
+                for form in {sp.Derivative(name, by), alone, rate} & atoms:
+                    energy = dissipation(truth) if kind == "D" else {"T": truth.T, "V": truth.V, "L": truth.L}[kind]
+                    orders = (by, time) if form == rate else (by,)
+                    found[form] = kind, bounded.diff(energy, *orders)
+    return found
+
+
+def _known(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression has names of the system alone."""
+    model = truth.model
+    known = {x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs)} | {time}
+    return expr.free_symbols | expr.atoms(AppliedUndef) <= known

@@ -1,0 +1,66 @@
+"""Mistakes behind what is left out of answers: words, comments, general equations, names that nothing uses."""
+
+import pytest
+
+import lagrangian as lg
+
+ROWS = """(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F
+m l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0"""
+CART = lg.example("cart-pole").derive()
+CARTS = lg.example("lecture-3b").derive()
+
+
+def told(answer: str) -> list[str]:
+    """The notes on an answer that is right."""
+    found = CART.check(answer)
+    assert found.right
+    return [str(note) for note in found.notes]
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "energy"),
+    [
+        ("∂V/∂theta = -m g l sin(theta)", "∂V/∂theta = m g l sin(theta)", "V"),
+        ("dT/dtheta = -m l x' theta' sin(theta)", "dT/dtheta = 0", "T"),
+        ("dD/dx' = b x'", "dD/dx' = 2 b x'", "D"),
+        ("d/dt(dL/dx') - dL/dx = F - b x'", "d/dt(dL/dx') - dL/dx = 2 F - b x'", "L"),
+        ("d/dt(∂T/∂x') - ∂T/∂x + ∂V/∂x + ∂D/∂x' = F", "d/dt(∂T/∂x') - ∂T/∂x + ∂V/∂x + ∂D/∂x' = 2 F", "D, T and V"),
+    ],
+)
+def test_equations_with_energies_that_no_line_states_are_told_where_they_do_not_hold(
+    right: str, wrong: str, energy: str
+) -> None:
+    assert told(f"{right}\n{ROWS}") == []
+    (note,) = told(f"{wrong}\n{ROWS}")
+    assert wrong in note and f"no line states {energy}" in note
+
+
+def test_general_equations_are_not_told() -> None:
+    assert told(f"d/dt(dL/dtheta') - dL/dtheta = Xi_theta\nd/dt(dT/dx') + dV/dx = Q_x\n{ROWS}") == []
+
+
+def test_slopes_by_names_of_an_answers_own_are_told() -> None:
+    (note,) = told(f"u = l sin(theta)\n∂V/∂u = m g\n{ROWS}")
+    assert "∂V/∂u = m g" in note and "not judged" in note
+
+
+@pytest.mark.parametrize(
+    "said", ["(negative)", ", negative", "(doubled, two motors)", "less the weight", "with the opposite sign"]
+)
+def test_words_behind_an_equation_that_may_change_it_are_told(said: str) -> None:
+    assert any("Words on line 1 may change" in x for x in told(ROWS.replace("= F", f"= F {said}")))
+
+
+def test_a_force_is_right_with_another_coordinate_only_where_the_equations_use_that() -> None:
+    force = "Q_theta = -(F - b x') l cos(theta)"
+    assert not CART.check(f"w = x + l sin(theta)\n{force}\n{ROWS}").right
+    rows = "x2 = x1 + x2r\nm1 x1'' = k (x2 - x1) - F\nm2 x2'' = F - k (x2 - x1)"
+    assert CARTS.check(f"Q_1 = -F\nQ_2 = F\n{rows}").right
+    assert not CARTS.check(f"Q_1 = F\nQ_2 = F\n{rows}").right
+
+
+@pytest.mark.parametrize("mark", ["#", "//", "%"])
+def test_an_equation_of_motion_in_a_comment_is_told(mark: str) -> None:
+    assert told(f"{mark} the equations of the cart\n{ROWS}") == []
+    (note,) = told(f"{ROWS}\n{mark} (M + m) x'' = F")
+    assert "(M + m) x'' = F" in note and "comment" in note
