@@ -186,7 +186,6 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
-    commented = () if latex else told_comments(plain.text)
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     listed = are_bullets(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     choice = bool(bullets(text))
@@ -231,7 +230,14 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
     doubtful = [note] if (note := changing_words(given if latex else with_spoken_signs(given, words))) else []
-    notes = (*commented, *aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
+    notes = (
+        *told_comments(plain.text, latex=latex),
+        *aside,
+        *words.notes(),
+        *_chosen(reading),
+        *lines.names.notes,
+        *doubtful,
+    )
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None
