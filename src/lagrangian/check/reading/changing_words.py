@@ -6,6 +6,7 @@ Nothing is read out of such words: a note says on which lines they stand, so tha
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 _CHANGES = re.compile(
     r"\b(?:replaced? (?:by|with)|"
@@ -25,19 +26,19 @@ _MOST = 5
 """The largest number of lines that a note names."""
 
 
-def changing_words(text: str) -> str | None:
-    """Return a note about the lines of an answer whose words may change an equation, or None."""
+def changing_words(text: str) -> Iterator[str]:
+    """A note about the lines of an answer whose words may change an equation, if there are any."""
     lines = [
         number
         for number, line in enumerate(text.split("\n"), 1)
         if (_CHANGES.search(line) is not None or _changes_behind(line)) and _DERIVED.search(line) is None
     ]
     if not lines:
-        return None
+        return
     more = ", …" if len(lines) > _MOST else ""
     told = ", ".join(map(str, lines[:_MOST])) + more
     which = f"line {told}" if len(lines) == 1 else f"lines {told}"
-    return f"Words on {which} may change an equation; they were not judged, only what stands as an equation was."
+    yield f"Words on {which} may change an equation; they were not judged, only what stands as an equation was."
 
 
 def _changes_behind(line: str) -> bool:

@@ -65,9 +65,9 @@ def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> 
     return written.edited(_fields(written.text, taken))
 
 
-def told_comments(text: str, *, latex: bool) -> Iterator[str]:
-    """What to say about comments and headings that hold an equation of motion; LaTeX shows no comments."""
-    for match in islice(_WHOLE_LINE_COMMENT.finditer(text), 0 if latex else MOST):
+def told_comments(text: str) -> Iterator[str]:
+    """What to say about comments and headings that hold an equation of motion."""
+    for match in islice(_WHOLE_LINE_COMMENT.finditer(text), MOST):
         if "=" in match["said"] and len(match["said"]) < LONGEST and carries(match["said"]):
             yield f"'{' '.join(match.group().split())}' was not judged: it is a comment."
 

@@ -229,15 +229,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     others += [x for x, asked in less_likely if asked and reading == LIKELIEST]
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
-    doubtful = [note] if (note := changing_words(given if latex else with_spoken_signs(given, words))) else []
-    notes = (
-        *told_comments(plain.text, latex=latex),
-        *aside,
-        *words.notes(),
-        *_chosen(reading),
-        *lines.names.notes,
-        *doubtful,
-    )
+    doubtful = changing_words(given if latex else with_spoken_signs(given, words))
+    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None
@@ -276,6 +269,8 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
+    if not _LATEX.search(plain.text):
+        names.notes |= dict.fromkeys(told_comments(plain.text))
     return sentences_apart(on_one_line(plain))
 
 
