@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 import sympy as sp
 
@@ -20,6 +21,7 @@ from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.mistakes import mistakes
 from lagrangian.check.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.new_angles import check_in_any_angle
+from lagrangian.check.numbers_beside import with_numbers_beside
 from lagrangian.check.own_constraints import unfolded
 from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
@@ -29,6 +31,7 @@ from lagrangian.check.rounded import unrounded
 from lagrangian.check.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.special_cases import with_special_case
 from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
+from lagrangian.check.stated_apart import with_energies_apart
 from lagrangian.check.stated_coordinates import in_stated_coordinates
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.check.without_constraints import without_constraints
@@ -53,9 +56,10 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     truth = truth.with_values(said.values) if said.values else truth
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
+    judged, added = with_energies_apart(truth, judged)
     verdict = _checked(truth, judged, hint, explain)
     general = untrue_in_general(truth, filled(truth, judged))
-    verdict = replace(verdict, notes=(*unjudged, *verdict.notes, *general))
+    verdict = replace(verdict, notes=(*unjudged, *added, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")
@@ -94,7 +98,11 @@ def _valued(
     values = values_of(truth, written)
     numbers = bool(values) and in_numbers(truth, written)
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
-    if verdict.right or verdict.status is Status.INCOMPLETE or not values:
+    if verdict.right or verdict.status is Status.INCOMPLETE:
+        return verdict
+    if (beside := with_numbers_beside(truth, written, partial(_alone, hint=hint, explain=explain))) is not None:
+        return beside
+    if not values:
         return verdict
     sure = values if numbers or not names_values(truth, written) else {p: v for p, v in values.items() if v != 1}
     if sure:
@@ -106,6 +114,12 @@ def _valued(
         note = text("It would be right with ", *ones[:-1], " = 1; a letter that is given must be written.")
         return replace(verdict, notes=(*verdict.notes, note))
     return verdict
+
+
+def _alone(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
+    """The verdict on some lines of an answer; numbers are not read as letters where values are put in."""
+    read = filled(truth, lines) if truth.values else lines
+    return _read(truth, spelled(truth, read, numbers=not truth.values), hint, explain=explain)
 
 
 def _put(

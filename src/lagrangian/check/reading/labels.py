@@ -52,6 +52,8 @@ _ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
 _COORDINATE = re.compile(
     r"\s*(?:\(\s?(?P<round>[^\W\d]\w{0,12})\s?\)|\[\s?(?P<square>[^\W\d]\w{0,12})\s?\])[.:]?(?P<gap>\s+)(?=[^\s*/^=+])"
 )
+_BROKEN = re.compile(r"(?<=[-+−–*·(=])[ \t]*+\n|\n[ \t]*+(?=[-+−–=])")
+"""The end of a line where an equation goes on below it."""
 _CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
 _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+\s*+[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
@@ -80,8 +82,10 @@ _DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
 _END = r"\s*+[.,;]?\s*+\Z"
 _BEFORE_END = r"(?<=[\w\u0307\u0308)\]'’′″²³])(?:\s*+[.,;])?"
 _NAMED = rf"[(\[]\s*{_EQUATION}\.?\s*{_NUMBER}\s*[)\]]"
-_AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
-_AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")
+_LED_TO = rf"(?:{_EQUATION}\.?\s*)?[(\[]\s*(?:{_EQUATION}\.?\s*)?[\w.*'′-]{{1,8}}\s*[)\]]"
+"""What dots or strokes lead to, which is no factor: ...(i), ..... eq. (2), ---- [A]"""
+_AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|{_LEADERS}{_LED_TO}|(?:\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
+_AFTER_CLOSE = re.compile(rf"{_BEFORE_END}(?:{_LEADERS}{_LED_TO}|\s*(?:{_BEHIND}|{_DECIMAL})){_END}")
 _TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _DONE = re.compile(
     r"(?<=[\w\u0307\u0308)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?"
@@ -135,7 +139,8 @@ def numbering(text: str, words: Words) -> Numbering:
     first = [int(m[1]) for line in lines if (m := re.match(r"\s*\(\s*(\d{1,2})\s*\)", line))]
     last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
     before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
-    first_names = [m for line in lines if (m := _COORDINATE.match(line))]
+    whole = _BROKEN.sub(" ", text).split("\n")
+    first_names = [m for line in whole if "=" in line and (m := _COORDINATE.match(line))]
     written = [m["round"] or m["square"] for m in first_names]
     apart = all(m["square"] or len(m["gap"]) > 1 for m in first_names) and len(set(written)) == len(written)
     far = apart and all(words.names.changes(x) or not words.is_name(x) or words.is_own(x) for x in written)

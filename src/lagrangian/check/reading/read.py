@@ -59,7 +59,7 @@ from lagrangian.check.reading.stands_for import (
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.check.reading.unit_vectors import is_vector
-from lagrangian.check.reading.words import Words
+from lagrangian.check.reading.words import Words, led_names
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
@@ -315,7 +315,7 @@ def _words(lines: Lines, text: str) -> Words:
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.taken = frozenset(key(name) for name in own)
-    return Words(lines.names, own, alone, used, primed)
+    return Words(lines.names, own, alone, used, primed, led_names(text))
 
 
 def _parsed(

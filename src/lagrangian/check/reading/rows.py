@@ -47,6 +47,9 @@ MAX_LIST = 60
 LONGEST_LABEL = 140
 """The most characters of a label in front of an equation, with its number."""
 
+LONGEST_FORMULA = 400
+"""The most characters of a formula with a word behind it that says what a name in it means."""
+
 _CLOSED = {"(": ")", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
@@ -73,7 +76,11 @@ _LINKED = (
     "and|or|where|with|so|thus|hence|therefore|implies|then|i\\.e\\."
     "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 )
-_LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
+_WITH = "con|com|met|med|dove|donde|onde|waarbij"
+"""How other languages link statements, in words that may be names of the system or products of these."""
+_LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit|(?P<foreign>{_WITH}))(?=[\s,:])"
+_MEANING = re.compile(r"(?:with|where|wobei|mit|avec|où|soit|con|com|met|med|dove|donde|onde|waarbij)\b")
+_NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
 _RATES = re.compile(
     r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
 )
@@ -85,7 +92,8 @@ _NEXT = (
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = (
     r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
-    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+=(?!=)))"
+    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
+    r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
@@ -100,7 +108,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
     labelled = partial(is_label, words=words, numbers=numbers)
-    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled)
+    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled, words)
     text = "\n".join(
         opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
     )
@@ -170,8 +178,8 @@ def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:
     return empty
 
 
-def _separated(text: str, labelled: Callable[[str], bool]) -> str:
-    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d.
+def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
+    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d, s'' with s = …
 
     ``labelled`` says whether what stands before a colon is a label.
     """
@@ -193,7 +201,9 @@ def _separated(text: str, labelled: Callable[[str], bool]) -> str:
         elif depth <= 0 and match["stop"]:
             if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
                 letters[match.start("stop")] = ";"
-        elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
+        elif match["foreign"] and (words.known(mark) or words.is_product(mark)):
+            continue
+        elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end()) or _is_meant(text, match)):
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
     return "".join(letters)
@@ -216,6 +226,14 @@ def _both(text: str, start: int, end: int) -> bool:
     """Whether there is an equals sign on the same line before and after a place."""
     first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
     return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
+
+
+def _is_meant(text: str, match: re.Match[str]) -> bool:
+    """Whether a word says what a name means in the formula in front of it, which has no equals sign: a'' with a = …"""
+    if _MEANING.fullmatch(match.group()) is None or _NAME_NEXT.match(text, match.end()) is None:
+        return False
+    above = re.split("[:;\n]", text[max(0, match.start() - LONGEST_FORMULA) : match.start()])[-1]
+    return "=" not in above and moves(above)
 
 
 def plain_words(line: str) -> bool:

@@ -50,6 +50,16 @@ _GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
 _INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
 """A letter with an index, which is a name and no word: N_r; e_r is a unit vector."""
 
+_LED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d]\w{1,23})['’′″]{1,2}[ \t]*+=(?![=>])", re.MULTILINE)
+
+_COMPONENT = re.compile(r"[A-Z][xyz]")
+
+
+def led_names(text: str) -> frozenset[str]:
+    """The names whose rates stand alone on a left side, xS'' = x'' - …: of letters of the answer's own, they are no
+    products."""
+    return frozenset(key(m[1]) for m in _LED.finditer(text))
+
 
 def function_of(word: str) -> str | None:
     """The function that a word means, in any case and under the names of other programs: Sin, arctan, tg; or None."""
@@ -74,7 +84,8 @@ class Words:
     """What the words of one answer may mean, before its statements are read.
 
     ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
-    with primes or next to an operator, which are names; ``primed`` are those that never stand without primes.
+    with primes or next to an operator, which are names; ``primed`` are those that never stand without primes, and
+    ``led`` those whose rates stand alone on a left side.
     """
 
     def __init__(
@@ -84,6 +95,7 @@ class Words:
         alone: Iterable[str],
         used: Iterable[str],
         primed: Iterable[str] = (),
+        led: frozenset[str] = frozenset(),
     ) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
@@ -91,6 +103,7 @@ class Words:
         self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
         self._primed = frozenset(primed)
+        self._led = led
         self._split: dict[str, str] = {}
         self._products: dict[str, bool] = {}
         self.flipped = False
@@ -130,7 +143,14 @@ class Words:
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
+        named = named or self._is_component(word)
         return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+
+    def _is_component(self, word: str) -> bool:
+        """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
+        if _COMPONENT.fullmatch(word) is None or self.is_name(word[0]):
+            return False
+        return any(key(word[0] + axis) in self._alone for axis in "xyz" if axis != word[1])
 
     def alone(self, word: str) -> bool:
         """Whether a word occurs in the answer elsewhere than after a number."""
@@ -165,7 +185,8 @@ class Words:
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
-        for extra in (False, True):
+        whole = key(word) in self._led or self._is_component(word)
+        for extra in (False,) if whole else (False, True):
             found = self._splits(word, called, extra)
             if len(found) > 1:
                 one, other = ("*".join(x) for x in found[:2])

@@ -1,0 +1,52 @@
+"""Answers in letters with the same equations in numbers behind them: the lines in numbers are judged with values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from lagrangian.check.reference import Reference
+from lagrangian.check.spelling import in_numbers, values_of
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.model import time
+from lagrangian.page.formula import text
+
+_JUDGED = frozenset(["T", "V", "L", "D", "Xi"])
+
+Judge = Callable[[Reference, Sequence[AnsweredLine]], Verdict]
+
+
+def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: Judge) -> Verdict | None:
+    """The verdict on the lines in letters, and on those in numbers with the values of the system; None if there are no
+    lines in numbers, or if the others do not hold an equation for every coordinate."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    said = [line.kind in _JUDGED or (line.kind == "equation" and line.expr.has(*accelerations)) for line in lines]
+    numeric = [k for k, line in enumerate(lines) if said[k] and in_numbers(truth, [line])]
+    lettered = [k for k in range(len(lines)) if k not in numeric]
+    moving = [k for k in lettered if lines[k].kind == "equation"]
+    numbers = [lines[k] for k in numeric]
+    values = values_of(truth, numbers)
+    if not numeric or len(moving) < truth.n or not values or any(x.expr.free_symbols - {time} for x in numbers):
+        return None
+    first = judge(truth, [lines[k] for k in lettered])
+    if first.status is Status.INCOMPLETE:
+        return None
+    second = judge(truth.with_values(values), numbers)
+    if second.status is Status.OTHER_COORDINATES:
+        return None
+    wrong = first if not first.right else second
+    order: dict[int, list[Finding]] = {}
+    for finding in (*first.findings, *second.findings):
+        order.setdefault(finding.line.number, []).append(finding)
+    told = text("The lines in numbers are judged with the values of the system.")
+    notes = (*first.notes, told, *(x for x in second.notes if second.status is not Status.INCOMPLETE))
+    return Verdict(
+        first.status if second.status is not Status.WRONG else Status.WRONG,
+        tuple(x for number in sorted(order) for x in order[number]),
+        wrong.mistakes,
+        wrong.alternatives,
+        first.combination,
+        change=first.change,
+        notes=tuple(dict.fromkeys(notes)),
+        hint=first.hint,
+        sure=wrong.sure,
+    )
