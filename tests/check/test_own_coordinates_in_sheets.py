@@ -213,3 +213,30 @@ m*h^2*(u'' - phi'' - u*phi'^2) + b*h^2*u' + k*h^2*u = 0
     assert table().check(rows).right
     assert not table().check(rows.replace("Q_2 = -b*h^2", "Q_2 = b*h^2")).right
     assert not table().check(rows.replace("Q_2 = -b*h^2", "Q_s = -b*h^2")).right
+
+
+def test_equations_side_by_side_in_one_row_are_two() -> None:
+    rows = r"""\begin{align}
+  Q_\varphi &= \tau - d \dot\varphi & Q_s &= -b \dot s
+\end{align}
+\begin{align}
+  (J + m h^2 + m s^2) \ddot\varphi - m h \ddot s + 2 m s \dot s \dot\varphi &= Q_\varphi \\
+  m \ddot s - m h \ddot\varphi - m s \dot\varphi^2 + k s &= Q_s
+\end{align}"""
+    found = table().check(rows)
+    assert found.right and [f.line.name for f in found.findings if f.line.kind == "Xi"] == ["phi", "s"]
+    wrong = table().check(rows.replace(r"-b \dot s", r"b \dot s"))
+    assert next(str(f.status) for f in wrong.findings if f.line.kind == "Xi") == "right" and not wrong.right
+
+
+@pytest.mark.parametrize("called", ["Lagrangian L = T - V", "5) Lagrangian L = T - V", "Lagrangian: L = T - V"])
+def test_an_energy_by_its_name_and_its_letter_is_stated_once(called: str) -> None:
+    energies = "T = 1/2*J*phi'^2 + 1/2*m*((s' - h*phi')^2 + s^2*phi'^2)\nV = 1/2*k*s^2"
+    kinds = [f.line.kind for f in table().check(f"{energies}\n{called}").findings]
+    assert kinds == ["T", "V", "L"]
+
+
+def test_what_stands_before_a_stated_force_is_no_minus() -> None:
+    text = "- Q_phi = tau - d*phi'\n- Q_s = -b*s'\n\nT = 1/2*J*phi'^2 + 1/2*m*((s' - h*phi')^2 + s^2*phi'^2)"
+    assert [str(f.status) for f in table().check(text).findings] == ["right"] * 3
+    assert [str(f.status) for f in table().check(text.replace("-b*s'", "b*s'")).findings][1] == "wrong"

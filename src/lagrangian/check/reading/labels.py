@@ -7,12 +7,15 @@ from collections.abc import Sequence
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose import CHANGING, LINKING
+from lagrangian.check.reading.stated import ENERGY_NAMES
 from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.units import lookup
 from lagrangian.records import dataclass
 
 _ARROW = re.compile(r"\s*(?:<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|➔|➜|➡|➤|↪|∴|[•◦▪●‣⁃✓✔]|>|[·o]\t)\s*")
 _BRACE = re.compile(r"\s*(?:[⎧⎨⎩⎪]|\{(?![^{}]*\}))\s*")
+_CALLED_ENERGY = re.compile(r"[ \t]*+(?P<word>[^\W\d_]{4,20})[ \t]+(?=[^\W\d]\*?[ \t]*=)")
+"""An energy by its name and its letter: Lagrangian L = T - V."""
 _BULLET = re.compile(r"\s*[*+][ \t]+(?=[\w(\[])")
 _EQUATION = r"(?:[Ee]qn?|[Ee]quation|[Gg]l|[Gg]ln|[Gg]leichung|EOM|DGL|BWG|[Éé]q)"
 _NUMBER = r"\d{1,3}(?:\.\d{1,3}){0,2}[a-z]?['′*]{0,2}"
@@ -212,6 +215,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
                 line = blank(line, 0, match.end())
         if line == above:
             break
+    if (called := _CALLED_ENERGY.match(line)) is not None and called["word"] in ENERGY_NAMES:
+        line = blank(line, 0, called.end())
     left = _LEFT.match(line)
     return line if left is None else blank(line, 0, left.end())
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.latex_layout import closing, without_braces, without_units
-from lagrangian.check.reading.latex_tokens import MATRICES, SYMMETRIC
+from lagrangian.check.reading.latex_tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, incomplete, plain_words
 
@@ -240,7 +240,7 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
 
 
 def _tidy(row: AnswerRow) -> AnswerRow:
-    text = row.text.replace("&", " ") if not any(f"{{{m}}}" in row.text for m in MATRICES) else _outer(row.text)
+    text = _outer(row.text)
     end = _content_end(text)
     while end and text[end - 1] in ".,;":
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
@@ -249,14 +249,22 @@ def _tidy(row: AnswerRow) -> AnswerRow:
 
 
 def _outer(text: str) -> str:
-    """Blank out the & that align rows, but not those inside matrices."""
-    matrices, letters = 0, list(text)
+    r"""Blank out the & that align rows, but not those inside matrices; one between equations side by side,
+    a &= b & c &= d, becomes a mark."""
+    matrices, places = 0, list[int]()
     for match in re.finditer(r"\\begin|\\end|&", text):
-        if match.group() == "&":
-            if matrices <= 0:
-                letters[match.start()] = " "
-        else:
+        if match.group() != "&":
             matrices += 1 if match.group() == "\\begin" else -1
+        elif matrices <= 0 and text[match.start() - 1 : match.start()] != "\\":
+            places.append(match.start())
+    letters = list(text)
+    for at in places:
+        letters[at] = " "
+    between = places[1::2]
+    pairs = [text[a:b] for a, b in pairwise([0, *between, len(text)])]
+    if between and all("=" in pair and not _STARTS.match(pair) for pair in pairs):
+        for at in between:
+            letters[at] = "\x00"
     return "".join(letters)
 
 

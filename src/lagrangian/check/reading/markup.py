@@ -19,6 +19,8 @@ _ITALIC = re.compile(r"(?<=[\s(,])(\*|_)(?=[^\W\d_]{3})([^\W\d_]+(?:[ -][^\W\d_]
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
 _QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
 _BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
+_OF_FORCE = re.compile(r"^[ \t]*[-–][ \t]+(?=(?:Q|Ξ|Xi)_?\w{1,12}[ \t]*=)", re.MULTILINE)
+"""What stands in front of a generalized force that a line states is no minus."""
 _TERM = re.compile(
     r"[ \t]*[-–][ \t]+(?![$]|\\[(\[]|[^\W\d]\w*(?:\{\w{1,12}\})?['’′]{0,2}[ \t]*[:=]"
     r"|[^\W\d_]{2,}:?[ \t]+[^\W\d_]{2,}(?!\w)[ \t:])"
@@ -52,7 +54,7 @@ _BEHIND_SENTENCE = re.compile(
 
 def without_markup(text: str) -> str:
     """Return an answer without Markdown; what is not mathematics is blank."""
-    for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE):
+    for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE, _OF_FORCE):
         text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
     text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
