@@ -66,6 +66,16 @@ def test_names_whose_rates_stand_alone_on_the_left_are_no_products() -> None:
     assert right(f"(M+m)x'' + ml theta'' cos theta - ml theta'^2 sin theta + bx' = F\n{POLE}")  # m l and b x' are
 
 
+def test_a_velocity_relative_to_something_is_not_that_of_the_same_name() -> None:
+    sheet = (
+        "v_P (rel. to cart) = l theta', tangential\nv_P^2 = x'^2 + l^2 theta'^2 + 2 l x' theta' cos theta\n"
+        f"T = 1/2 M x'^2 + 1/2 m v_P^2 + 1/2 J theta'^2\n{CART}\n{POLE}"
+    )
+    assert right(sheet)
+    assert not right(sheet.replace("+ 2 l x'", "+ l x'"))
+    assert not right(sheet.replace(" (rel. to cart)", ""))
+
+
 @pytest.mark.slow
 def test_a_sentence_behind_a_point_does_not_hide_what_a_coordinate_is() -> None:
     told = "the spring is longer by m g/k, so r = s + L_0 + m g/k. θ as in the figure.\n"

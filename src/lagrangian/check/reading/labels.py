@@ -85,7 +85,8 @@ _DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
 _END = r"\s*+[.,;]?\s*+\Z"
 _BEFORE_END = r"(?<=[\w\u0307\u0308)\]'’′″²³])(?:\s*+[.,;])?"
 _NAMED = rf"[(\[]\s*{_EQUATION}\.?\s*{_NUMBER}\s*[)\]]"
-_LED_TO = rf"(?:{_EQUATION}\.?\s*)?[(\[]\s*(?:{_EQUATION}\.?\s*)?[\w.*'′-]{{1,8}}\s*[)\]]"
+_TAG = rf"(?:{_NUMBER}|[A-Za-z](?:[.-]?\d{{1,2}})?|[ivxIVX]{{1,5}}|\d{{1,2}}[.-][A-Za-z]|\*{{1,3}})"
+_LED_TO = rf"(?:{_EQUATION}\.?\s*)?[(\[]\s*(?:{_EQUATION}\.?\s*)?{_TAG}\s*[)\]]"
 """What dots or strokes lead to, which is no factor: ...(i), ..... eq. (2), ---- [A]"""
 _AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|{_LEADERS}{_LED_TO}|(?:\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
 _AFTER_CLOSE = re.compile(rf"{_BEFORE_END}(?:{_LEADERS}{_LED_TO}|\s*(?:{_BEHIND}|{_DECIMAL})){_END}")

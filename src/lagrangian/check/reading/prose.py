@@ -9,6 +9,13 @@ from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.words import Words, function_of
 
 _REMARK = re.compile(r"(?<!\S)\(([^\W\d_][^()=+*/^\n]*)\)")
+_RELATIVE = re.compile(
+    r"^[ \t]*+(?P<name>[^\W\d]\w{0,23}+)[ \t]*+"
+    r"\((?:rel\.|(?:rel|relativ|relative|relatif|wrt|w\.r\.t\.|gegenüber|seen)\b)[^()=+*/^\n]{0,60}\)[ \t]*+=[^\n]*",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A quantity that is counted from something else than the one of the same name: v_disc (rel. to the cart) = …"""
+_ON_THE_LEFT = re.compile(r"^[ \t]*+([^\W\d]\w{0,23}+)(?:\^2|²)?[ \t]*+=", re.MULTILINE)
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
 _IDENTIFIER = re.compile(r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*")
 _LETTER = r"[^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
@@ -145,6 +152,7 @@ def _states(text: str, start: int, end: int) -> bool:
 
 def without_remarks(text: str, words: Words) -> str:
     """Return an answer without words in brackets: T (kinetic), u = y + l θ (front end)."""
+    text = _without_other_quantities(text, words)
     for match in reversed(list(_REMARK.finditer(text))):
         listed = _WORD.findall(match[1])
         if _MATHEMATICS.search(match[1]) or any(words.known(x) for x in _IDENTIFIER.findall(match[1]) if len(x) > 2):
@@ -152,6 +160,18 @@ def without_remarks(text: str, words: Words) -> str:
         if any(_is_word(x, words) for x in listed) and not any(len(x) > 2 and words.is_name(x) for x in listed):
             text = blank(text, match.start(), match.end())
     return _without_comments(text, words)
+
+
+def _without_other_quantities(text: str, words: Words) -> str:
+    """Return an answer without what a quantity is from elsewhere, as a note tells, if it is stated without that, too:
+    v (rel. to the cart) = l θ', v² = …"""
+    again = set(_ON_THE_LEFT.findall(text))
+    for match in list(_RELATIVE.finditer(text)):
+        if match["name"] in again and not words.names.known(match["name"]):
+            told = f"'{' '.join(match.group().split())}' was not judged"
+            words.names.notes.setdefault(f"{told}: {match['name']} is another quantity elsewhere.")
+            text = blank(text, *match.span())
+    return text
 
 
 def _without_comments(text: str, words: Words) -> str:
