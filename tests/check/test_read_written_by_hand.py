@@ -73,6 +73,7 @@ def test_a_velocity_relative_to_something_is_not_that_of_the_same_name() -> None
     )
     assert right(sheet)
     assert not right(sheet.replace("+ 2 l x'", "+ l x'"))
+    assert right(sheet.replace("rel. to", "w.r.t."))
     assert not right(sheet.replace(" (rel. to cart)", ""))
 
 

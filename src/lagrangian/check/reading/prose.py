@@ -11,7 +11,7 @@ from lagrangian.check.reading.words import Words, function_of
 _REMARK = re.compile(r"(?<!\S)\(([^\W\d_][^()=+*/^\n]*)\)")
 _RELATIVE = re.compile(
     r"^[ \t]*+(?P<name>[^\W\d]\w{0,23}+)[ \t]*+"
-    r"\((?:rel\.|(?:rel|relativ|relative|relatif|wrt|w\.r\.t\.|gegenüber|seen)\b)[^()=+*/^\n]{0,60}\)[ \t]*+=[^\n]*",
+    r"\((?:(?:rel|w\.r\.t)\.|(?:rel|relativ|relative|relatif|wrt|gegenüber|seen)\b)[^()=+*/^\n]{0,60}\)[ \t]*+=[^\n]*",
     re.MULTILINE | re.IGNORECASE,
 )
 """A quantity that is counted from something else than the one of the same name: v_disc (rel. to the cart) = …"""
