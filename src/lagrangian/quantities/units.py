@@ -7,6 +7,7 @@ typing mistake ("gr", "Kg", "c") never becomes another unit; `unit_hints` sugges
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from fractions import Fraction
 from functools import cache
@@ -51,6 +52,7 @@ _FOOT, _INCH, _MILE = Fraction("0.3048"), Fraction("0.0254"), Fraction("1609.344
 _POUND, _GRAVITY = Fraction("0.45359237"), Fraction("9.80665")
 _LBF = _POUND * _GRAVITY
 _PI = Fraction(repr(math.pi))
+_JOINED = re.compile(r"(N|V|A|W|J|kg)(m)?(s)?")
 _MANY, _FEW = "T G M k m µ u n p", "k m µ u"
 
 TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
@@ -225,3 +227,12 @@ def units() -> dict[str, Unit]:
 def lookup(name: str) -> Unit | None:
     """Return the unit with a name, or None if there is none."""
     return units().get(name.replace("\u03bc", "µ").replace("\u2126", "Ω"))
+
+
+def joined(word: str) -> tuple[str, ...]:
+    """Return the SI units that stand in a word without a sign between them, N, m and s of Nms; nothing if it is none.
+
+    What has a prefix, or can be read with one, is not taken apart: Nmm.
+    """
+    found = _JOINED.fullmatch(word)
+    return tuple(x for x in found.groups() if x) if found is not None and lookup(word) is None else ()

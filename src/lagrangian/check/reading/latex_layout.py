@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
-from lagrangian.quantities.units import lookup
+from lagrangian.quantities.units import joined, lookup
 
 _COVERS = "underbrace overbrace underbracket overbracket underset overset stackrel cancel bcancel xcancel"
 _UNDER = re.compile(rf"\\(?:{'|'.join(_COVERS.split())})\s*\{{")
@@ -78,7 +78,7 @@ def without_units(text: str) -> str:
 
     def plain(match: re.Match[str]) -> str:
         names = re.findall(r"[^\W\d_]+", re.sub(r"\\(?:cdot|,|;|:|!)", " ", match["unit"]))
-        found = [lookup(name) for name in names]
+        found = [lookup(part) for name in names for part in (joined(name) or (name,))]
         whole = bool(found) and all(unit is not None and unit.factor == 1 for unit in found)
         return " " * len(match.group()) if whole else match.group()
 

@@ -26,7 +26,7 @@ from lagrangian.check.reading.line_forms import (
     without_expressions,
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
-from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in
+from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tells, without_parts
@@ -42,6 +42,7 @@ from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
+from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
@@ -300,6 +301,11 @@ class Lines:
                 for n, x in zip(names, value, strict=True)
             ]
         self.names.define(token, value)
+        rates = {k for k, x in spelled_rates(str(token)) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
+        if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
+            left = [c.symbol.diff(time, 2) for c in self.model.coordinates]
+            pairs = zip(left, value, strict=True)
+            return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
         self._used_nowhere(subject, reader)
         return []
 

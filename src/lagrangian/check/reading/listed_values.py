@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from math import isclose, pi
 
-from lagrangian.quantities.units import lookup
+from lagrangian.quantities.units import joined, lookup
 
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
 _VALUE = re.compile(
@@ -97,8 +97,6 @@ def _parts(unit: str) -> Iterator[tuple[str, str, str]]:
     """The parts of a unit: what stands before each, its letters and its power; N and m of Nm."""
     for match in _PART.finditer(unit):
         word = match["unit"]
-        if lookup(word) is None and word[:1] == "N" and len(word) > 1:
-            yield match["by"], "N", ""
-            yield "", word[1:], match["power"]
-        else:
-            yield match["by"], word, match["power"]
+        parts = joined(word) or (word,)
+        for k, part in enumerate(parts):
+            yield "" if k else match["by"], part, match["power"] if part is parts[-1] else ""

@@ -24,6 +24,8 @@ _LABEL = re.compile(r"^[ \t]*+\(%(?P<kind>[io])\d{1,4}\)", re.MULTILINE)
 _ASSIGNS = re.compile(rf"\s*+(?P<name>{_NAME})(?P<sign>[ \t]*+:)(?!=)")
 _SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|\(%i\d|In[ \t]?\[\d)", re.MULTILINE)
 _MAPLE = re.compile(r"^[ \t]*+>[ \t][^\n]*+$", re.MULTILINE)
+_TYPED = re.compile(r"^[ \t]*+>[ \t]++(?P<said>[^\n#]*?;[ \t]*+(?:#[^\n]*+)?$)", re.MULTILINE)
+"""A statement of Maple behind its prompt."""
 _ENDS = re.compile(
     rf"(?<=[^\s:]):(?=[ \t]*+(?:$|#|{_NAME}(?:\([^()\n]{{0,80}}\))?[ \t]*+=|(?:read|with|lprint|print)\b))"
 )
@@ -79,7 +81,7 @@ def without_code(
 
     ``session``: lines begin with prompts, so that a call of an unknown function is one of a procedure.
     """
-    written = written.sub(_MAPLE, lambda m: _ENDS.sub(";", m.group()))
+    written = written.sub(_MAPLE, lambda m: _ENDS.sub(";", m.group())).sub(_TYPED, lambda m: m["said"])
     text, edits = written.text, list[Edit]()
     edits += _loops(text)
     own = set(_procedures(text)) if session else set[str]()

@@ -9,21 +9,19 @@ p.m*p.g                         m*g                           the fields of a st
 S.dds =⏎⏎ (F - …)/m              dds = (F - …)/m               a solution
 v.'*v                           v^T*v                         a column that is transposed
 A = diag([m J]);                A = diag(m, J)                a diagonal
-% A*qdd = f                       A*qdd = f                   an equation of matrices that stands in a comment alone
 """
 
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Callable, Iterator
 from itertools import islice
 
+from lagrangian.check.reading.program_matrices import with_equations_in_comments, with_shown_matrices
 from lagrangian.check.reading.sessions import carries
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _NAME = r"[^\W\d]\w{0,23}+"
-_WORD = r"[^\W\d]\w*"
 MOST, LONGEST = 200, 2_000
 """The most marks of one kind that are looked at, and the most characters of a comment in brackets."""
 
@@ -45,8 +43,6 @@ _SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))",
 """The structure of a solution: S.dds = …"""
 _TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
 _DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
-_MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\()", re.MULTILINE)
-_LINE_COMMENT = re.compile(r"(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)")
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
 _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
 
@@ -55,13 +51,14 @@ def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> 
     """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
     written = written.edited(_comments(written.text)).sub(_LABELLED, lambda m: "")
     written = written.sub(_SOLUTION, lambda m: "").sub(_TRANSPOSED, lambda m: "^T")
+    written = with_shown_matrices(written)
     shown = {m["name"] for m in _SHOWN.finditer(written.text)}
     if shown and ">>" in written.text:
         written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
     written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
     written = written.edited(_list_names(written.text))
     written = written.edited(_diagonals(written.text))
-    written = written.edited(_equations_in_comments(written.text))
+    written = with_equations_in_comments(written, taken)
     return written.edited(_fields(written.text, taken))
 
 
@@ -102,18 +99,6 @@ def _diagonals(text: str) -> Iterator[Edit]:
         entries = [x.strip() for x in listed.split(by)]
         if all(x and x[-1] not in "+-*/" and x.strip("+-*/") for x in entries):
             yield *match.span(), f"diag({', '.join(entries)})"
-
-
-def _equations_in_comments(text: str) -> Iterator[Edit]:
-    """Blanks for the marks of comments that say the equation of matrices that nothing else uses."""
-    code = _LINE_COMMENT.sub(" ", text)
-    counts = Counter(re.findall(_WORD, code))
-    unused = {name for name in _MATRIX.findall(code) if counts[name] == 1}
-    for match in islice(_LINE_COMMENT.finditer(text), MOST):
-        names = re.findall(_WORD, match["said"])
-        used = unused & set(names)
-        if used and "=" in match["said"] and not any(re.fullmatch(rf"\s*+{x}\s*+=.*", match["said"]) for x in used):
-            yield *match.span("mark"), " "
 
 
 def _list_names(text: str) -> Iterator[Edit]:

@@ -43,6 +43,8 @@ _QUOTED = re.compile(r"(?<![\w)\]'’′])['%](?=[dD]iff\()")
 _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
 _EQUALS = re.compile(r"^(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE)
 _RATE = re.compile(rf"(?<![\w\\])D(?P<two>2|[ \t]?(?:²|(?:\^|\*\*)[ \t]?2)[ \t]*)?(?P<of>(?>{_NAME}))(?!\w)")
+_SECOND_RATE = re.compile(rf"(?<![\w\\.])d2_?(?P<of>(?>{_NAME}))(?!\w|[ \t]?\(|[ \t]?/[ \t]?d)")
+"""How programs spell second derivatives: d2x for x''."""
 _LINE_OF_CODE = re.compile(
     r"^[ \t]*+(?:from\s+\w[\w.]*\s+import\b[^=\n]*|import\s+\w[\w. ,]*|syms\s[^=\n]*|using\s+[\w, ]+|clear|clc"
     r"|restart:?|with\(\w+\)[:;]|#(?:import|let|set|include)\b.*"
@@ -165,6 +167,10 @@ def _called(text: str, taken: Callable[[str], bool], *, typst: bool) -> Iterator
 
 def _with_primes(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
     """D2x and Dx as x'' and x', unless D is a factor: where the answer has a second derivative so, or x moves."""
+    if not taken("d2"):
+        written = written.sub(
+            _SECOND_RATE, lambda m: f"{m['of']}''" if moves(m["of"]) and taken(m["of"]) else m.group()
+        )
     own = taken("D") or re.search(r"(?<!\w)D\s*=(?!=)", written.text) is not None
     found = [m for m in _RATE.finditer(written.text) if not taken(m.group())]
     found = [m for m in found if not own or m["two"] in (None, "2")]  # D² x is a product if D is a name

@@ -40,6 +40,7 @@ from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.program_marks import told_comments, without_program_marks, without_terminators
+from lagrangian.check.reading.program_matrices import with_whole_matrices
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_long_names, without_programs
 from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
@@ -247,7 +248,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     typed_in = without_crossed_out(without_terminators(without_maxima(TracedText(text))), names.notes)
-    prompted = without_prompts(without_long_names(without_tags(typed_in)))
+    prompted = with_whole_matrices(without_prompts(without_long_names(without_tags(typed_in))))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:
@@ -265,6 +266,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
         said = with_stated_values(with_derivatives(said), taken)
+        said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
         own = {key(name) for name in lines.model.symbols}
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])

@@ -231,9 +231,10 @@ def _rated(
         order = 2 if _ACCELERATIONS.search(said) else 1 if _RATES.search(said) else 0
         if item.kind != "name" or not order:
             continue
-        named = words.names.scope.meanings(re.sub(r"[\\{}\s]", "", below.text))[0] if below.kind == "value" else []
+        beside = below.kind == "value" and not (below.before[0] == "(" and below.before[-1] == ",")  # i (current), x
+        named = words.names.scope.meanings(re.sub(r"[\\{}\s]", "", below.text))[0] if beside else []
         own = [x for x in coordinates if x in named]
-        if below.kind == "value" and not own:
+        if beside and not own:
             continue
         for name in own or coordinates:
             shown = below.text if own else rf"\mathrm{{{name}}}"

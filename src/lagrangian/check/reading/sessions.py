@@ -46,7 +46,7 @@ _STRING = re.compile(r"(?<=[(\[,=])[ \t]*+[bfru]?(?P<mark>['\"])[^'\"\n]{0,200}+
 _KEYWORD = re.compile(rf"[(,]\s*+{_NAME}[ \t]*+(?:=(?!=)|->)")
 _HUMPED = re.compile(r"(?:[A-Z][a-z]{1,20}){2,6}[A-Z]?|[a-z]{2,20}(?:_[a-z]{2,20}){1,5}")
 _ACCELERATES = re.compile(
-    r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]"
+    r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]|\bd2(?=[^\W\d])"
     r"|(?:[dD]iff\w{0,9}|Derivative|\bD)[(\[](?:[^()\[\],\n]{0,40}(?:[(\[]t[)\]])?\s*,)?\s*[({]?\s*t\s*(?:,\s*(?:2|t)|\$\s*2)"
     r"|diff\(t?\)\.diff|\bd\^?[2²]\s*/\s*dt"
 )

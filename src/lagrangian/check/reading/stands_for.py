@@ -8,6 +8,7 @@ w: speed of the drum (phi')               ; w = phi';       a rate
 The cart's speed v is x'.                 … ; v = x';.      another
 Denote J + m l^2 by A.                    ; A = J + m l^2;.
 (a1, a2: accelerations of the carts)      (; a1 = x1''; a2 = x2'')
+States: x (cart), v = x'.                 v = x';
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.check.reading.words import function_of
 from lagrangian.read.letters import SPELLED, key
@@ -98,18 +100,43 @@ _BY = re.compile(
     rf"[ \t]++(?:by|as)[ \t]++(?P<new>{_NAME})(?![\w'’′(])",
     re.IGNORECASE,
 )
+_LISTED = rf"{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}}"
 _RATES = re.compile(
-    rf"(?<![\w.*/^+])(?P<names>{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}})[ \t]*"
+    rf"(?<![\w.*/^+])(?P<names>{_LISTED})[ \t]*"
     r"(?::|=|\bis\b|\bare\b|\bdenotes?\b)[ \t]*(?:the[ \t]+)?(?:(?:angular|linear|their|its)[ \t]+)?"
-    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?)\b"
-    r"(?:(?![ \t]*(?:,|and\b|und\b)[ \t]*\w+[ \t]*(?::|=|is\b|are\b|denotes?\b))[^=+*/^()\n;.]){0,60}",
+    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?"
+    r"|(?:first|second)(?![ \t]+(?:and|und|or)\b)(?=\b[^.;\n]{0,60}\bderivatives?\b))\b"
+    rf"(?:(?![ \t]*(?:,|and\b|und\b)[ \t]*{_LISTED}[ \t]*(?::|=|is\b|are\b|denotes?\b))[^=+*/^()\n;.]){{0,60}}",
     re.IGNORECASE,
 )
+
+_STATES = re.compile(
+    r"^[ \t]*+(?:states?|state[ \t](?:variables?|vector)|Zustände|Zustandsgrößen)[ \t]*+:[ \t]*+"
+    r"(?P<listed>[^\n;]{3,300}?)(?P<end>[ \t]{0,9}(?:[.;](?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+_STATE = re.compile(
+    rf"{_NAME}['’′]{{0,2}}(?:[ \t]*=[ \t]*(?P<value>{_NAME}['’′]{{1,2}}))?(?:[ \t]*\([^()=]{{1,60}}\))?"
+)
+
+
+def _with_listed_states(written: TracedText) -> TracedText:
+    """Return an answer in plain text in which a list of states only states which rates they are."""
+    edits: list[Edit] = []
+    for match in _STATES.finditer(written.text):
+        states = [
+            _STATE.fullmatch(x.strip()) for x in re.split(r",(?![^(]*\))|[ \t]and[ \t]|[ \t]und[ \t]", match["listed"])
+        ]
+        stated = [x.group().partition("(")[0] for x in states if x is not None and x["value"]]
+        if stated and all(states):
+            edits.append((*match.span(), f"{'; '.join(stated)};"))
+    return written.edited(edits)
 
 
 def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text in which a value behind the words for a new name is a statement, or a
     rate in brackets behind them."""
+    written = _with_listed_states(written)
     edits: list[Edit] = []
     for match in _VALUED.finditer(written.text):
         names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
@@ -125,25 +152,31 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
     return written.edited(apart(edits))
 
 
-def with_stated_rates(written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool]) -> TracedText:
+def with_stated_rates(
+    written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool], *, sure: bool = False
+) -> TracedText:
     """Return an answer in plain text in which names that words call velocities or accelerations are rates.
 
-    They are those of the coordinates with the same number, a2 of x2, or of all of them in their order.
+    They are those of the coordinates with the same number, a2 of x2, or of all of them in their order. It is ``sure``
+    where comments of programs say so of names that begin as the coordinates do: xp, tp = velocities.
     """
     edits: list[Edit] = []
     for match in _RATES.finditer(written.text):
         names = [x for x in re.findall(_NAME, match["names"]) if x not in ("and", "und")]
-        primes = "''" if match["rate"].lower().startswith("acc") else "'"
+        primes = "''" if match["rate"].lower().startswith(("acc", "second")) else "'"
         numbered = any(map(_number, coordinates)) and all(map(_number, names))
         of = [[c for c in coordinates if _number(c) == _number(x)] for x in names]
         own = [x[0] for x in of if len(x) == 1] if numbered else coordinates
         told = re.findall(r"(?<![\w.])\d{1,2}(?!\w)", match.group()[match.end("rate") - match.start() :])[: len(names)]
         if numbered and told and told != [_number(x) for x in names]:
             continue  # c1 and c2 are the accelerations of masses 1 and 3
-        if len(own) == len(names) and not any(map(taken, names)):
-            edits.append(
-                (*match.span(), "; " + "; ".join(f"{a} = {b}{primes}" for a, b in zip(names, own, strict=True)))
-            )
+        line = written.text[written.text.rfind("\n", 0, match.start()) + 1 : match.start()]
+        mark = re.search(r"(?<![\\\w])(?:[#%]|//)", line)
+        alike = mark is not None and all(x[0] == c[0] for x, c in zip(names, own, strict=False))
+        if len(own) == len(names) and not any(map(taken, names)) and (alike or not sure):
+            pairs = [(x, c) for x, c in zip(names, own, strict=True) if (len(primes), c) not in spelled_rates(x)]
+            said = "; ".join(f"{x} = {c}{primes}" for x, c in pairs)
+            edits.append((*match.span(), f"; {said}" if mark is None else f"\n{said}\n{mark.group()} "))
     return written.edited(edits)
 
 

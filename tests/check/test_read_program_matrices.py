@@ -1,0 +1,135 @@
+"""Matrices that programs print, and comments beside them that say how they belong together.
+
+Oracle: the equations of the cart with a pole and of the motor in the grammar of model files. Every form has a wrong
+twin, which stays wrong.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian.quantities.units import joined
+
+SHOWN = """>> A_mat
+
+A_mat =
+
+[        M + m, l*m*cos(theta)]
+[l*m*cos(theta),    J + m*l^2]
+
+>> n_vec
+
+n_vec =
+
+ b*dx - l*m*sin(theta)*dtheta^2
+              -g*l*m*sin(theta)
+
+>> % A_mat*[ddx; ddtheta] + n_vec = [F; 0]
+"""
+ENTERED = """% cart with a pole, q = [x; theta], A(q)*qdd + n(q,qd) = p
+A = [M + m, m*l*cos(theta); ...
+     m*l*cos(theta), J + m*l^2];
+n = [b*xd - m*l*thetad^2*sin(theta); ...   % damper first
+     -m*g*l*sin(theta)];
+p = [F; 0];
+"""
+ARRAYS = """# cart with a pole: M(q) qdd = p, q = [x, theta]
+import numpy as np
+from numpy import sin, cos
+Mq = np.array([[M + m, m*l*cos(theta)],
+               [m*l*cos(theta), J + m*l**2]])
+p = np.array([F - b*xd + m*l*thetad**2*sin(theta),
+              m*g*l*sin(theta)])
+# qdd = np.linalg.solve(Mq, p)      xd, thetad: velocities
+"""
+ROWS = """>> eoms    % each row == 0
+
+eoms =
+
+ (M + m)*d2x + l*m*cos(theta)*d2theta - l*m*sin(theta)*dtheta^2 + b*dx - F
+        (J + m*l^2)*d2theta + l*m*cos(theta)*d2x - g*l*m*sin(theta)
+
+% dx, d2x: first and second derivative
+"""
+MAXIMA = """(%i9)  /* xp, tp = velocities, xpp, tpp = accelerations */
+       eq_x;
+(%o9)  (M+m)*xpp+m*l*cos(theta)*tpp-m*l*sin(theta)*tp^2+b*xp=F
+(%i10) eq_theta;
+(%o10) (J+m*l^2)*tpp+m*l*cos(theta)*xpp-g*m*l*sin(theta)=0
+"""
+MAPLE = """> sol := solve({eq1, eq2}, {diff(x(t),t,t), diff(theta(t),t,t)}):
+# with xdd, tdd = second, xd, td = first time derivatives, N the common denominator
+
+N := (M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2;
+
+xdd := ((J + m*l^2)*(F - b*xd + m*l*td^2*sin(theta)) - m*l*cos(theta)*m*g*l*sin(theta))/N;
+
+tdd := ((M + m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*xd + m*l*td^2*sin(theta)))/N;
+"""
+SOLVED = ARRAYS.replace("# qdd = np.linalg.solve(Mq, p)   ", "qdd = np.linalg.solve(Mq, p)   #")
+INVERTED = ARRAYS.replace("np.linalg.solve(Mq, p)", "np.linalg.inv(Mq) @ p")
+DETERMINANT = "((M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2)"
+PRINTED = f""">> qdd
+
+qdd =
+
+ ((J + m*l^2)*(F - b*dx + m*l*dtheta^2*sin(theta)) - m^2*l^2*g*cos(theta)*sin(theta))/{DETERMINANT}
+      ((M + m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*dx + m*l*dtheta^2*sin(theta)))/{DETERMINANT}
+"""
+TURNED = """% q = [theta; x], A(q)*qdd + n(q, qd) = p
+A = [J + m*l^2, m*l*cos(theta); m*l*cos(theta), M + m];
+n = [-m*g*l*sin(theta); b*xd - m*l*thetad^2*sin(theta)];
+p = [0; F];
+"""
+
+
+@pytest.mark.parametrize(
+    ("written", "old", "new"),
+    [
+        (SHOWN, " b*dx", "-b*dx"),
+        (ENTERED, "J + m*l^2", "J"),
+        (ARRAYS, "m*g*l", "m*l"),
+        (SOLVED, "F - b", "F + b"),
+        (INVERTED, "m*g*l", "-m*g*l"),
+        (ROWS, "- F", "+ F"),
+        (MAXIMA, "+b*xp", "+b*tp"),
+        (MAPLE, "cos(theta)^2", "sin(theta)^2"),
+        (PRINTED, "F - b", "F + b"),
+        (TURNED, "q = [theta; x]", "q = [x; theta]"),
+    ],
+    ids=["shown", "entered", "arrays", "solved", "inverted", "rows", "maxima", "maple", "printed", "turned"],
+)
+def test_matrices_of_programs(written: str, old: str, new: str) -> None:
+    assert derivation("cart-pole").check(written).right
+    assert old in written
+    assert not derivation("cart-pole").check(written.replace(old, new)).right
+
+
+def test_a_list_of_states_says_what_they_are() -> None:
+    said = """States: i (current), theta, w = theta'. With
+
+  D = K*i - b*w - m*g*l*sin(theta), N = J + m*l^2
+
+  i'     = (u - R*i - K*w)/L
+  theta' = w
+  w'     = D/N
+"""
+    assert derivation("dc-motor").check(said).right
+    wrong = derivation("dc-motor").check(said.replace("K*i - b", "K*i + b"))
+    assert not wrong.right
+    assert "as the words say" not in wrong.to_text()
+
+
+@pytest.mark.parametrize("unit", [r"\mathrm{Nms}", r"\,\mathrm{kgm^2/s}", r"\,\text{Nms/rad}"])
+def test_units_without_a_sign_between_them(unit: str) -> None:
+    row = r"m L^2\ddot\theta+b\dot\theta+mgL\sin\theta=0"
+    values = rf"$m=1\,\mathrm{{kg}}$, $L=0.5\,\mathrm{{m}}$, $b=0.02{unit}$, $g=9.81\,\mathrm{{m/s^2}}$"
+    written = rf"\[{row}\] With {values}: \[0.25\ddot\theta+0.02\dot\theta+4.905\sin\theta=0\]"
+    assert derivation("pendulum").check(written).right
+    assert not derivation("pendulum").check(written.replace("4.905", "4.509")).right
+
+
+def test_a_unit_that_may_have_a_prefix_is_not_taken_apart() -> None:
+    assert [joined(x) for x in ("Nms", "kgm", "Nmm", "ms", "kNm")] == [("N", "m", "s"), ("kg", "m"), (), (), ()]
+    values = "m = 1 kg, L = 0.5 m, b = 0.02 Nms\n"
+    row = "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0"
+    assert derivation("pendulum").check(values + row).right
