@@ -45,7 +45,8 @@ def test_slopes_by_names_of_an_answers_own_are_told() -> None:
 
 
 @pytest.mark.parametrize(
-    "said", ["(negative)", ", negative", "(doubled, two motors)", "less the weight", "with the opposite sign"]
+    "said",
+    ["(negative)", ", negative", "(doubled, two motors)", "less the weight", "with the opposite sign", "(minus)"],
 )
 def test_words_behind_an_equation_that_may_change_it_are_told(said: str) -> None:
     assert any("Words on line 1 may change" in x for x in told(ROWS.replace("= F", f"= F {said}")))
@@ -57,6 +58,26 @@ def test_a_force_is_right_with_another_coordinate_only_where_the_equations_use_t
     rows = "x2 = x1 + x2r\nm1 x1'' = k (x2 - x1) - F\nm2 x2'' = F - k (x2 - x1)"
     assert CARTS.check(f"Q_1 = -F\nQ_2 = F\n{rows}").right
     assert not CARTS.check(f"Q_1 = F\nQ_2 = F\n{rows}").right
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("L = T - V", "L = T + V"),
+        ("L = -V + T", "L = V"),
+        ("(D, V) = (b*x'^2/2, m*g*l*cos(theta))", "(D, V) = (b*x'^2, m*g*l*cos(theta))"),
+        ("v' = x''\nx'' = v'", "x'' = v'\nv' = F/M"),
+    ],
+)
+def test_formulas_of_the_lagrangian_energies_in_pairs_and_two_values_of_a_rate_are_judged(
+    right: str, wrong: str
+) -> None:
+    assert CART.check(f"{right}\n{ROWS}").right
+    assert not CART.check(f"{wrong}\n{ROWS}").right
+
+
+def test_a_matrix_that_no_equation_uses_is_told() -> None:
+    assert any("no equation uses this matrix M" in x for x in told(f"{ROWS}\nM = [M, 0; 0, J]"))
 
 
 @pytest.mark.parametrize("mark", ["#", "//", "%"])

@@ -9,6 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reading import Answer, generalized_force
+from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import ModelError
@@ -79,11 +80,21 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
     forces: dict[Any, sp.Expr] = {}
     for c, own in zip(truth.model.coordinates, truth.Xi, strict=True):
         forces[generalized_force(c.name)] = given.get(c.name, own)
+    energies = {ENERGIES["T"]: truth.T, ENERGIES["V"]: truth.V}
     out: list[AnsweredLine] = []
     for line in lines:
-        expr = truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
-        out.append(AnsweredLine(line.kind, expr, line.number, line.name, line.text))
+        kind, expr = line.kind, truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
+        if _is_other_lagrangian(line):
+            kind, expr = "L", cast("sp.Expr", expr.xreplace(energies))
+        out.append(AnsweredLine(kind, expr, line.number, line.name, line.text))
     return tuple(out)
+
+
+def _is_other_lagrangian(line: AnsweredLine) -> bool:
+    """Whether a line says what L is in terms of T and V alone, and not T − V."""
+    T, V = ENERGIES["T"], ENERGIES["V"]
+    used = line.expr.free_symbols - {time} | line.expr.atoms(AppliedUndef)
+    return (line.kind, line.name) == ("statement", "L") and set() < used <= {T, V} and line.expr != T - V
 
 
 def without_forms(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:

@@ -16,7 +16,8 @@ _CHANGES = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _BEHIND = re.compile(
-    r"(?<![\w-])(?:twice|doubled|halved|tripled|negative|negated|less[ ](?:the|that)|without|except|opposite|reversed)"
+    r"(?<![\w-])(?:twice|doubled|halved|tripled|negative|negated|less[ ](?:the|that)|without|except|opposite|reversed|"
+    r"\(minus\)|with[ ](?:a[ ])?minus)"
     r"(?![\w-])"
 )
 """Such words behind the last equals sign of a line."""

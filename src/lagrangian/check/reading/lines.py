@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import cast
 
 import sympy as sp
-from lark import Tree
+from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
@@ -253,8 +255,12 @@ class Lines:
                 left = reader.value(sides[0])
                 left = sp.S.Zero if is_label_of_equation(subject) else left
                 return made_line("equation", left, value, None, sides[0], side, reader)
+            above = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
             self._define(subject, value)
             self._used_nowhere(subject, reader)
+            if isinstance(above, sp.Expr) and not is_vector(above) and bounded.expand(above - value) != 0:
+                kind = "equation" if accelerates(above) or accelerates(value) else "identity"
+                return made_line(kind, above, value, None, sides[0], side, reader)  # v' = x'' and v' = F/M
         elif kind == "identity":
             lhs = rate = reader.value(sides[0])
             if solves(rate, value):
@@ -307,7 +313,14 @@ class Lines:
             pairs = zip(left, value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
         self._used_nowhere(subject, reader)
+        if token is not None and self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
+            self._not_judged(reader, f"no equation uses this matrix {token}")
         return []
+
+    def _is_used_as_matrix(self, token: Token) -> bool:
+        """Whether a statement uses a name beside other matrices, or as one side: M q'' = f."""
+        listed = (s.sides for s in self._statements if self._has_matrices(s.sides))
+        return any(key(str(x)) == key(str(token)) for sides in listed for side in sides for x, _ in names_in(side))
 
     def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Compare the velocity or acceleration of a point with the derivative of its position, which is given before,
@@ -357,6 +370,9 @@ class Lines:
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return made_line("left", None, value, subject.name, a, b, reader)
+        for side, value in ((left, right), (right, left)):
+            if not is_general(value) and (own := [x for x, energy in ENERGIES.items() if energy == side]):
+                return made_line(cast("Kind", own[0]), None, value, None, a, b, reader)  # (T, V) = (m x'^2/2, k x^2/2)
         if is_general(left) or is_general(right):
             kind = "statement"
             if any(is_slope(x) for side in (left, right) for x in side.atoms(AppliedUndef)):
