@@ -106,8 +106,8 @@ def _kept(linear: LinearModel, q: Array) -> list[int]:
     """The places of the states without coordinates on which no rate depends, so that they may drift, and that cost
     nothing."""
     moving = {c.name for c in linear.model.coordinates}
-    free = ~(linear.A.any(axis=0) | q.any(axis=0))
-    return [k for k, name in enumerate(linear.states) if not (free[k] and name in moving)]
+    used = np.vstack([linear.A, q]).any(axis=0)
+    return [k for k, name in enumerate(linear.states) if used[k] or name not in moving]
 
 
 def _weights(given: Any, what: str, noun: str, names: tuple[str, ...]) -> Array:
