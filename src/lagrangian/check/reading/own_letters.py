@@ -47,7 +47,7 @@ def _used_as_names(
     formed: dD/dt = …; that of T, V or L only if no rate is squared in what it is."""
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
         kind = None if named is None or named[1] else energy_of(named[0], subjects.model, lhs=True)
-        if named is None or kind is None:
+        if named is None or kind is None or subjects.names.scope.meanings(named[0])[0]:
             continue
         written = str(named[0])
         states = [undotted(x)[0] for side in sides[1:] for x, _ in names_in(side)]
