@@ -106,7 +106,7 @@ def _kept(linear: LinearModel, q: Array) -> list[int]:
     """The places of the states without coordinates on which no rate depends, so that they may drift, and that cost
     nothing."""
     moving = {c.name for c in linear.model.coordinates}
-    used = np.vstack([linear.A, q]).any(axis=0)
+    used = [bool(column.any()) for column in np.vstack([linear.A, q]).T]
     return [k for k, name in enumerate(linear.states) if used[k] or name not in moving]
 
 

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from lark import Token, Tree
@@ -210,7 +210,7 @@ class Names:
             stems = [written, *(stem for _, stem in spelled_rates(written))]
             known = next((names[0] for x in stems if (names := self.scope.meanings(x)[0])), None)
             if known is not None:
-                kept.add(self.scope[known])
+                kept.add(cast("sp.Expr", self.scope[known]))
                 continue
             base = key(undotted(written)[0])
             if base not in self.own:

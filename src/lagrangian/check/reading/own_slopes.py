@@ -44,11 +44,13 @@ class OwnCoordinates:
         f = list(self.meanings.values())
         own = isinstance(by, str)
         if own:
-            moved = self.inverse[:, list(self.meanings).index(cast("str", by))]
+            column = list(self.meanings).index(cast("str", by))
+            moved = [cast("sp.Expr", self.inverse[a, column]) for a in range(len(f))]
         else:
-            moved = -self.inverse * sp.Matrix([x.diff(cast("sp.Expr", by)) for x in f])
+            turned = -self.inverse * sp.Matrix([x.diff(cast("sp.Expr", by)) for x in f])
+            moved = cast("list[sp.Expr]", turned.flat())
         rates = [cast("sp.Expr", x.diff(time)) for x in self.replaced]
-        steps = [(x, v, cast("sp.Expr", m)) for x, v, m in zip(self.replaced, rates, moved, strict=True) if m != 0]
+        steps = [(x, v, m) for x, v, m in zip(self.replaced, rates, moved, strict=True) if m != 0]
         if order == 1:
             first = sp.S.Zero if own else slope(cast("sp.Expr", cast("sp.Expr", by).diff(time)))
             return sp.Add(first, *[slope(v) * m for _, v, m in steps])
@@ -57,11 +59,11 @@ class OwnCoordinates:
         others = [x.diff(time).xreplace(dict.fromkeys(rates, sp.S.Zero)) for x in f]
         moving = self.inverse * sp.Matrix([w - x for w, x in zip(held, others, strict=True)])
         back = {w: x.diff(time) for w, x in zip(held, f, strict=True)}
-        turned = [
+        rests = [
             (v, sp.Add(*[h.diff(x) * m for x, _, m in steps], sp.S.Zero if own else h.diff(by)).xreplace(back))
             for v, h in zip(rates, moving, strict=True)
         ]
-        return sp.Add(found, *[slope(x) * m for x, _, m in steps], *[slope(v) * h for v, h in turned if h != 0])
+        return sp.Add(found, *[slope(x) * m for x, _, m in steps], *[slope(v) * h for v, h in rests if h != 0])
 
 
 def own_coordinates(meanings: Mapping[str, sp.Expr], kept: Set[sp.Expr]) -> OwnCoordinates | None:
