@@ -19,7 +19,7 @@ from lagrangian.codes import Code, CodeText
 from lagrangian.records import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +160,11 @@ class NoSuchEntry(ModelError, RunError, KeyError):
 
 class MissingExtra(Error, ImportError):
     """An optional package is needed but not installed; the message contains the command that installs it."""
+
+
+def listed(names: Sequence[str]) -> str:
+    """The names in a sentence: ``a``, ``a and b``, ``a, b and c``."""
+    return " and ".join(x for x in (", ".join(names[:-1]), *names[-1:]) if x)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:

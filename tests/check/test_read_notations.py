@@ -10,8 +10,6 @@ from lagrangian import ParseError, loads
 from lagrangian.check.reading import parse_answer
 
 PLAIN = "m L² θ'' + b θ' + m g L sin θ = 0"
-CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
-POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 MIXED, PUSH, WEIGHT = "m*l*cos(theta)", "F - b*x' + m*l*theta'^2*sin(theta)", "m*g*l*sin(theta)"
 TURNTABLE = """
 name = "turntable"

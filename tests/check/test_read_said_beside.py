@@ -8,9 +8,8 @@ import pytest
 
 from built_in import derivation
 from lagrangian import ParseError
+from student_answers import CART, POLE
 
-CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
-POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 BARE = r"m L^2\ddot\theta + b\dot\theta + m g L\sin\theta"
 
 

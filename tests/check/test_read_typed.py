@@ -14,12 +14,11 @@ from built_in import derivation
 from lagrangian import ParseError
 from lagrangian.check.reading import decode_answer, parse_answer
 from lagrangian.cli import main
+from student_answers import CART, POLE
 
 PLAIN = "m L² θ'' + b θ' + m g L sin θ = 0"
 CHANGED = PLAIN.replace("θ", "theta")
-CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
 DIAGONAL = r"\operatorname{diag}(m_1, m_2)\ddot x + K x = f"
-POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 
 
 @pytest.mark.parametrize(

@@ -103,18 +103,15 @@ class AnswerOnRows:
 
     def motions(self, here: tuple[State, Groups], count: int) -> Iterator[AnswerAt]:
         """The answer at other rates and inputs in the same position."""
-        source, state = np.random.default_rng(7), here[0]
-        model = self.truth.model
+        source = np.random.default_rng(7)
+        moving = [*(c.rate for c in self.coordinates), *(u.symbol for u in self.truth.model.inputs)]
         for _ in range(count):
-            other = dict(state)
-            other.update({c.rate: float(source.uniform(-1.5, 1.5)) for c in self.coordinates})
-            other.update({u.symbol: float(source.uniform(-1.5, 1.5)) for u in model.inputs})
-            if (found := self.changed((other, {}), {})) is not None:
+            if (found := self.changed(here[0], {x: float(source.uniform(-1.5, 1.5)) for x in moving})) is not None:
                 yield found
 
-    def changed(self, here: tuple[State, Groups], values: Mapping[sp.Basic, float]) -> AnswerAt | None:
+    def changed(self, state: State, values: Mapping[sp.Basic, float]) -> AnswerAt | None:
         """The answer with other values of some letters, rates or inputs; None where no state on the rows is near."""
-        other = {**here[0], **values}
+        other = {**state, **values}
         groups = self.on_rows.of(state_groups(self.truth.model, other))
         if groups is None:
             return None

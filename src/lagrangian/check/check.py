@@ -57,8 +57,9 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
     judged, added = with_energies_apart(truth, judged)
-    verdict = _checked(truth, judged, hint, explain)
-    general = untrue_in_general(truth, filled(truth, judged))
+    written = filled(truth, judged)
+    verdict = _checked(truth, judged, written, hint, explain)
+    general = untrue_in_general(truth, written)
     verdict = replace(verdict, notes=(*unjudged, *added, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
@@ -66,9 +67,10 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     return replace(verdict, notes=(note, *verdict.notes))
 
 
-def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
-    """The verdict on an answer whose own names are written out."""
-    written = filled(truth, lines)
+def _checked(
+    truth: Reference, lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], hint: int, explain: bool
+) -> Verdict:
+    """The verdict on an answer, and on it with its own names ``written`` out."""
     if truth.derivation.multipliers:
         read = unfolded(truth, written)
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))

@@ -92,11 +92,10 @@ class Compared:
 def expanded(truth: Reference) -> Compared:
     """A system whose equations are written in the coordinates."""
     model = truth.model
-    known: set[sp.Basic] = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     return Compared(
         truth.derivation,
         [c.name for c in model.coordinates],
-        known | direction_symbols(model),
+        truth.names | direction_symbols(model),
         partial(AnswerOnRows, truth),
         partial(judge, truth),
     )

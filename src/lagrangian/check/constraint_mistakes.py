@@ -13,7 +13,6 @@ from lagrangian import bounded
 from lagrangian.check.constraint_slips import SLOPE, WrongConstraint
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
-from lagrangian.model import time
 from lagrangian.page.formula import text
 
 LONGEST = 400
@@ -51,7 +50,6 @@ def _with_factors(mistake: Mistake) -> Mistake:
 def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine], judged: Sequence[Finding]) -> bool:
     """Whether the one multiplier of an answer has the factors ∂g/∂ξ_i, all times the same; ∂g/∂ξ̇_i of a rate g = 0."""
     model = truth.model
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     accelerations = [c.acceleration for c in model.coordinates]
     coordinates = {c.name: (i, c) for i, c in enumerate(model.coordinates)}
     rows = [line.expr for line in lines if line.kind == "equation" and line.expr.has(*accelerations)]
@@ -61,7 +59,7 @@ def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine
     pairs: list[tuple[sp.Expr, sp.Expr]] = []
     symbols: set[Any] = set()
     for expr, (i, c) in zip(rows, (coordinates[name] for name in said if name is not None), strict=True):
-        names: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in known}
+        names: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in truth.names}
         symbols |= names
         mine, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
         if len(symbols) > 1 or mine == 0 or right == 0:

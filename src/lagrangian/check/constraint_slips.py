@@ -69,14 +69,13 @@ class WrongConstraint:
 def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[WrongConstraint, ...]:
     """The wrong lines that state constraints or derivatives of these, each with what is wrong in it."""
     model = truth.model
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     moving = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
     found: list[WrongConstraint] = []
     for f in findings:
         expr = f.line.expr
         if f.line.kind != "equation" or f.status is not Status.WRONG:
             continue
-        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= known:
+        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= truth.names:
             continue
         above = next((x for x in found if _derived(x.expr, expr)), None)
         if above is not None:
@@ -93,24 +92,26 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
 
 def _slope(truth: Reference, line: AnsweredLine) -> Mistake:
     """A line that says wrongly how a constraint changes with one coordinate."""
-    elements = list(dict.fromkeys(m.element.title for m in truth.derivation.multipliers.values()))
-    which = elements[0] if len(elements) == 1 else "a constraint"
-    what = text(*_begin(line), f" is not right: it is no derivative of {which} by a coordinate.")
-    return Mistake(
-        "constraint_slope_wrong", what, WHY_SLOPE, 6, elements[0] if len(elements) == 1 else None, None, what
-    )
+    element = _only(truth)
+    what = text(_begin(line), f" is not right: it is no derivative of {element or 'a constraint'} by a coordinate.")
+    return Mistake("constraint_slope_wrong", what, WHY_SLOPE, 6, element, None, what)
 
 
 def _elsewhere(truth: Reference, line: AnsweredLine) -> Mistake:
     """A line of positions alone that resembles no constraint."""
-    elements = list(dict.fromkeys(m.element.title for m in truth.derivation.multipliers.values()))
-    which = elements[0] if len(elements) == 1 else "the constraints"
-    what = text(*_begin(line), f" does not hold for the positions that {which} allows.")
-    return Mistake(NAMES[0][0], what, WHY[0], 1, elements[0] if len(elements) == 1 else None, None, what)
+    element = _only(truth)
+    what = text(_begin(line), f" does not hold for the positions that {element or 'the constraints'} allows.")
+    return Mistake(NAMES[0][0], what, WHY[0], 1, element, None, what)
 
 
-def _begin(line: AnsweredLine) -> tuple[str]:
-    return (f"{line.title[:1].upper()}{line.title[1:]}",)
+def _only(truth: Reference) -> str | None:
+    """The element that all constraints are of; None if there are several."""
+    elements = {m.element.title for m in truth.derivation.multipliers.values()}
+    return elements.pop() if len(elements) == 1 else None
+
+
+def _begin(line: AnsweredLine) -> str:
+    return f"{line.title[:1].upper()}{line.title[1:]}"
 
 
 def _derived(of: sp.Expr, expr: sp.Expr) -> bool:
@@ -153,8 +154,8 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         return None
     title, of = best.row.element.title, NAMES[best.order]
     which = title if best.order == 0 else f"the {of[1]}derivative of {title}"
-    what = text(*_begin(line), f" is not {which}: ", *said)
-    brief = text(*_begin(line), f" is not {which}.")
+    what = text(_begin(line), f" is not {which}: ", *said)
+    brief = text(_begin(line), f" is not {which}.")
     return Mistake(of[0], what, WHY[best.order], 1, title, None, brief), best.order
 
 

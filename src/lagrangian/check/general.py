@@ -13,11 +13,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, slope
+from lagrangian.check.reading.placeholders import ENERGIES, slope
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, compare, zero_everywhere
 from lagrangian.check.stated import dissipation
 from lagrangian.check.verdict import AnsweredLine
+from lagrangian.errors import listed
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 
@@ -29,15 +30,14 @@ def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterat
         if line.kind != "statement" or line.name is not None or not (used := _slopes(truth, line.expr)):
             continue
         expr = cast("sp.Expr", line.expr.xreplace({x: value for x, (_, value) in used.items()}))
-        if any(map(is_placeholder, expr.atoms(AppliedUndef))) or not _known(truth, expr):
+        if not expr.free_symbols | expr.atoms(AppliedUndef) <= truth.names:
             continue
         moving = expr.has(*[c.acceleration for c in truth.model.coordinates])
         if moving and truth.derivation.multipliers:
             continue
         holds = compare(truth, [expr]).rows[0].kind is not Kind.WRONG if moving else zero_everywhere(truth, expr)
         if not holds:
-            *others, last = sorted({kind for kind, _ in used.values()})
-            named = f"{', '.join(others)} and {last}" if others else last
+            named = listed(sorted({kind for kind, _ in used.values()}))
             yield text(
                 f"'{line.text}' was not judged, since no line states {named}; with what is right for the system, "
                 "it does not hold."
@@ -58,10 +58,3 @@ def _slopes(truth: Reference, expr: sp.Expr) -> dict[Any, tuple[str, sp.Expr]]:
                     orders = (by, time) if form == rate else (by,)
                     found[form] = kind, bounded.diff(energy, *orders)
     return found
-
-
-def _known(truth: Reference, expr: sp.Expr) -> bool:
-    """Whether an expression has names of the system alone."""
-    model = truth.model
-    known = {x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs)} | {time}
-    return expr.free_symbols | expr.atoms(AppliedUndef) <= known

@@ -19,7 +19,6 @@ from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.records import dataclass
@@ -57,11 +56,10 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     model = truth.model
     own: list[Any] = [m.symbol for m in truth.derivation.multipliers.values()]
     accelerations = [c.acceleration for c in model.coordinates]
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
     rows = [line for line in lines if line.kind == "equation"]
     rows = [line for line in rows if line.expr.has(*accelerations) or line.expr.has(*own)]
     used: set[Any] = {x for line in rows for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
-    names = sorted(used - known, key=str)
+    names = sorted(used - truth.names, key=str)
     if not own or len(names) > len(own) or len(names) > MOST or not rows:
         return None
     if any(d.has(*names) for line in rows for d in line.expr.atoms(sp.Derivative)) if names else False:

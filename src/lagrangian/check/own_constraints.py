@@ -72,8 +72,7 @@ def unfolded(truth: Reference, lines: Sequence[AnsweredLine]) -> Unfolded:
     if len(stated) != 1 or pressing_rows(truth.model):
         return Unfolded(tuple(lines))
     model, L = truth.model, stated[0].expr
-    known = {time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))}
-    own = sorted({*L.free_symbols, *L.atoms(AppliedUndef)} - known, key=str)
+    own = sorted({*L.free_symbols, *L.atoms(AppliedUndef)} - truth.names, key=str)
     slopes = [cast("sp.Expr", L.diff(x)) for x in own]
     if not own or any(f.has(sp.Derivative, *own) for f in slopes):
         return Unfolded(tuple(lines))

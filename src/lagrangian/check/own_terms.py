@@ -22,7 +22,7 @@ from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.search import SMALL, simple_number
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import Element, time
+from lagrangian.model import Element
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -224,9 +224,7 @@ def _written(truth: Reference, expr: sp.Expr) -> tuple[list[sp.Expr], int, Array
 
 def foreign_names(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
     """The names that the system does not have, with both signs: alone they are the name of a line, not its term."""
-    model = truth.model
-    own = {time, *(x.symbol for x in (*model.parameters, *model.inputs, *model.coordinates))}
-    own |= {m.symbol for m in truth.derivation.multipliers.values()}
+    own = truth.names | {m.symbol for m in truth.derivation.multipliers.values()}
     found: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in own}
     return {y for x in found for y in (x, -x)}
 

@@ -15,7 +15,7 @@ from lagrangian.check.branches import Branch, natural, sides_of
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.sampling import DIGITS, Array, CompiledExpressions, States
-from lagrangian.model import Model
+from lagrangian.model import Model, time
 
 LONGEST = 4000
 """An expression with more terms when expanded is compared numerically instead of in normal form."""
@@ -46,6 +46,12 @@ class Reference:
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
         self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
         self.rows = tuple(map(self.expand, self._differences()))
+
+    @cached_property
+    def names(self) -> frozenset[sp.Basic]:
+        """What the system has names for: time, its parameters, coordinates and inputs."""
+        model = self.model
+        return frozenset([time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))])
 
     def _differences(self) -> list[sp.Expr]:
         return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]

@@ -75,8 +75,8 @@ def _is_force(places: Sequence[AnswerAt], k: int) -> bool:
 
 def _places(answer: AnswerOnRows, zero: Mapping[Any, float]) -> Iterator[AnswerAt]:
     """The answer at random states of a special case; nothing where the system has no motion there."""
-    for here in answer.states(STATES, given=False):
-        found = answer.changed(here, zero)
+    for state, _ in answer.states(STATES, given=False):
+        found = answer.changed(state, zero)
         if found is not None and all(np.isfinite(x).all() for x in (found.value, found.by_multiplier, found.size)):
             yield found
 

@@ -54,11 +54,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
         other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
         if other is not None:
             every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
-            known = {
-                time,
-                *(x.symbol for x in (*other.model.parameters, *other.model.coordinates, *other.model.inputs)),
-            }
-            unknown = every - known - own
+            unknown = every - other.names - own
             return InStatedCoordinates(other, tuple(_moved(lines, change, table, unknown)), change)
     return None
 

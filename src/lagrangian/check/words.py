@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.errors import listed
 from lagrangian.model import Model
 from lagrangian.page.formula import Item, Left, Table, Text, text
 from lagrangian.page.report import Part, Report
@@ -156,20 +157,16 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
     names = {element for element, _ in differing}
     fine = [e for e in finding.elements if e not in names]
     if fine and differing:
-        yield text(f"Right in {finding.line.title}: what comes from {_listed(fine)}.")
+        yield text(f"Right in {finding.line.title}: what comes from {listed(fine)}.")
     if differing:
         places = [f"{element}, step {step} ({step_title(step)})" for element, step in differing]
         yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
 
 
-def _listed(names: list[str]) -> str:
-    return ", ".join(names[:-1]) + (" and " if len(names) > 1 else "") + names[-1]
-
-
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
-    concerns = f"; it concerns {_listed(elements)}" if elements else ""
+    concerns = f"; it concerns {listed(elements)}" if elements else ""
     return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
 
 

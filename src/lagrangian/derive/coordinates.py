@@ -15,6 +15,7 @@ from lagrangian.derive.circuits import carried, kirchhoff, what_is_known, what_m
 from lagrangian.derive.context import Context, xi
 from lagrangian.derive.derived import Step
 from lagrangian.derive.wiggle import depends
+from lagrangian.errors import listed
 from lagrangian.model import Coordinate, Element, Frame, Model, Point
 from lagrangian.page.formula import Check, Formula, Item, Left, Table, Text, formula, text
 from lagrangian.records import dataclass
@@ -128,7 +129,7 @@ def _listed(elements: Sequence[Element]) -> str:
     titles = [e.title for e in elements]
     if len(titles) > 6:
         return f"{titles[0]}, …, {titles[-1]}"
-    return titles[0] if len(titles) == 1 else ", ".join(titles[:-1]) + " and " + titles[-1]
+    return listed(titles)
 
 
 # -- absolute or relative, from the geometry ------------------------------------------------------------------------

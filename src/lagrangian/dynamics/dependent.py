@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lagrangian.dynamics.ordering import Order, cheapest_solution, found_solutions, solution_in
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
-from lagrangian.errors import ModelError, RunError
+from lagrangian.errors import ModelError, RunError, listed
 from lagrangian.graph import Graph, Output, Program, evaluate, reached
 
 Array = NDArray[np.float64]
@@ -42,10 +42,8 @@ SHARE = 1e-9
 
 def quoted(names: Sequence[str]) -> str:
     """The names in a sentence: 'a', 'b' and 'c'; of many, the first ones."""
-    listed = [f"'{name}'" for name in names]
-    if len(listed) > SHOWN:
-        listed = [*listed[:SHOWN], f"{len(listed) - SHOWN} more"]
-    return " and ".join(x for x in (", ".join(listed[:-1]), *listed[-1:]) if x)
+    shown = [f"'{name}'" for name in names[:SHOWN]]
+    return listed([*shown, f"{len(names) - SHOWN} more"] if len(names) > SHOWN else shown)
 
 
 def without_dependent(

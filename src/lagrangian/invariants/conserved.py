@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from lagrangian import bounded, dynamics, integrate
 from lagrangian import codegen as machine
 from lagrangian.assembly.assemble import consistent
-from lagrangian.errors import ModelError, RunError
-from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities, condition, listed
+from lagrangian.errors import ModelError, RunError, listed
+from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities, condition
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.invariants.symmetries import Symmetry, symmetries
 from lagrangian.linear.jacobians import rates, values

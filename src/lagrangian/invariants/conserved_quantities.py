@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian.errors import listed
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Item, Name, Text, formula, text
 from lagrangian.page.plain import plain
@@ -81,11 +82,6 @@ def condition(zero: Sequence[str], constant: Sequence[str]) -> str:
     pairs = ((zero, "0"), (constant, "constant"))
     parts = [f"{listed(names)} {'is' if len(names) == 1 else 'are'} {what}" for names, what in pairs if names]
     return "while " + " and ".join(parts) if parts else ""
-
-
-def listed(names: Sequence[str]) -> str:
-    """``a``, ``a and b``, ``a, b and c``."""
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
 
 
 def conserved_report(found: ConservedQuantities) -> Report[Model]:

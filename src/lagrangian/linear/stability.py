@@ -14,6 +14,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.errors import listed
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays
 from lagrangian.linear.modes import SYMMETRIC, Spectrum
@@ -82,7 +83,7 @@ def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stabi
     else:
         shape = np.abs(found.vectors[: len(coordinates), k])
         moved = [name for name, x in zip(coordinates, shape, strict=True) if x > 1e-9 * shape.max()]
-        where = f"there is a pole at 0: nothing brings {_listed(moved)} back"
+        where = f"there is a pole at 0: nothing brings {listed(moved)} back"
         others = sides[np.abs(found.poles) > 0]
         if len(others) and (others < 0).all():
             where += ", and everything else decays"
@@ -91,10 +92,6 @@ def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stabi
 
 def _growth(pole: complex) -> str:
     return f"it doubles every {np.log(2) / pole.real:.3g} s"
-
-
-def _listed(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
 
 
 def has_minimum(M: Array, K: Array, noise: float) -> bool:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian.errors import listed
 from lagrangian.look.board import Board
 from lagrangian.look.circuit_loops import moved_by
-from lagrangian.look.phrases import cut, listed, said, short
+from lagrangian.look.phrases import cut, said, short
 from lagrangian.model import MutualInductance
 from lagrangian.page.plain import plain
 

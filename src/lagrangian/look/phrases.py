@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 
 from lagrangian.model import Element
 
@@ -31,12 +30,6 @@ def said(element: Element) -> str:
     if name.startswith(kind):
         return name if name != kind else f"the {kind}"
     return f"{kind} {name}" if name else f"a {kind}"
-
-
-def listed(words: Iterable[str]) -> str:
-    """One or several: ``a``, ``a and b``, ``a, b and c``."""
-    found = list(words)
-    return found[0] if len(found) == 1 else f"{', '.join(found[:-1])} and {found[-1]}"
 
 
 def cut(words: list[str], rest: str) -> list[str]:

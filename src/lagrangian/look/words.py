@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from lagrangian.errors import listed
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.circuit_words import circuits
@@ -18,7 +19,7 @@ from lagrangian.look.couplers import couplers
 from lagrangian.look.gears import ArmGear
 from lagrangian.look.hoists import Hoist
 from lagrangian.look.holds import Hold, HoldKind
-from lagrangian.look.phrases import capital, cut, listed, said, short
+from lagrangian.look.phrases import capital, cut, said, short
 from lagrangian.look.round_bodies import unwinds
 from lagrangian.look.space_supports import hooped
 from lagrangian.look.strings import PulleyString
@@ -335,12 +336,13 @@ class _Sentences:
                 continue
             between: Any = getattr(element, "between", None)
             if isinstance(element, Rope):
-                yield f"{said(element)} through {listed(dict.fromkeys(self.of_point(p) for p in element.through))}"
+                through = list(dict.fromkeys(self.of_point(p) for p in element.through))
+                yield f"{said(element)} through {listed(through)}"
             elif isinstance(element, Rolling):
                 continue  # said of its body
             elif between:
                 ends = [self._beside(p, i, between) for i, p in enumerate(between)]
-                yield f"{said(element)} joins {listed(dict.fromkeys(ends))}"
+                yield f"{said(element)} joins {listed(list(dict.fromkeys(ends)))}"
             else:
                 yield said(element)
 

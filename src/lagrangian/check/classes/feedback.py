@@ -8,6 +8,7 @@ from lagrangian.check.classes.marks import PartMark
 from lagrangian.check.verb import CheckedAnswer
 from lagrangian.check.verdict import Status
 from lagrangian.check.words import step_title
+from lagrangian.errors import listed
 from lagrangian.model import Model
 from lagrangian.page.formula import Table, Text, text
 from lagrangian.page.report import Part, Report
@@ -46,7 +47,7 @@ def _demands(verdict: CheckedAnswer, lacks: Sequence[str], *, moved: bool) -> It
         yield "Right, but in other coordinates than those asked for."
     if lacks:
         begin = "Right as far as it goes, but this is missing" if verdict.right else "This is missing"
-        yield f"{begin}: {_and(lacks)}."
+        yield f"{begin}: {listed(lacks)}."
 
 
 def _points(earned: Sequence[PartMark], hint: int) -> Text | Table:
@@ -68,9 +69,9 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
     if verdict.hint >= 1 and verdict.status is Status.WRONG:
         own = [f.line.title for f in wrong if not f.follows]
         after = [f.line.title for f in wrong if f.follows]
-        yield f"Not right: {_and(own or after)}."
+        yield f"Not right: {listed(own or after)}."
         if own and after:
-            yield f"{_and(after)} {'follows' if len(after) == 1 else 'follow'} from that."
+            yield f"{listed(after)} {'follows' if len(after) == 1 else 'follow'} from that."
     if verdict.hint >= 2:
         for m in verdict.mistakes:
             place = f"step {m.step}, {step_title(m.step)}" + (f", {m.element}" if m.element else "")
@@ -79,8 +80,8 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
             else:
                 yield f"{m.brief} ({place})" if m.brief is not None else f"Look at {place}."
     if earned and verdict.hint >= 1:
-        listed = ", ".join(f"{m.title} {number(m.points)}/{number(m.of)}" for m in earned)
-        yield f"Points: {listed}."
+        said = ", ".join(f"{m.title} {number(m.points)}/{number(m.of)}" for m in earned)
+        yield f"Points: {said}."
 
 
 def _headline(verdict: CheckedAnswer) -> str:
@@ -91,7 +92,3 @@ def _headline(verdict: CheckedAnswer) -> str:
             return "Right as far as it goes, but something is missing."
         case _:
             return f"{verdict.status.value[:1].upper()}{verdict.status.value[1:]}."
-
-
-def _and(items: Sequence[str]) -> str:
-    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"

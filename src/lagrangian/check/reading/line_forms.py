@@ -15,7 +15,7 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import inside, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
-from lagrangian.errors import ParseError
+from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import undotted
 from lagrangian.records import dataclass
@@ -39,8 +39,7 @@ def together(errors: Sequence[ParseError]) -> ParseError:
 
 def listed_names(names: Sequence[str]) -> str:
     """Several names as the subject of a sentence, with its verb: a, b and c are."""
-    whole = " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
-    return f"{whole} {'are' if len(names) > 1 else 'is'}"
+    return f"{listed(names)} {'are' if len(names) > 1 else 'is'}"
 
 
 def says_constant(statement: Statement, names: Names) -> bool:

@@ -75,6 +75,7 @@ class Names:
         self.differentiated: tuple[str, ...] = ()
         """The names by which the answer differentiates energies."""
         self.moving_symbols: set[sp.Expr] = {c.symbol for c in model.coordinates}
+        """The coordinates of the system."""
         self.dependents: frozenset[str] = frozenset()
         """The quantities that the answer states with what they depend on: I(r)."""
         self._moving: set[str] = set()
@@ -219,7 +220,7 @@ class Names:
             if not isinstance(value, sp.Expr) or not value.has(AppliedUndef):
                 return None
             meanings[base] = value
-        return own_coordinates(meanings, kept & self.moving_symbols)
+        return own_coordinates(tuple(meanings.items()), frozenset(kept & self.moving_symbols))
 
     def is_unknown(self, symbol: sp.Basic) -> bool:
         """Whether a symbol, or the symbol of which it is the rate, is unknown to the model."""

@@ -11,7 +11,8 @@ and the same step of η̇ moves ξ̇_a by m_a. As ξ̇ = J⁻¹ (ẇ − Σ_left
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -66,11 +67,14 @@ class OwnCoordinates:
         return sp.Add(found, *[slope(x) * m for x, _, m in steps], *[slope(v) * h for v, h in rests if h != 0])
 
 
-def own_coordinates(meanings: Mapping[str, sp.Expr], kept: Set[sp.Expr]) -> OwnCoordinates | None:
-    """The coordinates of an answer that differentiates by these and by those of the system that are ``kept``.
+@lru_cache(maxsize=16)
+def own_coordinates(stated: tuple[tuple[str, sp.Expr], ...], kept: frozenset[sp.Expr]) -> OwnCoordinates | None:
+    """The coordinates of an answer that differentiates by these, ``stated`` by name and meaning, and by those of the
+    system that are ``kept``.
 
     None unless it is clear which coordinate of the system each of its own replaces.
     """
+    meanings = dict(stated)
     left = {name: {*f.atoms(AppliedUndef)} - kept for name, f in meanings.items()}
     if not 0 < len(meanings) <= MOST or any(f.has(sp.Derivative) for f in meanings.values()):
         return None
@@ -86,4 +90,4 @@ def own_coordinates(meanings: Mapping[str, sp.Expr], kept: Set[sp.Expr]) -> OwnC
     whole = bounded.expand(cast("sp.Expr", J.det()))
     if bounded.is_zero(whole):
         return None
-    return OwnCoordinates(dict(meanings), xs, sp.ImmutableMatrix(J.adjugate() / whole))
+    return OwnCoordinates(meanings, xs, sp.ImmutableMatrix(J.adjugate() / whole))

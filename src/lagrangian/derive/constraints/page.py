@@ -16,7 +16,7 @@ from lagrangian.codes import Code
 from lagrangian.derive.constraints.integrals import Integral
 from lagrangian.derive.constraints.proposal import Proposal, proposals
 from lagrangian.derive.constraints.verdict import Holonomy, judge
-from lagrangian.errors import ModelError, Notice
+from lagrangian.errors import ModelError, Notice, listed
 from lagrangian.model import Model, time
 from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import Heading, Item, Left, Name, Table, Text, formula, text
@@ -113,8 +113,7 @@ class Constraints(Written):
 
 
 def _names(names: Iterable[str]) -> str:
-    listed = [f"'{name}'" for name in names]
-    return listed[0] if len(listed) == 1 else ", ".join(listed[:-1]) + " and " + listed[-1]
+    return listed([f"'{name}'" for name in names])
 
 
 def _repeated(names: tuple[str, ...]) -> str:
