@@ -27,7 +27,7 @@ from lagrangian.simulate.settings import RunSettings
 from lagrangian.simulate.simulation import simulate
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.verify.played import Leaf, frames_of, shapes_of, tikz_shapes
-from lagrangian.verify.states import State, evaluated, relative
+from lagrangian.verify.states import State, evaluated, named_values, relative
 
 Array = NDArray[np.float64]
 
@@ -191,15 +191,9 @@ def _film(model: Model, drawn: Picture, state: State) -> Check:
 
 
 def _run(model: Model, state: State, times: Array) -> Trajectory:
-    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
-    return simulate(
-        model,
-        RunSettings(times=times, start=state["t"][0]),
-        initial=dict(zip(names, (*state["q"], *state["v"]), strict=True)),
-        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
-        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
-        by_name={},
-    )
+    at = named_values(model, state)
+    settings = RunSettings(times=times, start=state["t"][0])
+    return simulate(model, settings, initial=at.initial, params=at.params, inputs=at.inputs, by_name={})
 
 
 def _anchors_of(model: Model, drawn: Picture, run: Trajectory, k: int) -> Array:

@@ -23,7 +23,7 @@ from lagrangian.simulate.settings import RunSettings
 from lagrangian.simulate.simulation import simulate
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.verify.slopes import too_long
-from lagrangian.verify.states import State, relative
+from lagrangian.verify.states import State, named_values, relative
 from lagrangian.write.tables import needed
 
 Array: TypeAlias = NDArray[np.float64]
@@ -71,17 +71,11 @@ def recorded_runs(model: Model, functions: RunFunctions, state: State) -> tuple[
 
 
 def _run(model: Model, state: State) -> Trajectory:
-    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
+    at = named_values(model, state)
     begin = state["t"][0]
     times = np.linspace(begin, begin + DURATION, SAMPLES)
-    return simulate(
-        model,
-        RunSettings(times=times, start=begin, method="dop853"),
-        initial=dict(zip(names, (*state["q"], *state["v"]), strict=True)),
-        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
-        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
-        by_name={},
-    )
+    settings = RunSettings(times=times, start=begin, method="dop853")
+    return simulate(model, settings, initial=at.initial, params=at.params, inputs=at.inputs, by_name={})
 
 
 def _as_scipy(run: Trajectory, functions: RunFunctions, state: State, what: Any) -> Check:

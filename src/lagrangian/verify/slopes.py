@@ -17,7 +17,7 @@ from lagrangian.linear.linearize import linearize
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.verify.poles import poles
-from lagrangian.verify.states import State, relative
+from lagrangian.verify.states import State, named_values, relative
 
 Array: TypeAlias = NDArray[np.float64]
 Moved: TypeAlias = Callable[[dict[str, list[float]]], dict[str, list[float]] | None]
@@ -106,15 +106,8 @@ def _size(quotients: Array) -> float:
 
 def linearized(model: Model, state: State) -> Any:
     """The linearization about a state, whether it is an equilibrium or not."""
-    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
-    return linearize(
-        model,
-        dict(zip(names, (*state["q"], *state["v"]), strict=True)),
-        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
-        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
-        time=state["t"][0],
-        operating_point=True,
-    )
+    at = named_values(model, state)
+    return linearize(model, at.initial, inputs=at.inputs, params=at.params, time=state["t"][0], operating_point=True)
 
 
 def _off_along(model: Model, state: State, states: Sequence[str], whole: Array, quotients: Array) -> float | str:
@@ -122,13 +115,9 @@ def _off_along(model: Model, state: State, states: Sequence[str], whole: Array, 
 
     ``whole`` are those of all coordinates and rates, ``quotients`` those of ``states``.
     """
+    at = named_values(model, state)
     try:
-        along = linearize_along(
-            model,
-            (state["t"], [[*state["q"], *state["v"]]]),
-            inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
-            params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
-        )
+        along = linearize_along(model, (state["t"], [[*state["q"], *state["v"]]]), inputs=at.inputs, params=at.params)
     except Error as error:  # such as friction that sticks
         return error.what
     if along.basis is not None and along.states != states:

@@ -13,6 +13,7 @@ from lagrangian.derive.sample import without_value
 from lagrangian.errors import ModelError
 from lagrangian.graph import Program, evaluate
 from lagrangian.model import Model, time
+from lagrangian.records import dataclass
 
 State: TypeAlias = Mapping[str, list[float]]
 """Values of the groups q, v, a, u, p and t."""
@@ -100,6 +101,25 @@ def random_states(model: Model, forward: Program, count: int, seed: int) -> Iter
                 fix="check square roots, logarithms and divisions for arguments that are never allowed",
                 code="E503",
             )
+
+
+@dataclass(frozen=True, eq=False)
+class NamedValues:
+    """The values of a state by name: of coordinates and velocities, of parameters, and of inputs."""
+
+    initial: dict[str, float]
+    params: dict[str, float]
+    inputs: dict[str, float]
+
+
+def named_values(model: Model, state: State) -> NamedValues:
+    """A state as verbs that start a run or linearize take it."""
+    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
+    return NamedValues(
+        dict(zip(names, (*state["q"], *state["v"]), strict=True)),
+        {p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
+        {u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
+    )
 
 
 def state_groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:

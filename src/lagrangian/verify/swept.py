@@ -17,7 +17,7 @@ from lagrangian.simulate.per_run import Recording
 from lagrangian.simulate.settings import Execution, RunSettings
 from lagrangian.simulate.simulation import simulate
 from lagrangian.simulate.sweeping import sweep
-from lagrangian.verify.states import State, relative
+from lagrangian.verify.states import State, named_values, relative
 from lagrangian.write.tables import needed
 
 DURATION = 0.1
@@ -37,10 +37,8 @@ WHAT = text("the runs in the store of a sweep, read back by zarr, equal single r
 
 def swept_runs(model: Model, state: State) -> Check:
     """Return the check of a sweep of 2 × 2 runs, of a parameter and of a rate; ``holds`` is None where none is made."""
-    p = dict(zip((p.name for p in model.parameters), state["p"], strict=True))
-    u = dict(zip((u.name for u in model.inputs), state["u"], strict=True))
-    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
-    x = dict(zip(names, (*state["q"], *state["v"]), strict=True))
+    at = named_values(model, state)
+    p, u, x = at.params, at.inputs, at.initial
     grid: dict[str, list[float]] = {}
     if first := next((name for name, value in p.items() if value), None):
         grid[first] = [p[first] * (1 - AWAY), p[first] * (1 + AWAY)]
@@ -57,7 +55,9 @@ def swept_runs(model: Model, state: State) -> Check:
             told: Mapping[str, Any] = {"initial": start, "params": fixed, "inputs": u, "by_name": {}}
             sweep(model, grid, settings, kept, Execution(store=path, threads=1), draws=None, seed=0, **told)
             stored = {name: np.array(array) for name, array in needed("zarr").open_group(path, mode="r").arrays()}
-        worst, count = _compared(model, stored, settings, grid, {"initial": start, "params": fixed, "inputs": u}, names)
+        worst, count = _compared(
+            model, stored, settings, grid, {"initial": start, "params": fixed, "inputs": u}, tuple(x)
+        )
     except MissingExtra:
         return Check(WHAT, None, "not checked: the package zarr is not installed")
     except Error as error:
