@@ -139,6 +139,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     spelling = replace(spelling, lines=lines, notes=(*spelling.notes, *told))
     judged = judged_lines(truth, spelling.lines, compared=explain)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
+    verdict = replace(verdict, motion=judged.motion)
     if judged.status.right or judged.status is Status.INCOMPLETE:
         return replace(verdict, combination=judged.combination)
     return (
@@ -280,6 +281,7 @@ def _in_these(
         notes=(*notes, note),
         hint=verdict.hint,
         sure=named.sure,
+        motion=judged.motion,
     )
 
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.answer_on_rows import AnswerAt, AnswerOnRows
+from lagrangian.check.determined import accelerations_determined, ends_right
 from lagrangian.check.own_constraints import with_rates
 from lagrangian.check.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.reference import Reference
@@ -187,6 +188,7 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
     found: dict[int, Finding] = {}
     notes: list[Text] = []
     status: Status | None = None
+    motion = False
     for s, line in results.items():
         right = _are_forces(truth, [line], [s], given=given)
         found[id(line)] = Finding(line, Status.RIGHT if right else Status.WRONG, FORCE if right else None)
@@ -211,9 +213,19 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
             found |= {id(line): Finding(line, Status.WRONG) for line in held}
         elif places and len(true) == len(equations):
             notes += _named(truth, unknown, places)
-            status = _complete(truth, places, notes) or _worst([f.status for f in found.values()])
+            motion = (count := accelerations_determined(places)) >= len(truth.names)
+            if not motion:
+                whose = "With the constraints, your" if truth.model.constraints else "Your"
+                notes.append(
+                    text(
+                        f"{whose} equations determine {count} of {len(truth.names)} accelerations; "
+                        "more equations are needed."
+                    )
+                )
+            status = _worst([f.status for f in found.values()]) if motion else Status.INCOMPLETE
         elif places:
             status = Status.WRONG
+            motion = ends_right(places, [j in true for j in range(len(equations))], len(truth.names))
             if unknown:
                 notes.append(
                     text("The sign and the scale of a multiplier are yours to choose, but the same everywhere.")
@@ -223,9 +235,9 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
         if line.kind not in ("definition", "statement"):
             findings.append(found[id(line)] if line.kind == "equation" else truth.judge(lines, k))
     others = [f.status for f in findings if f.line.kind != "equation" or f.line in results.values()]
-    return Verdict(
-        _worst([*others, *([status] if status is not None else [])]), tuple(findings), notes=tuple(notes), hint=hint
-    )
+    worst = _worst([*others, *([status] if status is not None else [])])
+    motion = motion and worst is Status.WRONG
+    return Verdict(worst, tuple(findings), notes=tuple(notes), hint=hint, motion=motion)
 
 
 def _worst(statuses: Sequence[Status]) -> Status:
@@ -348,27 +360,6 @@ def _like(slopes: Sequence[Array], rows: Sequence[Array]) -> tuple[int | None, b
         else:
             return i, max(abs(abs(f) - 1.0) for f in factors) > SMALL
     return None, False
-
-
-def _complete(truth: Compared, places: Sequence[AnswerAt], notes: list[Text]) -> Status | None:
-    """Incomplete unless the answer and the constraints determine the accelerations and the answer's multipliers."""
-    ranks: list[int] = []
-    for p in places:
-        m = p.by_multiplier.shape[1]
-        whole = np.vstack(
-            [np.hstack([p.by_acceleration, p.by_multiplier]), np.hstack([p.rows, np.zeros((len(p.rows), m))])]
-        )
-        size = np.abs(whole).max(axis=1, keepdims=True)
-        ranks.append(int(np.linalg.matrix_rank(whole / np.where(size > 0, size, 1.0), tol=1e-8)) - m)
-    if max(ranks) >= len(truth.names):
-        return None
-    whose = "With the constraints, your" if truth.model.constraints else "Your"
-    notes.append(
-        text(
-            f"{whose} equations determine {max(ranks)} of {len(truth.names)} accelerations; more equations are needed."
-        )
-    )
-    return Status.INCOMPLETE
 
 
 def _named(truth: Compared, unknown: Sequence[sp.Basic], places: Sequence[AnswerAt]) -> Iterator[Text]:

@@ -18,6 +18,8 @@ from lagrangian.records import dataclass
 
 MAX_DIFFERENCES = 12
 """The largest number of differences that are reported; an answer with more of them is a different answer."""
+NEAR = 0.5
+"""The fraction of terms of an equation that must agree with one that another line already states."""
 LONGEST_FACTOR = 40
 """Terms times a factor with more operations, such as the inverse of a long determinant, can no longer be compared."""
 
@@ -57,6 +59,12 @@ def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Li
             used.add(i)
             out[j] = likes[j][i]
     return out
+
+
+def nearest(likes: Sequence[Likeness]) -> Likeness | None:
+    """The right equation that one more line than there are equations resembles most; None if none is near."""
+    best = max(likes, key=lambda x: x.score, default=None)
+    return best if best is not None and best.score >= NEAR else None
 
 
 def differences(

@@ -10,7 +10,7 @@ import sympy as sp
 from lagrangian.check.beside import beside
 from lagrangian.check.consequences import follow_from_above
 from lagrangian.check.coordinates import ProposedChange
-from lagrangian.check.difference import Likeness, differences, likeness, paired
+from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired
 from lagrangian.check.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.numerators import multiplied
 from lagrangian.check.reference import Reference
@@ -25,12 +25,13 @@ from lagrangian.records import dataclass
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """The findings for all lines, and the overall verdict."""
+    """The findings for all lines, and the overall verdict; ``motion``: the last equations of motion are right."""
 
     status: Status
     findings: tuple[Finding, ...]
     comparison: RowComparison
     notes: tuple[Text, ...] = ()
+    motion: bool = False
 
     @property
     def combination(self) -> tuple[tuple[sp.Expr, ...], ...] | None:
@@ -55,14 +56,25 @@ def judged_lines(
         comparison = compare(truth, [line.expr for line in equations])
     above = given(truth, moved)
     told = _equations(truth, equations, comparison, above) if compared else findings_of(truth, equations, comparison)
-    found = dict(zip(map(id, equations), told, strict=True))
+    of_equation = dict(zip(map(id, equations), told, strict=True))
     findings: list[Finding] = []
     for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
         if line.kind in ("definition", "statement"):
             continue
-        finding = found[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
+        finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
         findings.append(replace(finding, line=own))
-    return Judged(*_overall(truth, comparison, findings), comparison, (*_missing(truth, comparison), *aside))
+    status, found = _overall(truth, comparison, findings)
+    motion = status is Status.WRONG and _ends_right(truth, [line.expr for line in equations], comparison)
+    return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
+
+
+def _ends_right(truth: Reference, exprs: Sequence[sp.Expr], comparison: RowComparison) -> bool:
+    """Whether the equations behind the last wrong one that accelerates are as many as there are coordinates."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    wrong = [j for j, row in enumerate(comparison.rows) if row.kind is Kind.WRONG and exprs[j].has(*accelerations)]
+    rows = exprs[wrong[-1] + 1 :] if wrong else exprs
+    rank = comparison.rank if rows is exprs or len(rows) < truth.n else compare(truth, rows).rank
+    return len(rows) >= truth.n and rank >= truth.n
 
 
 def _overall(
@@ -129,7 +141,8 @@ def _equations(
     pairs: dict[int, Likeness | None] = {}
     for later in (False, True):  # the same equations once more do not take the places of the first ones
         some = [j for j in wrong if follow[j] is later]
-        pairs |= zip(some, paired([likeness(forms[j], truth.forms) for j in some], taken), strict=True)
+        likes = [likeness(forms[j], truth.forms) for j in some]
+        pairs |= zip(some, [x or nearest(y) for x, y in zip(paired(likes, taken), likes, strict=True)], strict=True)
     found = findings_of(truth, lines, comparison)
     for j in wrong:
         line, like, form = lines[j], pairs[j], forms[j]

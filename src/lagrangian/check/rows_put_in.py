@@ -23,6 +23,7 @@ from lagrangian.check.constrained import (
     in_coordinates,
     unknown_names,
 )
+from lagrangian.check.determined import of_lines
 from lagrangian.check.put_in import PutIn, ways_to_put_in
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
@@ -155,19 +156,8 @@ def _motions(
     shifts = [x for x in moved if x is not None]
     if not shifts or len(shifts) < len(places) or max(np.abs(x).max() for x in shifts) <= MOVED:
         return None
-    ours = [_only(place, slice(0, count), [every.index(x) for x in unknown]) for place in places]
+    ours = [of_lines(place, slice(0, count), [every.index(x) for x in unknown]) for place in places]
     return [replace(p, value=p.value + p.by_acceleration @ x) for p, x in zip(ours, shifts, strict=True)]
-
-
-def _only(place: AnswerAt, rows: slice, columns: Sequence[int]) -> AnswerAt:
-    """Some lines at a state, with some of the multipliers."""
-    return replace(
-        place,
-        value=place.value[rows],
-        by_acceleration=place.by_acceleration[rows],
-        by_multiplier=place.by_multiplier[rows][:, list(columns)],
-        size=place.size[rows],
-    )
 
 
 def _moved(place: AnswerAt, rows: slice, columns: Sequence[int]) -> np.ndarray | None:

@@ -155,6 +155,7 @@ class Verdict:
 
     ``status`` is that of the whole answer; ``findings`` are those of the lines, in order; ``mistakes`` are the
     misconceptions that explain what is wrong, the most likely first; ``sure``: none of them is far-fetched.
+    ``motion``: the last equations of motion that the answer states are right and complete, whatever else is not.
     ``combination[j]`` contains the factors of all right equations in equation j of the answer; ``change`` expresses the
     answer's coordinates in those of the system.
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
@@ -169,6 +170,7 @@ class Verdict:
     notes: tuple[Text, ...] = ()
     hint: int = 3
     sure: bool = True
+    motion: bool = False
 
     @property
     def right(self) -> bool:
@@ -191,6 +193,7 @@ class Verdict:
         data: dict[str, Any] = {"right": self.right, "verdict": self.status.value, "hint": self.hint}
         if self.hint >= 1:
             data["lines"] = [_at(f.to_dict(), self.hint) for f in self.findings]
+            data["motion"] = self.motion or self.right
             data["notes"] = [str(n) for n in self.notes]
             data["change"] = {plain(k): plain(v) for k, v in self.change.items()}
             data["combination"] = (

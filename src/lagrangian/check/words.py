@@ -28,6 +28,9 @@ def step_title(step: int) -> str:
     return title if title.startswith("Lagrang") else title[:1].lower() + title[1:]
 
 
+MOST_SAID_FIRST = 2
+"""The most terms that are named where it is said that only this line is wrong."""
+
 UNSEEN = frozenset({"not_squared", "lost", "lost_in_a_sum", "wrong_number"})
 """Kinds that say nothing new of an equation as second choices: a term is missing there, or has a wrong number."""
 
@@ -49,7 +52,7 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
     if verdict.hint == 0:
         return
     first = verdict.first_wrong
-    if verdict.status is Status.WRONG and first is not None:
+    if verdict.status is Status.WRONG and first is not None and not verdict.motion:
         yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
     if any(f.follows for f in verdict.findings):
         yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
@@ -77,7 +80,24 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
         case Status.WRONG:
             if wrong == lines or verdict.hint == 0:
                 return ("Not right yet.",)
+            if verdict.motion:
+                return _beside_right_equations(verdict)
             return (f"Not right yet: {lines - wrong} of {lines} lines are right.",)
+
+
+def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
+    """What is said first if only lines beside the equations of motion are wrong: which, and how the first differs."""
+    wrong = [f for f in verdict.findings if f.status is Status.WRONG]
+    titles = [f.line.title for f in wrong if not f.follows] or [f.line.title for f in wrong]
+    agrees = "does not agree" if len(titles) == 1 else "do not agree"
+    names = listed(list(dict.fromkeys(titles)))
+    said: list[str | Left] = [f"Your equations of motion are right. {names[:1].upper()}{names[1:]} {agrees} with them"]
+    differing = wrong[0].differences if len(titles) == 1 and verdict.hint >= 3 else ()
+    if not 0 < len(differing) <= MOST_SAID_FIRST:
+        return (*said, ".")
+    for k, d in enumerate(differing):
+        said += [" and " if k else ": ", *_differs(d)]
+    return (*said, ".")
 
 
 def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
@@ -199,18 +219,20 @@ def _terms(verdict: Verdict) -> Iterator[Item]:
 
 
 def _said(finding: Finding, d: TermDifference) -> tuple[str | Left, ...]:
-    where = f"{finding.line.title}: "
-    words: tuple[str | Left, ...]
+    return (f"{finding.line.title}: ", *_differs(d), *_source(d))
+
+
+def _differs(d: TermDifference) -> tuple[str | Left, ...]:
+    """How a term differs."""
     match d.kind:
         case "missing":
-            words = (where, "the term ", d.term, " is missing")
+            return ("the term ", d.term, " is missing")
         case "extra":
-            words = (where, "the term ", d.term, " does not belong there")
+            return ("the term ", d.term, " does not belong there")
         case "sign":
-            words = (where, d.written, " has the wrong sign")
+            return (d.written, " has the wrong sign")
         case _:
-            words = (where, d.written, " should be ", d.term)
-    return (*words, *_source(d))
+            return (d.written, " should be ", d.term)
 
 
 def _source(d: TermDifference) -> tuple[str | Left, ...]:

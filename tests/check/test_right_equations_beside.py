@@ -1,0 +1,62 @@
+"""Right equations of motion beside a line that is not right: this is said first, and which line disagrees."""
+
+from __future__ import annotations
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from built_in import derivation
+from student_answers import CART, POLE
+
+YOKE = "J theta'' = tau - lambda r sin(theta)\nM x'' = -lambda\nx = r cos(theta)"
+
+
+def said(verdict: lg.Verdict) -> str:
+    """The first sentences in one line, as they are printed."""
+    return " ".join(verdict.to_text().split("Line by line")[0].split())
+
+
+@pytest.mark.parametrize(
+    ("above", "first"),
+    [
+        ("V = m g l cos(theta)/2", "Line 1 (V) does not agree with them: ½ m g l cos θ should be m g l cos θ."),
+        ("Xi_x = F + b x'", "Line 1 (Ξ of x) does not agree with them: b ẋ has the wrong sign."),
+        (CART.replace("M + m", "M"), "Line 1 does not agree with them: the term m ẍ is missing."),
+        ("V = m g l\nXi_x = 2 F", "Line 1 (V) and line 2 (Ξ of x) do not agree with them."),
+    ],
+)
+def test_what_is_right_is_said_first(above: str, first: str) -> None:
+    verdict = derivation("cart-pole").check(f"{above}\n{CART}\n{POLE}")
+    assert verdict.status == "wrong" and verdict.motion
+    assert f"Your equations of motion are right. {first}" in said(verdict)
+
+
+@pytest.mark.parametrize("rows", [f"{CART}\n{POLE.replace('- m g', '+ m g')}", CART, f"{CART}\n{POLE}\nx'' = F/M"])
+def test_fewer_equations_or_a_wrong_one_at_the_end_are_not_right(rows: str) -> None:
+    verdict = derivation("cart-pole").check(f"V = m g l\n{rows}")
+    assert not verdict.motion and "equations of motion are right" not in said(verdict)
+
+
+def test_equations_with_a_multiplier_are_right_beside_a_wrong_energy() -> None:
+    s = lg.System("yoke")
+    theta, x = s.coordinates("theta x")
+    J, M, r = s.parameters("J M r")
+    tau = s.inputs("tau")
+    crank = s.frame(theta, name="crank")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=crank, name="crank")
+    s.particle(M, at=s.point("yoke", (x, 0)), name="yoke")
+    s.torque(tau, on=crank)
+    s.constraint(x - r * sp.cos(theta), name="pin")
+    d = s.derive()
+    found = d.check(f"T = J theta'^2/2 + M x'^2\n{YOKE}")
+    assert found.motion and "right. Line 1 (T*) does not agree with them" in said(found)
+    wrong = d.check(f"T = J theta'^2/2 + M x'^2\n{YOKE.replace('= tau -', '= tau +')}")
+    assert not wrong.motion
+
+
+def test_a_hint_of_level_one_names_the_line_alone() -> None:
+    verdict = derivation("cart-pole").check(f"V = m g l\n{CART}\n{POLE}", hint=1)
+    assert "Line 1 (V) does not agree with them." in said(verdict) and verdict.to_dict()["motion"]
+    hidden = derivation("cart-pole").check(f"V = m g l\n{CART}\n{POLE}", hint=0)
+    assert "equations of motion" not in said(hidden) and "motion" not in hidden.to_dict()
