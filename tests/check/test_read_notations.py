@@ -108,7 +108,7 @@ def test_a_vector_of_kinematics_is_left_out_and_said_and_an_equation_is_not() ->
     assert verdict.right
     assert "Line 1" in str(verdict.notes[0]) and "not read" in str(verdict.notes[0])
     with pytest.raises(ParseError):
-        derivation("pendulum").check(f"F = (m L θ'') e_t\n{PLAIN}")
+        derivation("pendulum").check(f"{PLAIN}\nF = (m L θ'') e_t")
 
 
 @pytest.mark.parametrize(

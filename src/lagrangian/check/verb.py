@@ -98,6 +98,8 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
         if found.right:
             verdict = found
             break
+    if read and answer.doubt is not None and not verdict.right:
+        raise answer.doubt
     told = _told(verdict, answer) if read else verdict
     return CheckedAnswer(**vars(told), model=derivation.model)
 

@@ -82,6 +82,8 @@ class Answer:
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
     doubt: ParseError | None = field(default=None, repr=False, compare=False)
     """The error of parts that were not read and may say what names of the system mean: no reason to call it wrong."""
+    lacking: bool = field(default=False, repr=False, compare=False)
+    """Whether parts that may be equations were not read."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

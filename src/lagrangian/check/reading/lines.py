@@ -40,6 +40,7 @@ from lagrangian.check.reading.placeholders import (
     is_vector,
 )
 from lagrangian.check.reading.redefined import contradicting
+from lagrangian.check.reading.set_aside import MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
 from lagrangian.errors import ParseError
@@ -52,9 +53,6 @@ MAX_CHAIN = 20
 
 MULTIPLIERS = ("lambda", "lam", "lmbda")
 """How names of multipliers begin."""
-
-MAX_ERRORS = 5
-"""The largest number of errors that are reported at once."""
 
 
 class Lines:
@@ -74,6 +72,9 @@ class Lines:
         self.remarks: list[ParseError] = []
         self.doubts: list[ParseError] = []
         """The errors of lines that matter only beside incomplete equations, and of those that may redefine a name."""
+        self.results: list[ParseError] = []
+        self.lacking: list[ParseError] = []
+        """The errors of rows that may be the result, and of statements that a right answer does without."""
         self.unread: set[str] = set()
         """The names in parts of the answer that were not read."""
 
@@ -88,6 +89,7 @@ class Lines:
         complete = self._complete()
         found = [*errors, *([] if complete else self.remarks)]
         aside: list[ParseError] = []
+        results = list(self.results)
         for i in range(len(statements)):
             try:
                 self._line(i)
@@ -96,19 +98,21 @@ class Lines:
                     continue
                 remark = complete and error.code != "E703" and statements[i].remark()
                 (self.remarks if remark else aside if self._is_general(i, error) else found).append(error)
-            if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
+                results += [error] if may_be_result(statements[i].source.text) else []
+            if found and found[-1].code == "E703":
                 break
         for i, line in contradicting(self.names, [s.source for s in statements]):
             self._made.setdefault(i, []).append(line)
         lines = without_expressions(self._made, statements, self.names)
         accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
         needed = aside if accelerating < len(self.model.coordinates) else []
-        if found or needed:
-            raise together(found or needed)
+        self.lacking = found or needed
+        free = len(self.model.coordinates) - len(self.model.constraints)
+        if self.lacking and not does_without(self.lacking, results, lines, free):
+            raise together(self.lacking[:MOST_TOLD])
         self._forget(lines)
-        for error in self.remarks[:MAX_ERRORS]:
-            at = error.place.line if error.place is not None and error.place.line else 1
-            self.names.notes.setdefault(f"Line {at} has a part that was not read: the equations do without it.")
+        self.doubts += self.lacking[:MOST_TOLD]
+        self.names.notes |= dict.fromkeys(told(self.lacking, self.remarks))
         return lines
 
     def _complete(self) -> bool:

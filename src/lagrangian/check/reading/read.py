@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -12,6 +12,7 @@ from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.choices import LIKELIEST, Choices
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
@@ -24,7 +25,7 @@ from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.line_forms import Statement, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
-from lagrangian.check.reading.lines import MAX_ERRORS, Lines
+from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.listed_values import without_values
 from lagrangian.check.reading.markup import (
     are_bullets,
@@ -49,6 +50,7 @@ from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_bra
 from lagrangian.check.reading.said_values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
 from lagrangian.check.reading.sessions import without_prompts, without_session
+from lagrangian.check.reading.set_aside import MOST_TOLD, may_be_result
 from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.stands_for import (
@@ -65,7 +67,6 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
-from lagrangian.records import dataclass
 
 MAX_ANSWER = 60_000
 """The largest number of characters of an answer."""
@@ -103,23 +104,6 @@ _CHOSEN = re.compile(
 """A coordinate of the answer that words explain: as second coordinate the angle β through which the disc turns."""
 
 
-@dataclass(frozen=True)
-class Choices:
-    """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
-    after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
-    accelerations as the rates of coordinates."""
-
-    flipped: bool = False
-    listed: bool | None = None
-    units: bool = False
-    summed: bool = False
-    rated: bool = False
-
-
-LIKELIEST = Choices()
-"""The reading that is tried first."""
-
-
 def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """Return the content of an answer to ``model``, line by line.
 
@@ -132,15 +116,24 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
     others: list[Choices] = []
+    likeliest: Answer | ParseError
     try:
-        return _with_said_values(LIKELIEST, others, text, model, place)
+        likeliest = _with_said_values(LIKELIEST, others, text, model, place)
     except ParseError as error:
-        for reading in others if error.code != "E703" else ():
-            try:
-                return _with_said_values(reading, [], text, model, place)
-            except ParseError:
-                continue
-        raise
+        likeliest = error
+        others = others if error.code != "E703" else []
+    if isinstance(likeliest, Answer) and not likeliest.lacking:
+        return likeliest
+    for reading in others:
+        try:
+            found = _with_said_values(reading, [], text, model, place)
+        except ParseError:
+            continue
+        if isinstance(likeliest, ParseError) or not found.lacking:
+            return found
+    if isinstance(likeliest, ParseError):
+        raise likeliest
+    return likeliest
 
 
 def _with_said_values(reading: Choices, choices: list[Choices], text: str, model: Model, place: Place | None) -> Answer:
@@ -231,12 +224,22 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
-    notes = (*aside, *words.notes(), *_chosen(reading), *lines.names.notes, *doubtful)
+    notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None
     notation = "latex" if latex else "text"
-    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, said, unread, tuple(again), doubt)
+    return Answer(
+        made,
+        notation,
+        tuple(lines.names.unknown.values()),
+        notes,
+        said,
+        unread,
+        tuple(again),
+        doubt,
+        bool(lines.lacking),
+    )
 
 
 def _without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -291,19 +294,6 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
     return [row for row in plain_rows(text, words) if is_statement(row.text, words)]
 
 
-def _chosen(reading: Choices) -> Iterator[str]:
-    """What to say about a reading that is not the likeliest."""
-    if reading.flipped:
-        yield "Denominators without brackets, as in a/b c, were read in the other way that is possible."
-    if reading.summed:
-        yield "Arguments without brackets, as in cosθ1-θ2, were read as sums: cos(θ1-θ2)."
-    if reading.rated:
-        yield "Names that words call velocities or accelerations were read as the rates of the coordinates."
-    if reading.listed is not None:
-        of = "that of a list" if reading.listed else "a minus"
-        yield f"The sign at the beginning of a line was read as {of}."
-
-
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
     own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
@@ -351,10 +341,11 @@ def _parsed(
                 lines.doubts += [error] if may_redefine(whole, words_of) else []
                 continue
             (errors if stated or error.code == "E703" else words).append(error)
-            if len(errors) >= MAX_ERRORS or error.code == "E703":
+            lines.results += [error] if may_be_result(whole) else []
+            if error.code == "E703":
                 break
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
-    notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MAX_ERRORS]]
+    notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]
     return found, errors if found or errors or lines.remarks else words[:1], notes
 
 

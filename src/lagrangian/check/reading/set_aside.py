@@ -1,0 +1,60 @@
+"""Parts of an answer that cannot be read and that its equations do without: they do not decide alone.
+
+> sol := solve({eq1, eq2}, …):            a command above the solved equations
+m1 = 2 kg, d = 4 Ns/m                     values below the result
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import sympy as sp
+
+from lagrangian.check.reading.answer import AnswerLine
+from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reading.remarks import is_remark
+from lagrangian.errors import ParseError, Place
+
+MOST_TOLD = 5
+"""The largest number of errors that are reported at once."""
+
+_SPELLED = re.compile(r"dot\s?dot|p_?p\b|\w\.\.(?!\.)")
+"""Accelerations in letters and in dots behind names."""
+_MATRIX = re.compile(r"\\begin\{[a-zA-Z]{0,8}(?:matrix|array)|[\[(][^\n=\])]{0,200}[;&]")
+
+
+def may_be_result(text: str) -> bool:
+    """Whether a part that cannot be read may be an equation of motion: accelerations or a matrix stand in it."""
+    found = not is_remark(text) or any(form.search(text) for form in (_SPELLED, _MATRIX))
+    return "=" in text and found
+
+
+def does_without(
+    errors: Sequence[ParseError], results: Sequence[ParseError], lines: Sequence[AnswerLine], free: int
+) -> bool:
+    """Whether an answer may be right without the parts of ``errors``.
+
+    There is an equation for each of ``free`` accelerations, and none of the ``results``, the parts that may be the
+    result, is behind the last of these.
+    """
+    moving = [x.place for x in lines if x.kind in ("equation", "left") and accelerates(sp.sympify(x.residual))]
+    if len(moving) < max(free, 1) or any(e.code == "E703" for e in errors):
+        return False
+    last = max(map(_at, moving))
+    return all(_at(e.place) < last for e in results if any(e is x for x in errors))
+
+
+def told(errors: Sequence[ParseError], remarks: Sequence[ParseError]) -> list[str]:
+    """What to say about parts that were not read: of those that are no remarks, also why."""
+    said = [f"Line {_line(e)} has a part that was not read: the equations do without it." for e in remarks[:MOST_TOLD]]
+    why = (f"Line {_line(e)} could not be read ({e.what}): the equations do without it." for e in errors[:MOST_TOLD])
+    return [*said, *why]
+
+
+def _line(error: ParseError) -> int:
+    return (error.place.line or 1) if error.place is not None else 1
+
+
+def _at(place: Place | None) -> tuple[int, int]:
+    return (0, 0) if place is None else (place.line or 0, place.column or 0)
