@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian.check.reading.words import Words
 from lagrangian.records import dataclass
 
 
@@ -34,3 +35,17 @@ class Choices:
 
 LIKELIEST = Choices()
 """The reading that is tried first."""
+
+
+def less_likely(words: Words, *, rated: bool, listed: bool | None) -> Iterator[Choices]:
+    """The other ways in which an answer may be read, as its ``words`` leave them open."""
+    if words.doubtful:
+        yield Choices(units=True)
+    if words.summed_asked:
+        yield Choices(summed=True)
+    if rated:
+        yield Choices(rated=True)
+    if words.asked:
+        yield Choices(flipped=True)
+    if listed is not None:
+        yield Choices(listed=listed)

@@ -40,7 +40,7 @@ from lagrangian.check.reading.placeholders import (
     is_vector,
 )
 from lagrangian.check.reading.redefined import contradicting
-from lagrangian.check.reading.set_aside import MOST_TOLD, does_without, may_be_result, told
+from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
 from lagrangian.errors import ParseError
@@ -99,7 +99,7 @@ class Lines:
                 remark = complete and error.code != "E703" and statements[i].remark()
                 (self.remarks if remark else aside if self._is_general(i, error) else found).append(error)
                 results += [error] if may_be_result(statements[i].source.text) else []
-            if found and found[-1].code == "E703":
+            if len(found) >= MOST_LACKING or (found and found[-1].code == "E703"):
                 break
         for i, line in contradicting(self.names, [s.source for s in statements]):
             self._made.setdefault(i, []).append(line)

@@ -12,7 +12,7 @@ from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
-from lagrangian.check.reading.choices import LIKELIEST, Choices
+from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
@@ -50,7 +50,7 @@ from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_bra
 from lagrangian.check.reading.said_values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
 from lagrangian.check.reading.sessions import without_prompts, without_session
-from lagrangian.check.reading.set_aside import MOST_TOLD, may_be_result
+from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, may_be_result
 from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.stands_for import (
@@ -200,27 +200,13 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
         outside = _beside(written, words)
         rows = sorted([*rows, *outside], key=lambda row: row.start)
     rows = without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0]))
-    if not rows:
-        raise source.error(
-            "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
-        )
-    if len(rows) > MAX_STATEMENTS:
-        what = f"more than {MAX_STATEMENTS} statements"
-        at = rows[MAX_STATEMENTS].start
-        at = at if written is None else written.origin(at)
-        raise source.error(what, at, fix="give the answer in several parts", code="E703")
+    _check_number(rows, source, written)
     in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
     in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
     statements, errors, aside = _parsed(source, parsers, written, words, lines)
-    less_likely = [
-        (Choices(units=True), words.doubtful),
-        (Choices(summed=True), words.summed_asked),
-        (Choices(rated=True), rated and not latex),
-        (Choices(flipped=True), words.asked),
-        (Choices(listed=not listed), choice),
-    ]
-    others += [x for x, asked in less_likely if asked and reading == LIKELIEST]
+    if reading == LIKELIEST:
+        others += less_likely(words, rated=rated and not latex, listed=not listed if choice else None)
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
@@ -228,18 +214,23 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     doubt = together(lines.doubts) if lines.doubts else None
-    notation = "latex" if latex else "text"
+    unknown = tuple(lines.names.unknown.values())
     return Answer(
-        made,
-        notation,
-        tuple(lines.names.unknown.values()),
-        notes,
-        said,
-        unread,
-        tuple(again),
-        doubt,
-        bool(lines.lacking),
+        made, "latex" if latex else "text", unknown, notes, said, unread, tuple(again), doubt, bool(lines.lacking)
     )
+
+
+def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLatex | None) -> None:
+    """Raise `ParseError` if an answer has no statements, or too many."""
+    if not rows:
+        raise source.error(
+            "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
+        )
+    if len(rows) > MAX_STATEMENTS:
+        at = rows[MAX_STATEMENTS].start
+        at = at if latex is None else latex.origin(at)
+        what = f"more than {MAX_STATEMENTS} statements"
+        raise source.error(what, at, fix="give the answer in several parts", code="E703")
 
 
 def _without_notations(typed: Source, lines: Lines) -> TracedText:
@@ -342,7 +333,7 @@ def _parsed(
                 continue
             (errors if stated or error.code == "E703" else words).append(error)
             lines.results += [error] if may_be_result(whole) else []
-            if error.code == "E703":
+            if len(errors) >= MOST_LACKING or error.code == "E703":
                 break
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]

@@ -19,6 +19,9 @@ from lagrangian.errors import ParseError, Place
 MOST_TOLD = 5
 """The largest number of errors that are reported at once."""
 
+MOST_LACKING = 12
+"""With as many errors, the rest is not read, and the answer does not do without them."""
+
 _SPELLED = re.compile(r"dot\s?dot|p_?p\b|\w\.\.(?!\.)")
 """Accelerations in letters and in dots behind names."""
 _MATRIX = re.compile(r"\\begin\{[a-zA-Z]{0,8}(?:matrix|array)|[\[(][^\n=\])]{0,200}[;&]")
@@ -39,7 +42,7 @@ def does_without(
     result, is behind the last of these.
     """
     moving = [x.place for x in lines if x.kind in ("equation", "left") and accelerates(sp.sympify(x.residual))]
-    if len(moving) < max(free, 1) or any(e.code == "E703" for e in errors):
+    if len(moving) < max(free, 1) or len(errors) >= MOST_LACKING or any(e.code == "E703" for e in errors):
         return False
     last = max(map(_at, moving))
     return all(_at(e.place) < last for e in results if any(e is x for x in errors))
