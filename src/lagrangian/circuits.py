@@ -13,9 +13,11 @@ from lagrangian.model import (
     Transducer,
     VoltageSource,
 )
+from lagrangian.model.decimals import describes
 
 
 @worded
+@describes
 class Circuits(Guided):
     """The methods that add circuit elements, each with the ``charge`` [C] that flows through it.
 

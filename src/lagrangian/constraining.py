@@ -22,12 +22,14 @@ from lagrangian.model import (
     VelocityConstraint,
     Weld,
 )
+from lagrangian.model.decimals import describes
 from lagrangian.model.known_regime import in_regime
 
 Bodies = Frame | RigidBody | Sequence[Frame | RigidBody]
 """One body or two, as rigid bodies or as frames."""
 
 
+@describes
 class Constrained(Guided):
     """The methods that add constraints: M v̇ + h = Ξ + Aᵀ λ.
 

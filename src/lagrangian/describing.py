@@ -35,6 +35,7 @@ from lagrangian.model import (
     as_expr,
     time,
 )
+from lagrangian.model.decimals import describes, noting
 from lagrangian.page.plain import plain
 from lagrangian.placed import PointsAndFrames
 from lagrangian.quantities.quantity import parse_quantity
@@ -47,6 +48,7 @@ MOST_NAMES = 10_000
 
 
 @worded
+@describes
 class Described(PointsAndFrames, Constrained, Circuits):
     """The methods that describe a system: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
 
@@ -286,8 +288,9 @@ class Described(PointsAndFrames, Constrained, Circuits):
             if len(values) != len(listed):
                 raise ModelError(f"Xi has {len(values)} entries for {len(listed)} coordinates", code="E501")
             forces = dict(zip(listed, values, strict=True))
-        T, V, D = as_expr(T, "T"), as_expr(V, "V"), as_expr(D, "D")
-        forces = {q: as_expr(value, f"Xi of {q}") for q, value in forces.items()}
+        with noting(system._builder.decimals):
+            T, V, D = as_expr(T, "T"), as_expr(V, "V"), as_expr(D, "D")
+            forces = {q: as_expr(value, f"Xi of {q}") for q, value in forces.items()}
         everything = sp.Tuple(T, V, D, *forces.values())
         for symbol in sorted(everything.free_symbols - {time}, key=str):
             system.parameter(str(symbol))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from lagrangian.calls import Guided, worded
 from lagrangian.model import Builder, Frame, Point
+from lagrangian.model.decimals import describes
 
 
 @worded
+@describes
 class PointsAndFrames(Guided):
     """The methods that add points and frames; points are relative to points, frames to frames."""
 

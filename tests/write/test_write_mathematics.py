@@ -318,8 +318,17 @@ def test_a_fraction_is_as_wide_as_its_wider_side_where_it_is_set():
     assert len(break_lines([piece], 50, measure)) == 2
 
 
-def test_dots_stand_on_the_first_letter_of_a_name() -> None:
-    assert unicode(Letter("zs", (), 1)) == "żs"
+def test_a_dot_over_a_letter_of_a_name_would_look_like_a_product() -> None:
+    """The rate of lift is lift′ in every format: l̇ift reads as l̇ · ift, and a dot in the middle hits that of the i."""
+    assert [unicode(Letter("lift", (), n)) for n in (0, 1, 2)] == ["lift", "lift′", "lift″"]
+    square = Power(Letter("front", ("wheel",), 1), Number("2"))
+    assert unicode(square) == "front_wheel′²"
+    assert unicode(Letter("theta", ("1",), 2)) == "θ̈₁" and unicode(Letter("x", ("2r",), 1)) == "ẋ_2r"
+    assert unicode(Letter("Lift", (), 1, literal=True)) == "Lift′" and unicode(Letter("x", (), 1, literal=True)) == "ẋ"
+    assert PAGE.latex(Letter("lift", (), 2)) == r"\mathrm{lift}''"
+    assert PAGE.latex(square) == r"\mathrm{front}_{\mathrm{wheel}}'^{2}"
+    assert '<mrow><mi>lift</mi><mo form="postfix" lspace="0" rspace="0">′</mo></mrow>' in mathml(Letter("lift", (), 1))
+    assert "′</mo></mrow></mrow><mrow><mn>2</mn></mrow></msup>" in mathml(square)
 
 
 def test_numbers_are_small_subscripts_and_letters_never_are() -> None:

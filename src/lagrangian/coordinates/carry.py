@@ -52,6 +52,7 @@ class Carrier:
     def built(self) -> Builder:
         """Return the builder with the complete description."""
         model, b = self.model, self.builder
+        b.decimals |= model.decimals
         self.declare()
         for d in model.definitions:
             b.define(d.name, self.change.put_in(d.expression), place=d.place)

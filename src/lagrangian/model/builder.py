@@ -36,6 +36,7 @@ class Builder(Declarations):
         super().__init__()
         self.name = name.strip()
         self.origin = Point("origin", None, (), None, self)
+        self.decimals: set[sp.Rational] = set()
         self._points: dict[str, Point] = {"origin": self.origin}
         self._frames: dict[str, Frame] = {}
         self._elements: list[Element] = []
@@ -381,6 +382,7 @@ class Builder(Declarations):
             settings=dict(self.settings),
             look=dict(self.look),
             remarks=tuple(self.remarks),
+            decimals=frozenset(self.decimals),
         )
         made = with_pressing_rows(made)
         check_effect(made)

@@ -25,6 +25,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
+from lagrangian.model.decimals import noted, noting
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 from lagrangian.quantities.largest import LARGEST, SMALLER, too_large
@@ -61,7 +62,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     elif not isinstance(value, Rational) and not isfinite(value):
         raise ModelError(f"{what} must be a finite number (got {value})", place=place, code="E101")
     else:
-        expr = sp.Rational(str(value))
+        expr = noted(sp.Rational(str(value)))
     if expr.has(*NOT_REAL):
         raise ModelError(f"{what} must be real and finite (got {expr})", place=place, code="E101")
     if any(max(abs(r.p), r.q).bit_length() > MAX_BITS for r in expr.atoms(sp.Rational)):
@@ -80,7 +81,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     if not expr.is_commutative:
         raise ModelError(f"{what} must be a scalar (got {expr})", place=place, code="E406")
     if expr.has(sp.Float):
-        expr = cast("sp.Expr", expr.xreplace({f: sp.Rational(str(f)) for f in expr.atoms(sp.Float)}))
+        expr = cast("sp.Expr", expr.xreplace({f: noted(sp.Rational(str(f))) for f in expr.atoms(sp.Float)}))
     return expr
 
 
@@ -170,7 +171,8 @@ class Point(Brief):
                 fix="write point + (x, y): a point is given by its offset from another",
                 code="E414",
             )
-        components = as_vector(offset, "the offset of a point")
+        with noting(cast("Any", self.owner).decimals):
+            components = as_vector(offset, "the offset of a point")
         mine = self.dimension
         if mine is not None and mine != len(components):
             raise ModelError(
@@ -233,9 +235,9 @@ class Frame(Brief):
 
         With a ``name`` it is one of the system's named points, which appear in files, runs and results.
         """
-        components = as_vector(
-            offset[0] if len(offset) == 1 and is_listed(offset[0]) else offset, "the offset of a point"
-        )
+        listed = offset[0] if len(offset) == 1 and is_listed(offset[0]) else offset
+        with noting(cast("Any", self.owner).decimals):
+            components = as_vector(listed, "the offset of a point")
         if len(components) != self.dimension:
             raise ModelError(
                 f"a point with {len(components)} components was given in a frame with {self.dimension}",

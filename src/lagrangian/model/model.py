@@ -41,7 +41,8 @@ class Model(Brief):
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
     2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file,
     and ``look`` its hints for the picture, both as plain data. ``spare`` says which rows of constraints follow from
-    others along the motion, if that is known. ``remarks`` are notices of what the description was read from.
+    others along the motion, if that is known. ``remarks`` are notices of what the description was read from,
+    ``decimals`` the numbers (without signs) that were written as decimals.
     """
 
     name: str
@@ -58,6 +59,7 @@ class Model(Brief):
     look: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
     spare: tuple[SpareRows, ...] = ()
     remarks: tuple[Notice, ...] = ()
+    decimals: frozenset[sp.Rational] = frozenset()
     _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], repr=False)
 
     def __repr__(self) -> str:

@@ -68,4 +68,4 @@ def as_cases(step: Any) -> sp.Piecewise:
 
 def plain(expr: sp.Basic) -> str:
     """Return ``expr`` as text that the grammar of expressions can read."""
-    return _Plain({"order": None}).doprint(expr)
+    return _Plain({"order": None, "full_prec": False}).doprint(expr)

@@ -19,6 +19,7 @@ from sympy.logic.boolalg import Boolean
 from lagrangian import bounded
 from lagrangian.codes import CodeText
 from lagrangian.errors import Place, did_you_mean
+from lagrangian.model.decimals import noted
 from lagrangian.model.names import FUNCTIONS as FUNCTION_NAMES
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source, shown
@@ -239,7 +240,8 @@ class ExpressionReader:
                 fix=f"at most {MAX_DIGITS} digits, and powers of ten up to {MAX_DECIMAL_EXPONENT} either way",
                 code="E703",
             )
-        return sp.Rational(token.value)
+        value = sp.Rational(token.value)
+        return noted(value) if "." in digits or power else value
 
     def _name(self, node: Node) -> sp.Expr:
         token, primes = node.children

@@ -14,6 +14,7 @@ import sympy as sp
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import REGISTRY, Builder
+from lagrangian.model.decimals import noting
 from lagrangian.model.joint_texts import asked_joint
 from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words, unit_dimension
 from lagrangian.quantities.source import shown
@@ -71,9 +72,10 @@ class Loader(Reading):
         self._parameters()
         self._inputs()
         self._look_alikes()
-        self._definitions()
-        self.geometry.read()
-        self._elements()
+        with noting(self.builder.decimals):
+            self._definitions()
+            self.geometry.read()
+            self._elements()
         self._simulate()
         LookReader(self).read()
         return self.builder

@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
@@ -126,7 +126,7 @@ class _Writer:
         """Return an expression as a TOML value, after checking that it is read back as the same."""
         if expr.is_Integer and abs(expr) < 10**15:
             return str(expr)
-        text = plain(expr)
+        text = plain(self.as_written(expr))
         try:
             scope = self.scope.extended({s.name: s for s in local}) if local else self.scope
             same = parse_expression(text, scope, what=what)
@@ -134,13 +134,19 @@ class _Writer:
             raise ModelError(
                 f"{what} cannot be written to a model file: {error.what}", fix=error.fix, code="E701"
             ) from None
-        if plain(same) != text and bounded.expand(same - expr) != 0:
+        if plain(self.as_written(same)) != text and bounded.expand(same - expr) != 0:
             raise ModelError(
                 f"{what} cannot be written to a model file: {text} reads back as {plain(same)}",
                 fix="write it in the functions of the model file's grammar",
                 code="E701",
             )
         return _text(text)
+
+    def as_written(self, expr: sp.Expr) -> sp.Expr:
+        """The expression with decimals where the description had them."""
+        written = {x: repr(float(x)) for x in expr.atoms(sp.Rational) if abs(x) in self.model.decimals}
+        found = {x: sp.Float(digits) for x, digits in written.items() if sp.Rational(digits) == x}
+        return cast("sp.Expr", expr.xreplace(found)) if found else expr
 
     def vector(self, values: Iterable[sp.Expr], what: str) -> str:
         """Return a list of expressions."""

@@ -3,7 +3,7 @@ fractions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal, Inexact, localcontext
 from fractions import Fraction
@@ -108,6 +108,7 @@ class Expressions:
         found |= _floating(model, found)
         self.letters: Mapping[str, Letter] = found
         ranks = {x.symbol: x.rank for x in named}
+        self._decimals = {Fraction(int(x.p), int(x.q)) for x in model.decimals}
         self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model), ranks)
 
     def letter(self, name: str) -> Letter:
@@ -192,7 +193,7 @@ class Expressions:
         number = abs(number)
         if under:
             top, bottom = Fraction(number).limit_denominator(10**18).as_integer_ratio()
-            if isinstance(number, Fraction) and _decimal(number):
+            if isinstance(number, Fraction) and _decimal(number, self._decimals):
                 over, top, bottom = [sp.Rational(top, bottom), *over], 1, 1
             elif Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
                 over, top, bottom = [sp.Float(sp.Rational(*Fraction(number).as_integer_ratio())), *over], 1, 1
@@ -224,7 +225,7 @@ class Expressions:
     def _times(self, number: Any, factors: list[sp.Expr]) -> Math:
         laid = [self(f) for f in factors]
         if number != 1 or not laid or isinstance(number, float):
-            laid.insert(0, _numeral(number))
+            laid.insert(0, self._numeral(number))
         return laid[0] if len(laid) == 1 else Times(tuple(laid))
 
     def _power(self, expr: sp.Pow) -> Math:
@@ -278,7 +279,10 @@ class Expressions:
         if expr in _CONSTANTS:
             return Number(_CONSTANTS[expr])
         value: Any = Fraction(int(expr.p), int(expr.q)) if isinstance(expr, sp.Rational) else float(expr)
-        return Addition(((True, _numeral(-value)),)) if value < 0 else _numeral(value)
+        return Addition(((True, self._numeral(-value)),)) if value < 0 else self._numeral(value)
+
+    def _numeral(self, value: Any) -> Math:
+        return _numeral(value, self._decimals)
 
     def _function(self, expr: Any, power: Math | None) -> Math:
         name = expr.func.__name__
@@ -309,16 +313,28 @@ def _negative(expr: sp.Expr) -> bool:
 
 
 LONGEST_DENOMINATOR = 10_000
-"""The denominator above which a fraction that is a decimal number is written as such."""
+"""The denominator above which a fraction that is a decimal number is written as such, whoever wrote it."""
+
+SHORTEST_DENOMINATOR = 8
+"""Halves, quarters and eighths less than 1 stay fractions: they come from ½ m v² and the like."""
 
 MOST_DIGITS = 17
 """Digits that tell a floating-point number from all others; a longer decimal number stays a fraction."""
 
 
-def _decimal(value: Fraction) -> str:
-    """A fraction as a decimal number that equals it, 0.7071067811865476; empty where the fraction is shorter."""
+def _decimal(value: Fraction, written: Collection[Fraction] = ()) -> str:
+    """A fraction as a decimal number that equals it, 0.7071067811865476; empty where it is shown as a fraction.
+
+    Tenths are decimals where any number of the description was ``written`` so, 0.3 · 9.81 = 2.943, and halves likewise.
+    """
     under = value.denominator
-    if under <= LONGEST_DENOMINATOR or under % 5 or pow(10, under.bit_length(), under):
+    if under == 1 or pow(10, under.bit_length(), under):
+        return ""
+    tenths = under % 5 == 0
+    if not tenths and value < 1 and under <= SHORTEST_DENOMINATOR:
+        return ""
+    alike = any((x.denominator % 5 == 0) == tenths for x in written)
+    if not alike and not (tenths and under > LONGEST_DENOMINATOR):
         return ""
     with localcontext() as exact:
         exact.prec = MOST_DIGITS
@@ -326,9 +342,9 @@ def _decimal(value: Fraction) -> str:
         return "" if exact.flags[Inexact] else f"{made.normalize()}".lower()
 
 
-def _numeral(value: Any) -> Math:
+def _numeral(value: Any, written: Collection[Fraction]) -> Math:
     """A nonnegative number: 2, ½, 9.81, 1.5·10⁻⁶."""
-    if isinstance(value, Fraction) and (digits := _decimal(value)):
+    if isinstance(value, Fraction) and (digits := _decimal(value, written)):
         return _scientific(digits)
     if isinstance(value, Fraction) and value.denominator != 1:
         return Quotient(Number(str(value.numerator)), Number(str(value.denominator)))

@@ -79,6 +79,17 @@ class Letter:
         """What stands behind it, raised."""
         return "*" if self.star else "+" if self.plus else ""
 
+    @property
+    def primes(self) -> str:
+        """Its time derivatives if it is a name of several letters: lift′, where a dot over one of them would look like
+        a product, l̇ · ift."""
+        return ("", "′", "″", "‴")[self.dots] if _several(self.base) else ""
+
+    @property
+    def accent(self) -> int:
+        """The number of dots over it."""
+        return 0 if self.primes else self.dots
+
 
 _NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])([0-9]+)\Z")
 
@@ -347,7 +358,7 @@ def is_word(math: Math | None) -> bool:
 
 
 def _several(base: str) -> bool:
-    return len(base) > 1 and base not in GREEK
+    return sum(map(str.isalnum, base)) > 1 and base not in GREEK
 
 
 def in_parentheses(math: Math) -> bool:

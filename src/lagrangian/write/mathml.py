@@ -159,7 +159,7 @@ def _table(rows: tuple[tuple[Math, ...], ...], wide: bool) -> str:
 
 def _power(base: Math, exponent: Math) -> str:
     raised = _inner(exponent)
-    if isinstance(base, Letter) and base.sub and not base.mark:
+    if isinstance(base, Letter) and base.sub and not base.mark and not base.primes:
         return f"<msubsup>{_base(base)}{_sub(base)}{raised}</msubsup>"
     return f"<msup>{_inner(base)}{raised}</msup>"
 
@@ -181,6 +181,9 @@ def _apply(math: Apply) -> str:
 def _letter(math: Letter) -> str:
     base = _base(math)
     sub = _sub(math) if math.sub else ""
+    if math.primes:  # they are raised as they are
+        primes = f'<mo form="postfix" lspace="0" rspace="0">{math.primes}</mo>'
+        return f"<mrow>{f'<msub>{base}{sub}</msub>' if sub else base}{primes}</mrow>"
     if sub and math.mark:
         return f"<msubsup>{base}{sub}<mo>{math.mark}</mo></msubsup>"
     if sub:
@@ -195,7 +198,11 @@ def _base(math: Letter) -> str:
         text = bold(text)
     variant = ' mathvariant="normal"' if upright else ""
     letter = f"<mi{variant}>{escape(text)}</mi>"
-    return f'<mover accent="true">{letter}<mo stretchy="false">{_DOTS[math.dots]}</mo></mover>' if math.dots else letter
+    return (
+        f'<mover accent="true">{letter}<mo stretchy="false">{_DOTS[math.accent]}</mo></mover>'
+        if math.accent
+        else letter
+    )
 
 
 def _sub(math: Letter) -> str:

@@ -158,10 +158,15 @@ class Tex:
                     if base.isalpha() and base.isascii() and base.isupper()
                     else rf"\boldsymbol{{{base}}}"
                 )
-        if math.dots:
-            base = rf"{_DOTS[math.dots]}{{{base}}}"
+        if math.accent:
+            base = rf"{_DOTS[math.accent]}{{{base}}}"
         sub = r",".join(self._sub(part) for part in phrases(math.sub))
-        return base + (f"^{{{math.mark}}}" if math.mark else "") + (f"_{{{sub}}}" if sub else "")
+        return (
+            base
+            + (f"^{{{math.mark}}}" if math.mark else "")
+            + (f"_{{{sub}}}" if sub else "")
+            + ("'" * math.dots if math.primes else "")
+        )
 
     def base(self, base: str) -> str:
         """A base letter or word."""

@@ -100,27 +100,22 @@ def _leaf(math: Math) -> str:
 
 
 def _letter(math: Letter) -> str:
-    if math.literal:
-        return _dotted(math.base, math.dots)
-    base = GREEK.get(math.base, math.base)
+    base = math.base if math.literal else GREEK.get(math.base, math.base)
     if math.bold and math.apart:
         base = bold(base)
-    shown = _dotted(base, math.dots)
+    shown = base[:1] + _DOTS[math.accent] + base[1:]
+    if math.literal:
+        return shown + math.primes
     mark = "⁺" if math.plus else math.mark
     small = [subscript(part) for part in math.sub]
     if len(small) == 1 and small[0] is not None:
-        return shown + small[0] + mark
+        return shown + small[0] + math.primes + mark
     if not math.sub:
-        return shown + mark
+        return shown + math.primes + mark
     shown += math.mark if math.star else ""
     parts = [_part(p) for p in math.sub]
     index = "_" + "_".join(parts) if all(p.isidentifier() or p.isalnum() for p in parts) else f"_({', '.join(parts)})"
-    return shown + index + ("⁺" if math.plus else "")
-
-
-def _dotted(name: str, dots: int) -> str:
-    """A name with its dots over the first letter, as for a letter with a subscript: żs."""
-    return name[:1] + _DOTS[dots] + name[1:]
+    return shown + index + math.primes + ("⁺" if math.plus else "")
 
 
 def _part(part: str) -> str:
