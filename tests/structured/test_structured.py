@@ -328,3 +328,34 @@ def test_what_is_no_polynomial_in_the_parameters_has_no_constants() -> None:
     s.particle(s.parameter("m"), at=s.origin + (a * sp.cos(q) + sp.sqrt(b**2 - (a * sp.sin(q)) ** 2), 0))
     assert constants(listing(s.model)) == ()
     assert constants(listing(robots.chain(10, relative=True).model)) == ()  # 65 of them
+
+
+def floating_ball(rolls: bool) -> lg.System:
+    system = lg.System("ball")
+    frame, m, R = system.floating_frame("b"), *system.parameters("m R")
+    system.rigid_body(m, (m * R**2,) * 3, at=frame.origin, frame=frame)
+    system.gravity(direction=(0, 0, -1))
+    if rolls:
+        system.constraint(system["b_z"] - R, name="floor")
+        system.velocity_constraint(system["b_x"].diff() - R * frame.in_fixed_axes(system_speeds(system))[1], name="rx")
+    return system
+
+
+def system_speeds(system: lg.System) -> list[sp.Expr]:
+    return [system[f"b_w{axis}"] for axis in "xyz"]
+
+
+@pytest.mark.parametrize("rolls", [False, True])
+def test_the_checklist_of_a_floating_body_defines_what_it_uses(rolls: bool) -> None:
+    """Coordinates, speeds, energies, accelerations: no letter of the equations is without its line."""
+    page = floating_ball(rolls).derive().to_text(brief=True, width=200)
+    for line in (
+        "ε_w      b_qw: quaternion",
+        "ω_x     b_wx: angular velocity",
+        "T*_b = ½ m",
+        "V_b = m g z",
+        "a_x_b = v̇_x",
+    ):
+        assert line in page, line
+    assert "#DDOF" in page and "There is no coordinate π" in page and "∂π_v_x" not in page
+    assert max(map(len, page.splitlines())) < 200 and page.count("per unit of what this row keeps at zero") == rolls

@@ -74,7 +74,7 @@ class _Layout(Items):
         sections = [Section("notices", ("Notices",), tuple(notices))]
         if described and picture is not None and picture.description:
             sections.insert(0, Section("seen", ("What it looks like",), (Paragraph((picture.description,)),)))
-        if not self.brief or d.model.definitions:
+        if not self.brief or d.model.definitions or d.model.floating:
             sections.append(self.system())
         for step in d.steps:
             title = self.inline(data.text(step.title))

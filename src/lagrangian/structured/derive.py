@@ -149,7 +149,8 @@ def _closing(steps: ListedSteps, equations: Sequence[sp.Eq]) -> list[Item]:
         *slipping,
         text(
             "The quantities in them are defined in steps 2 and 5. Column j of the mass matrix consists of the factors "
-            f"of {rate} in these lines."
+            f"of {rate} in these lines.",
+            brief=not steps.brief,
         ),
     ]
 

@@ -127,7 +127,10 @@ def held_floating(model: Model, known: Constraints) -> Step:
         items.append(text(f"Whether the system is holonomic was not decided beyond depth {len(h.growth)} of brackets."))
     else:
         verdict = "the system is holonomic" if GC == DDOF else f"the system is nonholonomic by {GC - DDOF}"
-        items.append(formula(Name("#GC"), Name(str(GC)), brief=True))
+        if GC == DDOF:
+            items.append(formula(Name("#GC"), Name("#DDOF"), Name(str(GC)), brief=True))
+        else:
+            items += [formula(Name(x), Name(str(n)), brief=True) for x, n in (("#GC", GC), ("#DDOF", DDOF))]
         items.append(text(f"#GC = {GC} is the number of coordinates that describe all that can be reached: {verdict}."))
     return Step(
         0,
@@ -152,7 +155,7 @@ def speeds(model: Model) -> Step:
         for v in model.velocities
     ]
     items: list[Item] = [
-        Table((text("speed"), text("what it is")), tuple(rows)),
+        Table((text("speed"), text("what it is")), tuple(rows), brief=True),
         text(
             "Complete: the coordinates (and t) determine the position of every mass; nothing else in the system moves. "
             "Independent: every speed can be chosen while the others are 0. The speeds of a frame with a quaternion "
@@ -253,12 +256,12 @@ def laws(model: Model) -> Iterator[Item]:
     turning = (Total(by_w), " + ", w, " × ", by_w)
     end = (" − ", _along("omega"), " = ", Name("Xi", "omega"))
     if False in kinds:
-        yield text(Total(by_v), " + ", w, " × ", by_v, " − ", _along("v"), " = ", Name("Xi", "v"), ",")
-        yield text(*turning, " + ", v, " × ", by_v, *end, ".")
+        yield text(Total(by_v), " + ", w, " × ", by_v, " − ", _along("v"), " = ", Name("Xi", "v"), ",", brief=True)
+        yield text(*turning, " + ", v, " × ", by_v, *end, ".", brief=True)
     if kinds == {False, True}:
         yield text("A frame in a ball joint has no velocity of its own:")
     if True in kinds:
-        yield text(*turning, *end, ".")
+        yield text(*turning, *end, ".", brief=True)
     yield text(
         "All vectors are in the axes of the frame. ",
         _along("k"),
@@ -268,6 +271,7 @@ def laws(model: Model) -> Iterator[Item]:
         "what it moves by. There is no coordinate ",
         Name("pi"),
         "; the letter marks that motion.",
+        brief=True,
     )
 
 

@@ -67,6 +67,10 @@ HEADINGS = {
 }
 
 
+MOST_ON_A_PAGE = 40
+"""The number of definitions up to which the one-page checklist has them; it says where they are if there are more."""
+
+
 class ListedSteps:
     """The steps of a listing; ``write`` has its names, ``units`` those of multipliers."""
 
@@ -81,6 +85,7 @@ class ListedSteps:
         self.total_V = sp.Add(*[value for _, value in self.V])
         self.multipliers = {tie.row.name: tie.known(write, units) for tie in found.ties}
         self.sections = self._sections()
+        self.brief = len(self.definitions()) <= MOST_ON_A_PAGE
 
     def _sections(self) -> dict[QuantityKind, list[NamedQuantity]]:
         """The quantities by kind, vectors in the order x, y, z, each quantity after those that it needs.
@@ -160,7 +165,7 @@ class ListedSteps:
         for of, group in groupby(listed, key=lambda q: (q.of, q.inward)):
             for k, q in enumerate(group):
                 note = text(self._belongs(q)) if k == 0 and of[0] else None
-                blocks.append([formula(q.symbol, q.expression, note=note)])
+                blocks.append([formula(q.symbol, q.expression, note=note, brief=self.brief)])
         yield from self.families(blocks)
 
     def _in_one_line(self, items: Iterable[Item]) -> Text:
@@ -170,7 +175,7 @@ class ListedSteps:
             assert isinstance(item, Formula)
             told = () if item.note is None else (" (", *item.note.parts, ")")
             parts += [", " if parts else "", item.sides[0], " = ", item.sides[1], *told]
-        return text(*parts, ".")
+        return text(*parts, ".", brief=self.brief)
 
     def _belongs(self, q: NamedQuantity) -> str:
         return f"{q.of} and all that hangs on it" if q.inward else q.of
@@ -216,13 +221,15 @@ class ListedSteps:
         ]
         names = [Name("T*", b.index) for b in self.found.bodies]
         lines = zip(names, self.found.bodies, self.T, strict=True)
-        items += self.families([formula(name, shown, note=text(b.body.title))] for name, b, (shown, _) in lines)
+        items += self.families(
+            [formula(name, shown, note=text(b.body.title), brief=self.brief)] for name, b, (shown, _) in lines
+        )
         reasons = [
             text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
         ]
         for element in (e for e in self.model.elements if e.title in self.given):
             names.append(Name("T*", element.name))
-            items.append(formula(names[-1], self.given[element.title], note=text(element.title)))
+            items.append(formula(names[-1], self.given[element.title], note=text(element.title), brief=self.brief))
             coil = isinstance(element, Inductor | MutualInductance)
             reasons.append(text(names[-1], f": {element.title} {reason_of(element) if coil else 'was given'}"))
         items.append(formula(Name("T*"), _summed(names), brief=True))
@@ -262,11 +269,11 @@ class ListedSteps:
                     names.append(Name("V", f"{b.index} {element.name}" if many else b.index))
                     height = self.write(node)
                     weight = Product((b.body.mass * element.g, height)) if height != 0 else height
-                    lines.append([formula(names[-1], weight, note=text(b.body.title))])
+                    lines.append([formula(names[-1], weight, note=text(b.body.title), brief=self.brief)])
                     reasons.append(text(names[-1], f": {element.title} pulls on {b.body.title}: mgh"))
             else:
                 names.append(Name("V", element.name))
-                lines.append([formula(names[-1], value, note=text(element.title))])
+                lines.append([formula(names[-1], value, note=text(element.title), brief=self.brief)])
                 reasons.append(text(names[-1], f": {element.title} {element.stored}"))
         items += self.families(lines)
         total: Left = _summed(names) if names else sp.S.Zero
@@ -298,16 +305,17 @@ class ListedSteps:
         by_xi = Partial(Name("L"), Name("xi", "i", 1))
         law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
         by_rows = by_multipliers() if self.found.ties else ()
+        quasi, moved = quasi_velocities(self.model), moved_by(self.model)
+        some = any(symbol not in quasi for symbol in moved.values())
         items: list[Item] = [
             formula(law, Terms((Name("Xi", "i"), *by_rows)), note=SUMMED, brief=True)
             if by_rows
-            else formula(law, Name("Xi", "i"), brief=True)
+            else formula(law, Name("Xi", "i"), brief=some)
         ]
         items += [*laws(self.model)] if self.model.floating else []
         items += self._reason()
         items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
         shown: dict[str, dict[sp.Expr, sp.Expr]] = {"momenta": {}, "gradients": {}, "left_hand_sides": {}}
-        quasi, moved = quasi_velocities(self.model), moved_by(self.model)
         blocks: list[list[Item]] = []
         for i, (speed, symbol) in enumerate(moved.items()):
             momentum, slope = self.write(self.found.momenta[i]), self.write(self.found.gradients[i])
@@ -318,7 +326,7 @@ class ListedSteps:
                 by_place, whole = along(speed), left_side(symbol, *quasi[symbol])
             block: list[Item] = [Heading(text(f"Equation {i + 1}: ", symbol)), formula(by_rate, momentum)]
             block += [formula(by_place, slope)] if slope != 0 or symbol not in quasi else []
-            blocks.append([*block, formula(whole, row, brief=True)])
+            blocks.append([*block, formula(whole, row, brief=symbol not in quasi)])
             shown["momenta"][symbol], shown["gradients"][symbol] = momentum, slope
             shown["left_hand_sides"][symbol] = row
         items += self.families(blocks)

@@ -21,10 +21,13 @@ def system_section(model: Model) -> Section:
 
 
 def described(items: Items, model: Model) -> Section:
-    """The symbols of a model with their meaning and values, and its definitions."""
+    """The symbols of a model with their meaning and values, and its definitions; on the checklist, those symbols alone
+    that nobody chose: the coordinates of floating frames."""
     blocks: list[Block] = []
-    if not items.brief:
-        listed = _together(_symbols(model, items.write))
+    floating = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates}
+    symbols = [x for x in _symbols(model, items.write) if not items.brief or x[0] in floating]
+    if symbols:
+        listed = _together(symbols)
         rows = [tuple(cell if isinstance(cell, tuple) else (cell,) if cell else () for cell in row) for row in listed]
         header: tuple[Inline, ...] = (("symbol",), ("what it is",), ("value",))
         kept = 3 if any(row[2] for row in rows) else 2

@@ -18,6 +18,7 @@ from itertools import pairwise
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.answers import ENERGY, FORCE, Unit
 from lagrangian.model.elements.base import Condition, Surroundings, Words, difference
 from lagrangian.model.geometry import Frame, Point, entries, turned
@@ -91,6 +92,10 @@ class Separation(Condition):
         return ("the force that pushes apart, ", *ends, "; the tension is its negative")
 
 
+MOST_REPEATED = 12
+"""The number of operations up to which the words on a multiplier repeat the expression of its row."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Stated(Condition):
     """An expression that is zero: ``value`` of positions, or with ``velocity`` one that is linear in the rates."""
@@ -112,8 +117,10 @@ class Stated(Condition):
         return model.expand(self.value) if self.velocity else super().rate(model)
 
     def multiplier(self, model: Surroundings) -> Words:
-        """The generalized force per unit of the expression."""
-        return ("the generalized force per unit of ", model.expand(self.value))
+        """The generalized force per unit of the expression; a long one is not repeated."""
+        value = model.expand(self.value)
+        long = bounded.operations(value) > MOST_REPEATED
+        return ("the generalized force per unit of ", "what this row keeps at zero" if long else value)
 
 
 @dataclass(frozen=True, kw_only=True)
