@@ -265,3 +265,14 @@ def test_the_advice_for_a_length_that_is_too_short_draws_it() -> None:
     assert advice == ['pose = { platform_x = "0.2 m" }', 'pose = { platform_y = "0.2 m" }']
     there = built_in.system("stewart-platform").look(pose={"platform_x": 0.2, "platform_y": 0.2})
     assert not any("too short" in x for x in there.missing)
+
+
+def test_a_torque_in_space_is_labelled_by_its_input_and_never_by_time() -> None:
+    system = lg.System("rotor")
+    psi, tau, W = system.coordinates("psi"), system.input("tau"), system.parameter("W", 1)
+    J = system.parameter("J", 1)
+    rotor = system.frame(psi, axis=(0, 0, 1), parent=system.frame(W * system.t, axis=(1, 0, 0)))
+    system.rigid_body(0.5, (J, J, J), at=system.origin, frame=rotor)
+    system.torque((0, 0, tau), on=rotor, axes=rotor)
+    labels = {name for label in system.look().scene.labels for name in label.names}
+    assert "tau" in labels and "t" not in labels

@@ -11,7 +11,6 @@ from math import pi
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.look.board import EFFORT, GROUND, JOINT
@@ -22,7 +21,7 @@ from lagrangian.look.space_bodies import SpaceBodies, Track
 from lagrangian.look.space_solids import CIRCLE, across, round_axis
 from lagrangian.look.space_supports import curved_arrow
 from lagrangian.look.space_turns import axis_now
-from lagrangian.look.tie_glyphs import TieArtist, symbol_names
+from lagrangian.look.tie_glyphs import TieArtist, names_in, symbol_names
 from lagrangian.look.ties import Resolver, Tie
 from lagrangian.look.turning import Turn
 from lagrangian.model import Element, Force, Frame, Torque
@@ -157,13 +156,8 @@ class SpaceEfforts(EffortArtist):
             value = self._unit_value(x)
             if abs(value) < 1e-12:
                 continue
-            names = tuple(
-                sorted(
-                    str(getattr(s, "name", s)) for s in sp.sympify(x).atoms(sp.Symbol, sp.core.function.AppliedUndef)
-                )
-            )[:1]
             centre = board.r[joint] + (reach + 14.0 * self.bodies.solids.pixel) * axes[:, i]
-            self._bow(element, centre, axes[:, i], 15.0, float(np.sign(value)), names)
+            self._bow(element, centre, axes[:, i], 15.0, float(np.sign(value)), tuple(names_in(x)[:1]))
 
     def _around(self, element: Element, turn: Turn, sense: float) -> None:
         """An arc about the axis of what turns, open towards it."""

@@ -377,14 +377,16 @@ def symbol_names(element: Element) -> tuple[str, ...]:
     for key in ("k", "b", "mu", "limit", "value", "law", "energy"):
         value = getattr(element, key, None)
         values = value if isinstance(value, tuple) else (value,)
-        found: list[str] = []
-        for x in values:
-            if isinstance(x, sp.Expr):
-                listed = _main_symbols(x) or sorted((a for a in x.free_symbols if str(a) not in LOCAL), key=str)
-                found += [str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in listed]
+        found = [name for x in values if isinstance(x, sp.Expr) for name in names_in(x)]
         if found:
             return tuple(dict.fromkeys(found))[:2]
     return ()
+
+
+def names_in(expr: sp.Expr) -> list[str]:
+    """The names of the symbols by which an expression is known in a picture."""
+    listed = _main_symbols(expr) or sorted((a for a in expr.free_symbols if str(a) not in LOCAL), key=str)
+    return [str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in listed]
 
 
 def _main_symbols(expr: sp.Expr) -> Sequence[sp.Expr]:
