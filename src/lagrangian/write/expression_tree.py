@@ -81,14 +81,8 @@ class Letter:
 
     @property
     def primes(self) -> str:
-        """Its time derivatives if it is a name of several letters: lift′, where a dot over one of them would look like
-        a product, l̇ · ift."""
+        """The rate of a name of several letters: lift′; a dot over one of them would read as a product, l̇ · ift."""
         return ("", "′", "″", "‴")[self.dots] if _several(self.base) else ""
-
-    @property
-    def accent(self) -> int:
-        """The number of dots over it."""
-        return 0 if self.primes else self.dots
 
 
 _NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])([0-9]+)\Z")

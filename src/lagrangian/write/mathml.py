@@ -199,8 +199,8 @@ def _base(math: Letter) -> str:
     variant = ' mathvariant="normal"' if upright else ""
     letter = f"<mi{variant}>{escape(text)}</mi>"
     return (
-        f'<mover accent="true">{letter}<mo stretchy="false">{_DOTS[math.accent]}</mo></mover>'
-        if math.accent
+        f'<mover accent="true">{letter}<mo stretchy="false">{_DOTS[math.dots]}</mo></mover>'
+        if math.dots and not math.primes
         else letter
     )
 

@@ -158,8 +158,8 @@ class Tex:
                     if base.isalpha() and base.isascii() and base.isupper()
                     else rf"\boldsymbol{{{base}}}"
                 )
-        if math.accent:
-            base = rf"{_DOTS[math.accent]}{{{base}}}"
+        if math.dots and not math.primes:
+            base = rf"{_DOTS[math.dots]}{{{base}}}"
         sub = r",".join(self._sub(part) for part in phrases(math.sub))
         return (
             base

@@ -103,7 +103,7 @@ def _letter(math: Letter) -> str:
     base = math.base if math.literal else GREEK.get(math.base, math.base)
     if math.bold and math.apart:
         base = bold(base)
-    shown = base[:1] + _DOTS[math.accent] + base[1:]
+    shown = base[:1] + _DOTS[0 if math.primes else math.dots] + base[1:]
     if math.literal:
         return shown + math.primes
     mark = "⁺" if math.plus else math.mark
