@@ -160,3 +160,27 @@ def test_what_falls_stays_in_the_frame(browser: Any, tmp_path: Path) -> None:
     box = made.page.locator("#canvas").bounding_box()
     assert box is not None and 0 <= x <= box["width"] and 0 <= y <= box["height"]
     made.context.close()
+
+
+DARK = """(() => {
+  const canvas = document.getElementById("canvas"), { width, height } = canvas, made = [];
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+  for (let x = 0; x < width; x++)
+    for (let y = 0; y < height; y++) if (data[4 * (y * width + x)] < 90) made.push([x, y]);
+  return made;
+})()"""
+"""The pixels in which ink is seen."""
+
+
+def test_what_is_followed_is_seen_whole_and_the_ground_is_where_the_view_is(browser: Any, tmp_path: Path) -> None:
+    path = tmp_path / "wheel.html"
+    picture("wheel-on-incline").save(path)
+    made = Opened(browser, path.as_uri())
+    made.page.locator("#speed").evaluate("(e) => { e.value = e.max; e.dispatchEvent(new Event('input')); }")
+    made.run_to(6.0)
+    made.draw()
+    ((x, y),), dark = made.page.evaluate("livePage.handles()"), made.page.evaluate(DARK)
+    width = made.page.evaluate("document.getElementById('canvas').width")
+    assert len({a // 10 for a, _ in dark}) > 0.9 * width / 10  # the ground
+    assert any(abs(a - x) < 2 and b > y + 10 for a, b in dark)  # the lower rim
+    made.context.close()

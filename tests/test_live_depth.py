@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
 import subprocess
 from importlib.resources import files
@@ -164,7 +165,7 @@ for (const far of [0, 4]) {
   const xs = ground.part.path.map(([, x]) => x * ground.counts[0]);
   drawn.push([Math.min(...xs), Math.max(...xs), ground.places(picture)[0][0]]);
 }
-console.log(JSON.stringify([drawn, ground.counts[0], picture.copies(floor, [1, 0, 0, 1, 0, 0, 1], 60)]));
+console.log(JSON.stringify([drawn, ground.counts[0], picture.copies(floor, [1, 0, 0, 1, 0, 0, 1], 60, 40)]));
 """
 
 
@@ -178,13 +179,20 @@ def test_the_ground_of_a_page_reaches_where_bodies_go_and_its_strokes_stay_even(
 SLOPE = """
 const scene = JSON.parse(require("fs").readFileSync(0, "utf8"));
 const picture = new Picture(scene, () => {}), [floor] = scene.parts.filter((part) => part.kind === "floor");
-const [[, x0, y0], [, x1, y1]] = floor.path;
-console.log(JSON.stringify([[x1 - x0, y1 - y0], picture.copies(floor, [1, 0, 0, 1, 0, 0, 1], 400)]));
+const [[, x0, y0], [, x1, y1]] = floor.path, along = [1, 0, 0, 1, 0, 0, 1];
+const reach = (far) => {
+  [picture.left, picture.top] = [200 - far * (x1 - x0), 150 - far * (y1 - y0)];
+  return picture.copies(floor, along, 400, 300).map(([x, y]) => [x, y, x / (x1 - x0) - far]);
+};
+console.log(JSON.stringify([[x1 - x0, y1 - y0], reach(0), reach(100)]));
 """
 
 
-def test_the_ground_of_an_incline_goes_on_along_the_slope() -> None:
-    (x, y), copies = in_node(SLOPE, as_data(picture("wheel-on-incline").scene))
-    assert abs(y) > 10 and len(copies) > 1
-    for along, up in copies:
-        assert along * y == pytest.approx(up * x, abs=1e-6)
+def test_the_ground_of_an_incline_goes_on_along_the_slope_wherever_the_view_is() -> None:
+    (x, y), near, far = in_node(SLOPE, as_data(picture("wheel-on-incline").scene))
+    half = 250 / math.hypot(x, y)  # from the middle of a canvas of 400 × 300 pixels to its corner
+    assert abs(y) > 10
+    for copies in (near, far):
+        assert all(along * y == pytest.approx(up * x, abs=1e-6) for along, up, _ in copies)
+        lengths = [by for _, _, by in copies]
+        assert min(lengths) < -half + 1 and max(lengths) + 1 > half and max(lengths) - min(lengths) < 2 * half + 3

@@ -58,30 +58,35 @@ class Motion {
     context.fillStyle = colours.paper; // a recording has no background of its own
     context.fillRect(0, 0, width, height);
     this.place();
-    this.grow();
+    const held = this.grow();
     picture.fit(state.reach.box, width, height);
-    this.follow(width, height);
+    if (!held) this.follow(width, height);
     if (state.set.trail) state.data.trail.forEach((_, k) => this.drawTrail(k));
     this.place();
     for (const ground of picture.grids) ground.lay(picture);
-    picture.draw(context, colours, state.lit, width);
+    picture.draw(context, colours, state.lit, width, height);
     if (this.held) this.drawHeld();
   }
 
-  /** What goes further than the run ahead widens the frame, as far as that may be. */
+  /** What goes further than the run ahead widens the frame, as far as that may be; whether the frame holds it all. */
   grow() {
     const { reach } = this.state, box = [...reach.box];
     this.picture.cover(box);
-    if (Math.max(box[2] - box[0], box[3] - box[1]) <= reach.most) reach.box = box;
+    const held = Math.max(box[2] - box[0], box[3] - box[1]) <= reach.most;
+    if (held) reach.box = box;
+    return held;
   }
 
-  /** What leaves the frame for good, such as a body that falls, is followed: the middle of the bodies stays in it. */
+  /** What leaves the frame for good, such as a body that falls, is followed: all of the bodies if they fit, else their middle. */
   follow(width, height) {
-    const { picture } = this, spots = picture.scene.handles.map((anchor) => picture.onCanvas(anchor));
-    if (!spots.length) return;
-    const [x, y] = [0, 1].map((i) => spots.reduce((sum, spot) => sum + spot[i], 0) / spots.length);
-    const inside = (at, length) => Math.min(0.9 * length, Math.max(0.1 * length, at)) - at;
-    if (Number.isFinite(x + y)) [picture.left, picture.top] = [picture.left + inside(x, width), picture.top + inside(y, height)];
+    const { picture } = this, box = [Infinity, Infinity, -Infinity, -Infinity];
+    picture.cover(box, false, picture.bodies);
+    const by = [width, height].map((length, i) => {
+      const [low, high] = [box[i], box[i + 2]].map((x) => (i ? picture.top : picture.left) + picture.zoom * x);
+      const middle = (low + high) / 2, margin = Math.min(length / 2, Math.max(0.1 * length, (high - low) / 2 + 8));
+      return Math.min(length - margin, Math.max(margin, middle)) - middle;
+    });
+    if (Number.isFinite(by[0] + by[1])) [picture.left, picture.top] = [picture.left + by[0], picture.top + by[1]];
   }
 
   /** The positions of the anchors of trails at a sample; each sample is computed once, for it may take long in space. */

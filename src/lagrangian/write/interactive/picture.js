@@ -3,9 +3,10 @@
 // The place of an anchor is  origin + scale · view · r + shift  in pixels of the picture, then a zoom that fits them all.
 // Where bodies were moved apart to be seen, each moves about its place at rest, with displacements that have room there.
 
-/** The corners of the box around a shape, in its own axes. */
+/** The corners of the box around a shape, in its own axes; of a disc its centre, for it is round as it turns. */
 function cornersOf({ disc, path }) {
-  const points = disc ? [[disc[0] - disc[2], disc[1] - disc[2]], [disc[0] + disc[2], disc[1] + disc[2]]] : path.flatMap(([, ...n]) => n.flatMap((x, i) => (i % 2 ? [] : [[x, n[i + 1]]])));
+  if (disc) return [disc];
+  const points = path.flatMap(([, ...n]) => n.flatMap((x, i) => (i % 2 ? [] : [[x, n[i + 1]]])));
   const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
   return [Math.min(...xs), Math.max(...xs)].flatMap((x) => [Math.min(...ys), Math.max(...ys)].map((y) => [x, y]));
 }
@@ -50,6 +51,7 @@ class Picture {
     this.parts = [...scene.parts].sort((a, b) => a.layer - b.layer);
     this.grids = this.parts.filter((part) => part.kind === "grid").map((part) => new Ground(part));
     this.bounds = this.parts.filter((part) => part.kind !== "floor").map((part) => ({ part, corners: part.trace ? [] : cornersOf(part) }));
+    this.bodies = this.bounds.filter(({ part }) => part.role === "body" || scene.handles.includes(part.placement.at));
   }
 
   /** Compute the positions of all anchors. */
@@ -120,13 +122,16 @@ class Picture {
     if (closed) context.closePath();
   }
 
-  /** By what a floor has to be moved along itself, again and again, until it fills the frame. */
-  copies(part, [a, b, c, d], width) {
+  /** By what a floor has to be moved along itself, again and again, until it fills a canvas, wherever the view is. */
+  copies(part, [a, b, c, d, e, f], width, height) {
     if (part.kind !== "floor" || !part.path) return [[0, 0]];
-    const [x, y] = pieceOf(part.path), reach = Math.hypot(a * x + c * y, b * x + d * y) * this.zoom;
-    if (!(reach > 8)) return [[0, 0]];
-    const most = Math.min(60, Math.ceil((2 * width) / reach));
-    return Array.from({ length: 2 * most + 1 }, (_, i) => [(i - most) * x, (i - most) * y]);
+    const { left, top, zoom } = this, [x, y] = pieceOf(part.path), [[, x0, y0]] = part.path;
+    const across = zoom * (a * x + c * y), down = zoom * (b * x + d * y), square = across * across + down * down;
+    if (!(square > 64)) return [[0, 0]];
+    const from = left + zoom * (a * x0 + c * y0 + e), above = top + zoom * (b * x0 + d * y0 + f);
+    const corners = [0, width].flatMap((u) => [0, height].map((v) => ((u - from) * across + (v - above) * down) / square));
+    const first = Math.floor(Math.min(...corners)) - 1, last = Math.ceil(Math.max(...corners));
+    return Array.from({ length: last - first + 1 }, (_, i) => [(first + i) * x, (first + i) * y]);
   }
 
   /**
@@ -134,7 +139,7 @@ class Picture {
    * @param {Record<string, string>} colours
    * @param {Set<string> | null} lit  elements that stand out, if any
    */
-  draw(context, colours, lit, width) {
+  draw(context, colours, lit, width, height) {
     const bold = Math.min(1.5, Math.max(0.65, Math.sqrt(this.zoom)));
     context.lineCap = context.lineJoin = "round";
     for (const part of this.ordered()) {
@@ -148,7 +153,7 @@ class Picture {
       if (clipped) this.clipFloor(context, width);
       context.beginPath();
       if (part.trace) this.join(context, part.trace);
-      else for (const moved of this.copies(part, transform, width)) this.trace(context, part, transform, moved);
+      else for (const moved of this.copies(part, transform, width, height)) this.trace(context, part, transform, moved);
       if (part.solid || part.filled) {
         context.fillStyle = part.solid ? line : part.role === "body" ? colours.inside : colours.paper;
         context.fill();
@@ -211,14 +216,14 @@ class Picture {
   }
 
   /** Widen a box [left, top, right, bottom], in pixels of the picture, by everything that moves, or that stands aside. */
-  cover(box, aside = false) {
-    const add = (x, y) => ([box[0], box[1], box[2], box[3]] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)]);
-    for (const { part, corners } of this.bounds) {
+  cover(box, aside = false, what = this.bounds) {
+    const add = (x, y, r = 0) => ([box[0], box[1], box[2], box[3]] = [Math.min(box[0], x - r), Math.min(box[1], y - r), Math.max(box[2], x + r), Math.max(box[3], y + r)]);
+    for (const { part, corners } of what) {
       if (part.aside !== aside) continue;
       if (part.trace) part.trace.anchors.forEach((anchor, i) => add(...this.seen(anchor, part.trace.shifts[i])));
       else {
-        const [a, b, c, d, e, f] = this.axes(part.placement);
-        for (const [x, y] of corners) add(a * x + c * y + e - (aside ? this.aside : 0), b * x + d * y + f);
+        const [a, b, c, d, e, f, factor] = this.axes(part.placement);
+        for (const [x, y, r = 0] of corners) add(a * x + c * y + e - (aside ? this.aside : 0), b * x + d * y + f, r * factor);
       }
     }
   }
