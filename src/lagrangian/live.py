@@ -45,7 +45,7 @@ LONGEST_SUBTITLE = 480
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
-MAX_FUNCTIONS = 60_000
+MAX_FUNCTIONS = 24_000
 """Functions in JavaScript of more characters are left out as far as WebAssembly replaces them."""
 
 
@@ -109,7 +109,9 @@ def _module(
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
     functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
-    return browser_module(model, initial=initial, events=events, functions=functions, fallback=MAX_FUNCTIONS)
+    return browser_module(
+        model, initial=initial, events=events, functions=functions, fallback=MAX_FUNCTIONS, brief=True
+    )
 
 
 def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:

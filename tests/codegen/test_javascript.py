@@ -10,7 +10,7 @@ import pytest
 from compile_programs import double_pendulum, oracle, program
 from test_backends import every_function
 
-from lagrangian.codegen import to_javascript
+from lagrangian.codegen import brief_javascript, to_javascript
 from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.graph.graph import UNARY
 
@@ -54,20 +54,25 @@ def every_operation() -> Program:
     return Program("operations", g, {"q": ("a", "b")}, {"r": Output(tuple(rows), (len(rows),))}, {})
 
 
-def test_every_operation_also_where_numbers_are_odd():
+printers = pytest.mark.parametrize("printed", [to_javascript, brief_javascript])
+
+
+@printers
+def test_every_operation_also_where_numbers_are_odd(printed):
     made = every_operation()
     pairs = [(a, b) for a in ODD for b in ODD]
-    found = called(to_javascript(made, name="f", checked=False), "f", [[list(pair)] for pair in pairs])
+    found = called(printed(made, name="f", checked=False), "f", [[list(pair)] for pair in pairs])
     for pair, row in zip(pairs, found, strict=True):
         wanted = evaluate(made, {"q": pair})["r"]
         for k, (x, y) in enumerate(zip(row, wanted, strict=True)):
             assert close(x, float(y)), (pair, k, made.graph.nodes[made.outputs["r"].ids[k]], x, y)
 
 
-def test_every_function_by_hand():
+@printers
+def test_every_function_by_hand(printed):
     made = program(every_function, q=("a", "b"), p=("c",))
     q = np.random.default_rng(2).uniform(-3, 3, (40, 2))
-    found = called(to_javascript(made, name="f"), "f", [[row.tolist(), [1.7]] for row in q])
+    found = called(printed(made, name="f"), "f", [[row.tolist(), [1.7]] for row in q])
     wanted = [oracle(made, {"q": row, "p": [1.7]}) for row in q]
     np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
@@ -82,15 +87,16 @@ def test_time_is_a_number_and_outputs_follow_one_another():
     assert "out[0]: a, one number" in source and "out[1] to out[4]: M, 2 x 2, row by row" in source
 
 
-def test_a_long_program_is_cut_into_parts():
+@printers
+def test_a_long_program_is_cut_into_parts(printed):
     g = Graph()
     x = node = g.input("q", 0)
     for k in range(3000):
         node = g.sin(g.add(node, g.const(1.0 + k)))
     chosen = g.select(g.lt(x, g.zero), node, g.mul(node, x))
     made = Program("long", g, {"q": ("x",)}, {"r": Output((chosen, x), (2,))}, {})
-    source = to_javascript(made, name="f")
-    assert "part_1()" in source
+    source = printed(made, name="f")
+    assert source.count("() => {") + source.count("()=>{") > 1
     for (found, _), x in zip(called(source, "f", [[[0.5]], [[-0.5]]]), (0.5, -0.5), strict=True):
         assert found == pytest.approx(evaluate(made, {"q": [x]})["r"][0], rel=1e-12)
 
@@ -111,10 +117,11 @@ def test_a_word_of_the_language_names_no_function(name):
         to_javascript(double_pendulum(), name=name)
 
 
-def test_a_result_that_is_not_finite_is_thrown():
+@printers
+def test_a_result_that_is_not_finite_is_thrown(printed):
     g = Graph()
     made = Program("ratio", g, {"q": ("x",)}, {"r": Output((g.div(g.one, g.input("q", 0)),), ())}, {})
-    code = to_javascript(made, name="f") + "\ntry { f([0]); } catch (e) { console.log(e.name, e.message); }"
+    code = printed(made, name="f") + "\ntry { f([0]); } catch (e) { console.log(e.name, e.message); }"
     done = subprocess.run([NODE, "-e", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "RangeError ratio: a result is not finite"
 
@@ -130,3 +137,25 @@ def test_an_array_that_is_passed_is_filled():
     wanted = oracle(made, {"q": [0.1, 0.2], "v": [0, 0], "u": [0], "p": [1, 2, 0.7, 0.9, 9.81], "t": [0.0]})
     assert same == "true"
     np.testing.assert_allclose([float(x) for x in numbers], wanted, rtol=1e-12)
+
+
+def test_in_few_characters_the_numbers_are_the_same_to_the_last_digit():
+    made = double_pendulum()
+    call = [[[0.1, 0.2], [0.3, -0.4], [0.5], [1, 2, 0.7, 0.9, 9.81], 0]]
+    long, short = to_javascript(made, name="f"), brief_javascript(made, name="f")
+    assert called(short, "f", call) == called(long, "f", call)
+    assert len(short) < 0.5 * len(long)
+
+
+def test_parentheses_stand_where_order_matters():
+    g = Graph()
+    a, b, c, d = (g.input("q", k) for k in range(4))
+    rows = (
+        g.sub(a, g.sub(b, c)), g.mul(a, g.mul(b, c)), g.div(a, g.div(b, c)), g.mul(g.add(a, b), g.sub(c, d)),
+        g.neg(g.add(a, b)), g.sub(a, g.neg(g.mul(b, c))), g.add(a, g.add(b, g.add(c, d))),
+        g.div(g.mul(a, b), g.mul(c, d)), g.min(g.add(a, b), g.sub(c, d)), g.sqrt(g.add(g.mul(a, a), g.mul(b, b))),
+        g.sub(g.mul(a, b), g.mul(c, d)),
+    )  # fmt: skip
+    made = Program("order", g, {"q": ("a", "b", "c", "d")}, {"r": Output(rows, (len(rows),))}, {})
+    q = [[0.1, 0.7, 1.3, 2.9]]
+    assert called(brief_javascript(made, name="f"), "f", [q]) == called(to_javascript(made, name="f"), "f", [q])

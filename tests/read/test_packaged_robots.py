@@ -81,3 +81,8 @@ class Rigid:
         M = np.triu(pin.crba(model, data, q))
         bias = pin.nonLinearEffects(model, data, q, v) - force
         return M + np.triu(M, 1).T, bias, pin.aba(model, data, q, v, force)
+
+
+@pytest.mark.slow
+def test_the_page_of_the_ant_is_below_150_kb():
+    assert len(lg.load(file_of("ant")).look().to_html().encode()) < 150_000

@@ -63,7 +63,7 @@ def twice(key: str) -> Callable[[str], str]:
         ("data", lambda text: text.replace("direction = [0, -1]", "direction = [0, 1]"), [False, True, True]),
         ("data", lambda text: text.replace("[[gravity]]", "[[gravitas]]"), [False, True, True]),
         ("engine", lambda text: text.replace('"value":9.81', '"value":1.62'), [True, False, False]),
-        ("engine", lambda text: text.replace("const x15 = 0.5 * in_p[0]", "const x15 = in_p[0]"), [True, True, False]),
+        ("engine", lambda text: text.replace("=.5*c[0];", "=c[0];"), [True, True, False]),
     ],
     ids=["a value", "a sign of the file", "a file that is refused", "a value of the solver", "an energy"],
 )

@@ -11,6 +11,7 @@ from lagrangian.lazily import lazily
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
+    from .brief import brief_javascript
     from .buffers import Look, RawFunction, aligned
     from .build import Build, Options
     from .c99 import to_c
@@ -22,6 +23,7 @@ else:
     __getattr__ = lazily(
         __name__,
         {
+            "brief": "brief_javascript",
             "build": "Build Options",
             "c99": "to_c",
             "javascript": "to_javascript",
@@ -39,6 +41,7 @@ __all__ = [
     "Options",
     "RawFunction",
     "aligned",
+    "brief_javascript",
     "compile",
     "to_c",
     "to_javascript",

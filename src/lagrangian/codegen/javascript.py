@@ -59,7 +59,7 @@ def to_javascript(
     inputs = [(identifier("in_", g, k), g, entries) for k, (g, entries) in enumerate(program.inputs.items())]
     total = len(tape.outputs)
     places = [c if is_scalar(g, entries) else f"{c}[{k}]" for c, g, entries in inputs for k in range(len(entries))]
-    writer = Statements(_JAVASCRIPT, tape, plan(tape), places=places, targets=[f"out[{k}]" for k in range(total)])
+    writer = Statements(JAVASCRIPT, tape, plan(tape), places=places, targets=[f"out[{k}]" for k in range(total)])
     arguments = [c for c, _, _ in inputs]
     head = f"function {function}({', '.join([*arguments, f'out = new Float64Array({total})'])}) {{"
     lines = [*_comment(program, inputs, units or {})]
@@ -75,9 +75,15 @@ def to_javascript(
         body += [f"  part_{k}();" for k in range(len(chunks))]
     body += writer.leaves()
     if checked:
-        shown = comment(program.name)
-        body.append(f'  if (!out.every(Number.isFinite)) throw new RangeError("{shown}: a result is not finite");')
+        body.append("  " + not_finite(program, "out"))
     return "\n".join([*lines, head, *body, "  return out;", "}"]) + "\n"
+
+
+def not_finite(program: Program, out: str) -> str:
+    """The statement that throws an error if an entry of the array ``out`` is not finite."""
+    return (
+        f'if (!{out}.every(Number.isFinite)) throw new RangeError("{comment(program.name)}: a result is not finite");'
+    )
 
 
 def names_function(name: str) -> bool:
@@ -107,4 +113,4 @@ def _comment(program: Program, inputs: list[tuple[str, str, tuple[str, ...]]], u
     return [*lines[:-1], lines[-1] + " */"]
 
 
-_JAVASCRIPT = Dialect("const", "const", {k: v for k, v in INFIX.items() if k != "abs"}, LIBRARY, "NaN", "Infinity")
+JAVASCRIPT = Dialect("const", "const", {k: v for k, v in INFIX.items() if k != "abs"}, LIBRARY, "NaN", "Infinity")

@@ -149,6 +149,7 @@ def browser_module(
     step: float | str | None = None,
     functions: Mapping[str, Quantities] | None = None,
     fallback: float = math.inf,
+    brief: bool = False,
     lanes: int = 1,
 ) -> BrowserModule:
     """Compile a system, or its model, for a browser.
@@ -160,8 +161,8 @@ def browser_module(
 
     ``functions``: further functions of JavaScript, by name: expressions and points of the model, or a program over x,
     u, p, t. ``energy``, which returns T and V, is among them unless a ``power`` is asked for. ``fallback``: with what
-    runs in JavaScript need where WebAssembly is forbidden, if that makes at most so many characters. ``lanes``: 2
-    computes two runs at once.
+    runs in JavaScript need where WebAssembly is forbidden, if that makes at most so many characters. ``brief``: in few
+    characters, without comments. ``lanes``: 2 computes two runs at once.
 
     Raises `RunError` for a method that WebAssembly cannot run, for dry friction, for inputs that are Python functions,
     and otherwise as a simulation does.
@@ -193,7 +194,7 @@ def browser_module(
         "codes": {name: int(status) for name, status in CODES.items()},
         "machine": made.layout,
     }
-    return BrowserModule(made.code, layout, parts.functions(functions or {}, fallback=fallback), driver())
+    return BrowserModule(made.code, layout, parts.functions(functions or {}, fallback=fallback, brief=brief), driver())
 
 
 def _run(settings: RunSettings, parts: BrowserParts, p: NDArray[np.float64], duration: float) -> dict[str, Any]:

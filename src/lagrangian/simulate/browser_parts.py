@@ -33,8 +33,8 @@ Quantities: TypeAlias = Program | Mapping[str, Any]
 ORDER = ("x", "p", "u", "t")
 """The order in which functions in JavaScript take the groups."""
 
-SHORTEST = 16
-"""An operation in JavaScript has at least so many characters."""
+SHORTEST = {False: 16, True: 4}
+"""An operation in JavaScript has at least so many characters; and where they are few."""
 
 MOST = 100_000
 """The largest number of steps to which pulses in time may force a run."""
@@ -176,11 +176,12 @@ class BrowserParts:
             "needs": list(self._around),
         }
 
-    def functions(self, more: Mapping[str, Quantities], *, fallback: float) -> str:
+    def functions(self, more: Mapping[str, Quantities], *, fallback: float, brief: bool = False) -> str:
         """An expression of JavaScript: the object of all functions, by name.
 
         ``more``: those that the page asked for. ``fallback``: also those that runs in JavaScript need, unless the
-        text has more characters than that. Raises `RunError` for a name that a function cannot have.
+        text has more characters than that. ``brief``: in few characters. Raises `RunError` for a name that a function
+        cannot have.
         """
         model, feedback = self.model, self.drive.feedback
         unchecked = {**self._around, "rhs": self.field, **self._projections}
@@ -196,10 +197,11 @@ class BrowserParts:
             checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
         needed = {**self._around, **checked}
         spared = {name: program for name, program in unchecked.items() if name not in needed}
-        if SHORTEST * sum(count_program(program).operations for program in spared.values()) > fallback:
+        if SHORTEST[brief] * sum(count_program(program).operations for program in spared.values()) > fallback:
             spared = {}
+        printed = machine.brief_javascript if brief else machine.to_javascript
         texts = {
-            name: machine.to_javascript(_ordered(program), name=name, checked=name in checked)
+            name: printed(_ordered(program), name=name, checked=name in checked)
             for name, program in {**unchecked, **checked}.items()
             if name in needed or name in spared
         }
