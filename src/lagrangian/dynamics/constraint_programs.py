@@ -30,7 +30,7 @@ from lagrangian.dynamics.constrained import (
 )
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.notices import dependent_rows
-from lagrangian.dynamics.programs import _matrix, _once, _program, _start, _vector
+from lagrangian.dynamics.programs import _matrix, _once, _program, _start, _vector, sketch
 from lagrangian.dynamics.row_problem import RowSolution
 from lagrangian.dynamics.tape import make_tape
 from lagrangian.dynamics.vectors import minus, zeros
@@ -119,7 +119,7 @@ def closing_terms(model: Model, fixed: Collection[str] = ()) -> Program:
 
     Every coordinate in ``fixed`` (names) is a row of its own, q̇ᵢ = 0.
     """
-    graph, _, m = _start(model)
+    graph, _, m = sketch(model)
     units = {v: [graph.one if k == j else graph.zero for k in range(len(m.v))] for j, v in enumerate(m.v)}
     N = [units.get(rate) or vjp(graph, [rate], [graph.one], list(m.v)) for rate in m.motion.rates]
     rows = position_rows(m)

@@ -12,11 +12,12 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.dynamics.accelerations import Quadratic
 from lagrangian.dynamics.ordering import Order, cheapest_solution, found_solutions, solution_in
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError, listed
-from lagrangian.graph import Graph, Output, Program, evaluate, reached
+from lagrangian.graph import Graph, Output, Program, Valuation, Variations, evaluate, reached
 
 Array = NDArray[np.float64]
 
@@ -35,6 +36,9 @@ Repeated = Mapping[str, tuple[str, ...]]
 
 Known = tuple[Repeated, Order]
 """The rows that are left out, and the order in which the others are eliminated."""
+
+CLEAR = 1e-7
+"""Rows are independent without doubt if the smallest eigenvalue of their scaled products is above this."""
 
 SHARE = 1e-9
 """A row has no part in another one if its factor is below this at every state."""
@@ -85,6 +89,35 @@ def dependent_among(
     if asked in known:
         return known[asked][0]
     return _independent(graph, rows, v, lambda kept: next(found_solutions(problems(kept))))[1]
+
+
+def independent_somewhere(graph: Graph, rows: Sequence[ConstraintRow], v: Sequence[int], H: Quadratic) -> bool:
+    """Whether the rows are independent, and M is positive definite, at a random state: then no row depends on others
+    in every state, and no elimination has to find that out.
+
+    ``H`` gives M. False also where a row is not linear in the velocities, or a number is not finite.
+    """
+    rng = np.random.default_rng(1)
+    bodies = list(H.rows)
+    sizes = _sizes(graph, [*(row.rate for row in rows), *bodies, *(h for x in H.rows.values() for h in x.values())], v)
+    place = {group: rng.uniform(0.3, 1.4, size) for group, size in sizes.items()}
+    moved = {**place, "v": rng.uniform(0.3, 1.4, sizes["v"])}
+    valuations = [Valuation(graph, {group: x.tolist() for group, x in at.items()}) for at in (place, moved)]
+    slopes = Variations(graph, valuations, v)([*(row.rate for row in rows), *bodies])
+    if not np.isfinite(slopes).all() or np.ptp(slopes, axis=0).max(initial=0.0) > ROUNDING * np.abs(slopes).max():
+        return False
+    A, J = slopes[0, :, : len(rows)].T, slopes[0, :, len(rows) :]
+    inertia = np.array([[valuations[0].value(H.rows[i][k]) if k in H.rows[i] else 0.0 for k in bodies] for i in bodies])
+    M = J @ inertia @ J.T
+    return bool(np.isfinite(M).all()) and _regular(A @ A.T) and _regular(M)
+
+
+def _regular(square: Array) -> bool:
+    """Whether a symmetric matrix, scaled to a diagonal of ones, is positive definite by far."""
+    scale = np.diag(square)
+    if not (scale > 0).all():
+        return False
+    return bool(np.linalg.eigvalsh(square / np.sqrt(np.outer(scale, scale)))[0] > CLEAR)
 
 
 Solved = TypeVar("Solved")
@@ -154,11 +187,7 @@ def _vanishes(
     If c = Σ α_i c_i with the other rows, then ċ − Σ α_i ċ_i = Σ α̇_i c_i, which is zero if they are satisfied.
     """
     ids = [*(row.rate for row in rows), dependent.residual]
-    sizes: dict[str, int] = {}
-    for i in [*reached(graph, ids), *v]:
-        node = graph.nodes[i]
-        if node[0] == "input":
-            sizes[node[1]] = max(sizes.get(node[1], 0), node[2] + 1)
+    sizes = _sizes(graph, ids, v)
     names = {group: tuple(f"{group}{k}" for k in range(size)) for group, size in sizes.items()}
     program = Program("rows", graph, names, {"c": Output(tuple(ids), (len(ids),))}, {})
     rng = np.random.default_rng(1)
@@ -170,6 +199,16 @@ def _vanishes(
     return all(vanishes for vanishes, _ in tried), tuple(
         row.name for row, part in zip(others, has_part, strict=True) if part
     )
+
+
+def _sizes(graph: Graph, ids: Sequence[int], v: Sequence[int]) -> dict[str, int]:
+    """How many numbers of every group of inputs nodes need, with the velocities ``v``."""
+    sizes: dict[str, int] = {}
+    for i in [*reached(graph, ids), *v]:
+        node = graph.nodes[i]
+        if node[0] == "input":
+            sizes[node[1]] = max(sizes.get(node[1], 0), node[2] + 1)
+    return sizes
 
 
 def _factors(row: Array, others: Array) -> Array:

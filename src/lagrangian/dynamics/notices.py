@@ -17,13 +17,11 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.codes import Code
-from lagrangian.dynamics.dependent import Repeated, dependent_among, quoted
-from lagrangian.dynamics.describe import describe
-from lagrangian.dynamics.description import Inputs
+from lagrangian.dynamics.dependent import Repeated, dependent_among, independent_somewhere, quoted
 from lagrangian.dynamics.friction import slips
-from lagrangian.dynamics.programs import mass_matrix
+from lagrangian.dynamics.programs import mass_matrix, sketch
 from lagrangian.errors import ModelError, Notice, Place
-from lagrangian.graph import Graph, Program, evaluate
+from lagrangian.graph import Program, evaluate
 from lagrangian.model import Body, Gravity, Kinetic, Model, Parameter, VelocityConstraint
 from lagrangian.model.body_checks import ConstantValues, Doubt, doubt
 from lagrangian.model.rows import named_conditions, rows_of
@@ -93,8 +91,9 @@ def dependent_rows(model: Model) -> Repeated:
     def found() -> Repeated:
         if not model.constraints:
             return {}
-        graph = Graph()
-        m = describe(slips(model), graph, Inputs.of(graph, model))
+        graph, _, m = sketch(slips(model))
+        if not m.spare and not m.drags and independent_somewhere(graph, m.rows, m.v, m.inertia(m.groupings[0])):
+            return {}
         return dependent_among(graph, m.rows, m.v, m.constrained_problems, m.known)
 
     return model.remembered("dependent rows", found)

@@ -37,6 +37,14 @@ def _start(model: Model, *, state: bool = False) -> tuple[Graph, Inputs, Mechani
     return graph, inputs, describe(model, graph, inputs)
 
 
+def sketch(model: Model) -> tuple[Graph, Inputs, Mechanics]:
+    """The mechanics of a model in one graph that everything shares whose numbers are needed a few times only.
+
+    Programs that are compiled have graphs of their own, in which their operations are chosen.
+    """
+    return model.remembered("sketch", lambda: _start(model))
+
+
 def _program(
     model: Model, name: str, graph: Graph, outputs: Mapping[str, Output], *, groups: Sequence[str] = ("q", "v")
 ) -> Program:

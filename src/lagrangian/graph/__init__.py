@@ -10,6 +10,7 @@ from lagrangian.graph.program import Count, Output, Program, count_operations, c
 from lagrangian.graph.replace import copied, replaced
 from lagrangian.graph.scalar import Scalar
 from lagrangian.graph.to_sympy import to_sympy
+from lagrangian.graph.variations import Variations
 
 __all__ = [
     "Count",
@@ -21,6 +22,7 @@ __all__ = [
     "Scalar",
     "Tangents",
     "Valuation",
+    "Variations",
     "backwards",
     "bends",
     "bounds",

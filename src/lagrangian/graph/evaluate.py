@@ -166,6 +166,10 @@ class Valuation:
         self._graph, self._inputs = graph, inputs
         self._known: dict[int, Any] = {}
 
+    def value(self, i: int) -> float:
+        """The value of a node."""
+        return self._known[i] if i in self._known else self((i,))[0]
+
     def __call__(self, ids: Sequence[int]) -> list[float]:
         """The values of nodes."""
         nodes, known = self._graph.nodes, self._known

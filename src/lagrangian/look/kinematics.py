@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from lagrangian.dynamics import Inputs, placed
 from lagrangian.dynamics.vectors import plus, times
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, Output, Program, Tangents, Valuation, jvp
+from lagrangian.graph import Graph, Output, Program, Valuation, Variations, jvp
 from lagrangian.model import Frame, Model, Point
 from lagrangian.records import dataclass
 
@@ -74,7 +74,7 @@ class Kinematics:
         self._nodes: list[list[int]] = [list(motion.position(places[p])) for p in self.points]
         self._parameters: Array | None = None
         self._valuations: dict[tuple[bytes, bytes, float, float], Valuation] = {}
-        self._tangents = [Tangents(self.graph, {s: self.graph.one}) for s in (*self.inputs.q, self.inputs.t)]
+        self._variations: dict[Any, Variations] = {}
 
     # -- points -------------------------------------------------------------------------------------------------
 
@@ -131,14 +131,11 @@ class Kinematics:
         motion = self.described.motion
         r = [i for node in self._nodes[first:] for i in node]
         rotations = [motion.rotation(self.described.axes[f]) for f in frames]
-        R = [x for rows in rotations for row in rows for x in row]
-        slopes = [along([*r, *R]) for along in self._tangents]
-        flat = [*r, *R, *(x for column in slopes for x in column)]
+        flat = [*r, *(x for rows in rotations for row in rows for x in row)]
         values = np.array([self._at(q, p, t=t)(flat) for q in states])
+        slots = self._varied(states, p, t)(flat)
         size = count * d
-        width = size + turns * d * d
         many = len(states)
-        slots = values[:, width:].reshape(many, n + 1, width)
         places = (
             values[:, :size].reshape(many, count, d),
             np.moveaxis(slots[:, :n, :size].reshape(many, n, count, d), 1, -1),
@@ -151,7 +148,7 @@ class Kinematics:
             return Views(r_all, J_all, rt_all, known.R, known.RJ, p, states, t)
         return Views(
             *places,
-            values[:, size:width].reshape(many, turns, d, d),
+            values[:, size:].reshape(many, turns, d, d),
             np.moveaxis(slots[:, :n, size:].reshape(many, n, turns, d, d), 1, -1),
             p,
             states,
@@ -206,6 +203,18 @@ class Kinematics:
         self._valuations[key] = found  # the last one used is last
         if len(self._valuations) > KEPT:
             del self._valuations[next(iter(self._valuations))]
+        return found
+
+    def _varied(self, states: Sequence[Array], p: Array, t: float) -> Variations:
+        """The derivatives of nodes by the coordinates and by time at states; those of the last few lists are kept."""
+        key = tuple(q.tobytes() for q in states), p.tobytes(), t
+        found = self._variations.pop(key, None)
+        if found is None:
+            at = [self._at(q, p, t=t) for q in states]
+            found = Variations(self.graph, at, (*self.inputs.q, self.inputs.t))
+        self._variations[key] = found
+        if len(self._variations) > KEPT:
+            del self._variations[next(iter(self._variations))]
         return found
 
     def evaluated(self, expressions: Sequence[sp.Expr], q: Array, p: Array, *, u: float = 0.0) -> Array:
