@@ -14,6 +14,7 @@ import pytest
 import built_in
 import lagrangian as lg
 from lagrangian.page.motion import SceneMotion
+from lagrangian.page.scene import SWING
 from lagrangian.simulate.animating import hermite, usual_speed
 from lagrangian.view.movies import centiseconds
 from svg_player import SVG, moving, parsed, place, value
@@ -90,6 +91,18 @@ def test_carts_that_were_moved_apart_do_not_meet() -> None:
     shifts = [next(p.placement.shift for p in motion.parts if p.placement.at == a) for a in (first, second)]
     gap = motion.at[:, second] + shifts[1] - motion.at[:, first] - shifts[0]
     assert gap[:, 0].min() > 58 and np.ptp(gap[:, 0]) > 20
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 50.0])
+def test_a_motion_without_sizes_is_drawn_as_large_as_there_is_room(size: float) -> None:
+    """A mass on a spring reaches as far in the picture whether it swings by micrometres or by metres."""
+    system = lg.System("oscillator")
+    x = system.coordinate("x")
+    system.particle(1, at=system.point("mass", (x, 0)))
+    system.spring(40, deflection=x)
+    motion = system.simulate(2.0, x=size).animate().motion
+    (handle,) = motion.scene.handles
+    assert np.ptp(motion.at[:, handle], axis=0) == pytest.approx([2 * SWING, 0.0], abs=0.5)
 
 
 def test_the_ground_is_as_wide_as_the_frame() -> None:

@@ -74,6 +74,8 @@ class Board:
     """The windings that move something along a line, by name."""
     flows: list[Flow] = field(default_factory=list[Flow])
     """The charges that flow around loops of circuits."""
+    sizeless: bool = False
+    """Whether nothing has a size [m], as where bodies only slide."""
     hidden: frozenset[str] = frozenset()
     """The names of elements that are not to be drawn."""
     _views: Views | None = None

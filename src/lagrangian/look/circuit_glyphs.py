@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BODY, EFFORT, JOINT, TIE, Board
 from lagrangian.look.circuit_loops import LAWS, CircuitLoop, CircuitRow, PlacedBranch, moved_by, rows_of_loops
 from lagrangian.look.shapes import arc, box, head, joined, line, lines, turned
-from lagrangian.look.tie_glyphs import LOCAL
+from lagrangian.look.tie_glyphs import LOCAL, own_name
 from lagrangian.model import CircuitBranch, MutualInductance, Transducer, VoltageSource
 from lagrangian.page.scene import Disc, Flow, Pair, Path, Role
 
@@ -34,8 +34,6 @@ INSIDE = 7.0
 """How far inside its wires the charge of a loop flows, so that neighbours can be told apart [px]."""
 THICK = {"resistor": 6.0, "inductor": 7.0, "transducer": 15.0}
 """Half of how thick glyphs are, as far as not round [px]."""
-LONGEST = 12
-"""A branch whose law is more than a letter is labelled by its own name, if that is not longer."""
 
 USUAL = {"inductor": "L", "capacitor": "C", "resistor": "R", "mutual_inductance": "M"}
 """With which letter the constants of a branch begin: of a law with one of these, it is the label."""
@@ -178,7 +176,7 @@ def _branch(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pai
             )  # fmt: skip
     thick = THICK.get(element.kind, ROUND)
     board.block(middle, *((2 * HALF, 2 * thick) if abs(np.cos(angle)) > 0.5 else (2 * thick, 2 * HALF)))
-    board.wish(_names(element), middle, out, role, of, distance=thick + 4.0)
+    board.wish(branch_names(element), middle, out, role, of, distance=thick + 4.0)
 
 
 def _supply(board: Board, x: PlacedBranch, middle: Array, angle: float, out: Pair) -> None:
@@ -262,16 +260,16 @@ def _flux(board: Board, element: MutualInductance, centre: Pair) -> None:
     core = lines(*(((x + s, y - 19.0), (x + s, y + 19.0)) for s in (-2.5, 2.5)))
     board.put(core, "body", of=of, kind=element.kind, layer=TIE, moves=False)
     board.block(centre, 9.0, 38.0)
-    board.wish(_names(element), (x, y - 19.0), (0.0, -1.0), "body", of, distance=3.0)
+    board.wish(branch_names(element), (x, y - 19.0), (0.0, -1.0), "body", of, distance=3.0)
 
 
-def _names(element: CircuitBranch) -> tuple[str, ...]:
+def branch_names(element: CircuitBranch) -> tuple[str, ...]:
     """The letter of a branch; where its law is more than a letter, its own name, or else the letters in it."""
-    own, letter = element.name, element.suggested_name()
+    letter = element.suggested_name()
     if letter:
         return (letter,)
-    if own and len(own) <= LONGEST and not own.startswith(element.kind.partition("_")[0]):
-        return (own,)
+    if own := own_name(element):
+        return own
     laws = [x for key in LAWS if isinstance(x := getattr(element, key, None), sp.Expr)]
     names = sorted({str(x) for law in laws[:1] for x in law.free_symbols} - {*LOCAL})
     usual = [name for name in names if name.startswith(USUAL.get(element.kind, " "))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import pi
 
 import numpy as np
@@ -29,13 +30,27 @@ def driven(board: Board, k: int) -> None:
     e = rate / (np.linalg.norm(rate) or 1.0)
     n = np.array([-e[1], e[0]])
     n = n if n[0] < 0 else -n
-    to_and_fro(board, board.at(k) + 32.0 * n, e)
+    to_and_fro(board, board.at(k) + 32.0 * n, e, moving_names(board, board.stage.model.position(board.stage.points[k])))
 
 
-def to_and_fro(board: Board, at: Array, e: Array) -> None:
-    """A double arrow at a place on the screen along the direction e."""
+def to_and_fro(board: Board, at: Array, e: Array, names: tuple[str, ...]) -> None:
+    """A double arrow at a place on the screen along the direction e, with the letters of the motion."""
     board.arrow(at, at + 20.0 * e, "input", kind="driven", width=1.6)
     board.arrow(at, at - 20.0 * e, "input", kind="driven", width=1.6)
+    side = np.array([-e[1], e[0]])
+    board.wish(names, at, side if side[0] < 0 else -side, "input", distance=5.0)
+
+
+def moving_names(board: Board, expressions: Iterable[sp.Expr]) -> tuple[str, ...]:
+    """The letters in what moves as a function of time, such as those of an amplitude and a frequency."""
+    model = board.stage.model
+    still = {c.symbol: sp.Dummy() for c in model.coordinates}
+    found = list[sp.Expr]()
+    for term in (x for expr in expressions for x in sp.Add.make_args(model.expand(expr).xreplace(still))):
+        if term.has(time):
+            functions = [f for f in term.atoms(sp.core.function.AppliedUndef) if f.args == (time,)]
+            found += functions or [s for s in term.free_symbols if s != time and not isinstance(s, sp.Dummy)]
+    return tuple(sorted({str(getattr(x, "name", None) or x.func) for x in found}))[:3]
 
 
 def moved_by_time(board: Board, element: Element) -> bool:
@@ -63,12 +78,17 @@ def driven_round(board: Board, k: int, home: int = 0) -> bool:
     board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", board.towards(base, k), kind="driven", width=1.2, layer=layer)
     board.fence(middle, at)
     start = heading((float(at[0] - middle[0]), float(at[1] - middle[1])))
-    board.bow(middle, pixels + 10.0, start - 0.5 * sense, start - 1.5 * sense, "input", kind="driven", width=1.6)
+    begin, end = start - 0.5 * sense, start - 1.5 * sense
+    board.bow(middle, pixels + 10.0, begin, end, "input", kind="driven", width=1.6)
     known = _circle(board, k, home, board.motions.views.p)
     name = None if known is None else board.motions.named(known[1])
     if name is not None:
         away = at - middle
         board.wish((name.name,), (middle + at) / 2, (-away[1], away[0]), "thin", distance=3.0)
+    names = moving_names(board, board.stage.model.position(board.stage.points[k]))
+    tip = np.array([np.cos(end), np.sin(end)])
+    others = [x for x in names if name is None or x != name.name]
+    board.wish(others, middle + (pixels + 10.0) * tip, tip, "input", distance=4.0)
     return True
 
 

@@ -221,17 +221,8 @@ class EffortArtist:
         board, of = self.board, (element.name,)
         if turn.name in board.shaft_spots:
             spot = board.shaft_spots[turn.name] + (-34.0, 0.0)
-            board.bow(
-                spot,
-                15.0,
-                pi * 1.25,
-                pi * 0.75,
-                "input",
-                of=of,
-                kind="torque",
-                width=2.0,
-                layer=EFFORT,
-            )
+            start, end = (1.25 * pi, 0.75 * pi) if sense > 0 else (0.75 * pi, 1.25 * pi)
+            board.bow(spot, 15.0, start, end, "input", of=of, kind="torque", width=2.0, layer=EFFORT)
             board.wish(symbol_names(element), spot + (-8.0, -16.0), (-0.6, -1.0), "input", of)
             return
         at = board.at(turn.joint)

@@ -23,6 +23,8 @@ ROUNDS, BAD = 2, 1.5
 """How often labels are placed again, and from which cost on."""
 ORDER = {role: k for k, role in enumerate(("coordinate", "body", "input", "gravity", "stiffness", "damping"))}
 """Which labels are placed first."""
+APART = 7.0
+"""Letters on one line that are nearer than this [px] read as a product."""
 FAR = 11.0
 """From which distance [px] on a label has a line to its place."""
 
@@ -142,7 +144,9 @@ def _best(wish: Wish, given: Array, others: list[Box], ink: Ink) -> tuple[Box, f
     if len(given):
         cost = cost + 6.0 * _overlaps(box, given).sum(axis=1)
     if others:
-        cost = cost + 12.0 * _overlaps(box, np.array(others, float)).sum(axis=1)
+        met = np.array(others, float)
+        wider = box + (-APART, height / 4, 2 * APART, -height / 2)
+        cost = cost + 12.0 * _overlaps(box, met).sum(axis=1) + 0.7 * (_overlaps(wider, met) > 0).any(axis=1)
     covered = ink.under(box[:, 0])
     cost = cost + 2.0 * (covered > 0) + 0.3 * np.minimum(covered, 30)
     least = int(np.argmin(cost))

@@ -228,11 +228,9 @@ class MeasureArtist:
     def _arc(self, i: int, name: str, turn: Turn, sense: float) -> None:
         board = self.board
         if turn.name in board.shaft_spots:
-            spot = board.shaft_spots[turn.name] + (0.0, 40.0)
-            board.bow(
-                spot + (0.0, -6.0), 20.0, pi * 0.78, pi * 0.22, "coordinate", of=(name,), kind="coordinate", width=1.8
-            )
-            board.wish((name,), spot + (0.0, 16.0), (0.0, 1.0), "coordinate", (name,), distance=4.0)
+            spot, half = board.shaft_spots[turn.name] + (8.0, 0.0), 0.7 if sense >= 0 else -0.7
+            board.bow(spot, 30.0, pi + half, pi - half, "coordinate", of=(name,), kind="coordinate", width=1.8)
+            board.wish((name,), spot - (22.0, 24.0), (-0.3, -1.0), "coordinate", (name,), distance=2.0)
             return
         at, tip = board.at(turn.joint), board.at(turn.tip)
         d = tip - at

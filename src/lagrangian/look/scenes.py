@@ -26,6 +26,7 @@ from lagrangian.look.labels import placed_labels
 from lagrangian.look.measures import MeasureArtist
 from lagrangian.look.outlines import draw_hints
 from lagrangian.look.pose import Pose
+from lagrangian.look.pulls import draw_pulls
 from lagrangian.look.space_scene import draw_in_space
 from lagrangian.look.space_supports import draw_fixed_axes
 from lagrangian.look.spread import spread
@@ -39,7 +40,7 @@ from lagrangian.look.turning import turns_of
 from lagrangian.look.words import description
 from lagrangian.model import Model
 from lagrangian.page.placing import placed
-from lagrangian.page.scene import Disc, Flow, Label, Path, Scene, Trace
+from lagrangian.page.scene import SWING, Disc, Flow, Label, Path, Scene, Trace
 from lagrangian.page.scene import ScenePart as Shape
 
 Array = NDArray[np.float64]
@@ -50,6 +51,8 @@ MANY, ROOMIEST = 9, 2.0
 """From how many coordinates and elements on a picture gets more room for their letters, and how much of it at most."""
 ROTOR = 7.0
 """How many times smaller than the longest rod the path of what is moved round on a body is drawn."""
+PLAIN = 100.0
+"""Pixels a metre in the schematic where nothing has a size."""
 SLIDE = 72.0
 """How far a sliding body is drawn from its reference [px]."""
 BORDER = 16.0
@@ -94,7 +97,8 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     pose = Pose(motions, p, hints.pose)
     to_scale = show_strings(pose, strings)
     board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))
-    board.scale = _scale(board, parts, to_scale)
+    size = _scale(board, parts, to_scale)
+    board.scale, board.sizeless = size or PLAIN, size is None
     _slide_apart(board, pose, parts)
     board.pinned = frozenset(
         stage.index(point) for e in model.constraints for _, point in e.points() if e.kind in ("pin", "ball", "weld")
@@ -120,6 +124,9 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     say_unjoined(board, parts, hints.lines, [*strings, *hoists, *gears], _say_carried(board, parts, strings, hints))
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
+    draw_pulls(board, parts, resolver)
+    if board.sizeless and room is None and (board.walled or any(x.kind == "pull" for x in board.parts)):
+        room = SWING
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns, [x.holder for x in strings if x.holder]).draw()
     return _framed(board, model, hints, description(board, parts, ties, turns, [*strings, *hoists, *gears]), room)
@@ -145,8 +152,11 @@ def _say_carried(board: Board, parts: list[Player], strings: list[PulleyString],
 # -- scale ------------------------------------------------------------------------------------------------------------
 
 
-def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> float:
-    """Pixels a metre: so that rods, links and wheels fill the picture, whatever their true size."""
+def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> float | None:
+    """Pixels a metre: so that rods, links and wheels fill the picture, whatever their true size.
+
+    None if nothing has a size.
+    """
     board.scale = 1.0
     structure: list[Array] = []
     longest = 0.0
@@ -185,10 +195,10 @@ def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> fl
     size = max(size, 1e-9)
     model = board.stage.model
     room = min(ROOMIEST, max(1.0, (len(model.coordinates) + len(model.elements)) / MANY)) ** 0.5
-    wanted = room * LARGE / size if size > 1e-6 else 100.0
+    wanted = room * LARGE / size if size > 1e-6 else PLAIN
     if longest > 1e-9:
         return min(wanted, room * LONGEST / longest)
-    return min(max(wanted, 1e-6), 1e6) if size > 1e-6 else 100.0
+    return min(max(wanted, 1e-6), 1e6) if size > 1e-6 else None
 
 
 def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
@@ -249,6 +259,7 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
         {c.name: float(x) for c, x in zip(model.coordinates, board.q, strict=True)},
         tuple(board.solids),
         tuple(_moved_flow(flow, origin) for flow in board.flows),
+        board.sizeless,
     )
     return scene, board.stage.program(anchors)
 

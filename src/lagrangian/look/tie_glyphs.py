@@ -12,11 +12,12 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.board import BEHIND, GROUND, JOINT, TIE, Board
+from lagrangian.look.board import GROUND, JOINT, TIE, Board
 from lagrangian.look.cast import BodyGlyph, Player
-from lagrangian.look.driven import moved_by_time, to_and_fro
+from lagrangian.look.driven import moved_by_time, moving_names, to_and_fro
 from lagrangian.look.holds import HoldKind
-from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, lines, spiral, turned
+from lagrangian.look.shaft_glyphs import draw_shaft, on_shaft
+from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, spiral, turned
 from lagrangian.look.spread import slide_along, wall_side
 from lagrangian.look.supports import WALL, sole_of
 from lagrangian.look.ties import Tie
@@ -50,7 +51,7 @@ class TieArtist:
 
     def draw(self) -> None:
         """Draw all ties."""
-        self.draw_shaft()
+        draw_shaft(self.board)
         groups: dict[object, list[Tie]] = {}
         for tie in self.ties:
             groups.setdefault(self._pair(tie), []).append(tie)
@@ -239,7 +240,8 @@ class TieArtist:
             self.walls.add(key)
             self._wall(k, base, side * wall_at * e + self._lift(k, e), side * e, 29.0)
             if moved_by_time(board, tie.element):
-                to_and_fro(board, board.at(k) + side * (wall_at + 8.0) * e + self._lift(k, e) + 48.0 * n, e)
+                at = board.at(k) + side * (wall_at + 8.0) * e + self._lift(k, e) + 48.0 * n
+                to_and_fro(board, at, e, moving_names(board, [getattr(tie.element, "deflection")]))  # noqa: B009
 
     def _stop(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         """A tie from a point of a body to the ground, along x or y."""
@@ -252,7 +254,8 @@ class TieArtist:
             self.walls.add(key)
             self._wall(k, base, WALL * e, e, 26.0)
             if moved_by_time(board, tie.element):
-                to_and_fro(board, board.at(k) + (WALL + 8.0) * e + 44.0 * n, e)
+                names = moving_names(board, [getattr(tie.element, "deflection")])  # noqa: B009
+                to_and_fro(board, board.at(k) + (WALL + 8.0) * e + 44.0 * n, e, names)
 
     def _tied_to_rest(self, tie: Tie, k: int, near: Array, far: Array, names: tuple[str, ...], role: Role) -> int:
         """A tie between two places, both by their steps from a point [px]; the far one is at rest, at this point."""
@@ -283,8 +286,8 @@ class TieArtist:
         foot = (beside + 3.0) * n
         angle = heading((float(e[0]), float(e[1])))
         if upright:
-            edge = board.placed(k, *((beside + 5.0) * n))
-            board.put(turned(floor(-38.0, 38.0), pi / 2), "ground", edge, kind="wall", layer=GROUND, moves=False)
+            edge = Placement(board.anchor(board.stage.fixed(board.r[k])), shift=self._shifted(k, (beside + 5.0) * n))
+            board.put(turned(floor(-38.0, 38.0), pi / 2), "ground", edge, kind="floor", layer=GROUND)
         place = board.placed(k, float(foot[0]), float(foot[1]))
         shape = turned(line((-32.0, 0.0), (32.0, 0.0)), angle)
         board.put(shape, role, place, of=(tie.element.name,), kind="friction", width=4.0, dashed=True, layer=GROUND + 1)
@@ -319,7 +322,7 @@ class TieArtist:
     def _at_joint(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
         board, of = self.board, (tie.element.name,)
         if turn.name in board.shaft_spots:
-            self._on_shaft(tie, turn, names, role)
+            on_shaft(board, tie, turn, names, role)
             return
         at = board.at(turn.joint)
         rings = self.rings[turn.joint] = self.rings.get(turn.joint, -1) + 1
@@ -333,41 +336,9 @@ class TieArtist:
         board.block(at, 22 + 9 * rings, 22 + 9 * rings)
         board.wish(names, at, -tip + (-8.0, 0.0), role, of, distance=14.0 + 5 * rings)
 
-    def draw_shaft(self) -> None:
-        """The shaft through discs that turn about one axis, in bearings at both ends."""
-        spots = [*self.board.shaft_spots.values()]
-        if not spots:
-            return
-        board = self.board
-        left, right, y = min(s[0] for s in spots) - 46.0, max(s[0] for s in spots) + 46.0, float(spots[0][1])
-        inner = min(s[0] for s in spots), max(s[0] for s in spots)
-        board.put(line((left - 10, y), (right + 10, y)), "thin", kind="axis", width=0.9, layer=BEHIND)
-        for side in (-4.0, 4.0):
-            board.put(line((inner[0], y + side), (inner[1], y + side)), "rod", kind="shaft", width=1.4, layer=BEHIND)
-        for x in (left + 8.0, right - 8.0):
-            for side, angle in ((-7.0, pi), (7.0, 0.0)):
-                board.put(turned(floor(-12.0, 12.0), angle, float(x), y + side), "ground", kind="bearing", layer=GROUND)
-            board.block((x, y), 26, 30)
 
-    def _on_shaft(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
-        """The piece of shaft between two discs, or the bearing of one."""
-        board, of = self.board, (tie.element.name,)
-        spot = board.shaft_spots[turn.name]
-        if isinstance(tie.a, Turn) and tie.a.name in board.shaft_spots:
-            a, b = sorted((board.shaft_spots[tie.a.name], spot), key=lambda s: float(s[0]))
-            before = self.rings.get(-1, 0)
-            self.rings[-1] = before + 1
-            board.wish(names, (a + b) / 2 + ((before - 0.3) * 16, -5.0), (0.0, -1.0), role, of, distance=8.0)
-            y = float(a[1])
-            hatch = [((x, y + 4.0), (x + 5.0, y - 4.0)) for x in np.arange(a[0] + 14, b[0] - 14, 8.0)]
-            if tie.element.kind == "spring":
-                board.put(lines(*hatch), role, of=of, kind="spring", width=1.2, layer=TIE + 1)
-            return
-        used = self.rings.get(-2, 0)
-        self.rings[-2] = used + 1
-        board.wish(names, spot + (38.0, 12.0 + 16 * used), (0.2, 1.0), role, of, distance=8.0)
-
-
+LONGEST = 12
+"""An element whose law is more than a letter is labelled by its own name, if that is not longer."""
 LOCAL = ("delta", "current", "charge", "t")
 """What laws say with letters of their own, and time."""
 
@@ -380,7 +351,14 @@ def symbol_names(element: Element) -> tuple[str, ...]:
         found = [name for x in values if isinstance(x, sp.Expr) for name in names_in(x)]
         if found:
             return tuple(dict.fromkeys(found))[:2]
-    return ()
+    return own_name(element)
+
+
+def own_name(element: Element) -> tuple[str, ...]:
+    """The name that was given to an element, if it is short; not its number or its kind."""
+    name = element.name
+    given = not name.isdigit() and not name.startswith(element.kind.partition("_")[0])
+    return (name,) if given and 0 < len(name) <= LONGEST else ()
 
 
 def names_in(expr: sp.Expr) -> list[str]:
@@ -392,9 +370,7 @@ def names_in(expr: sp.Expr) -> list[str]:
 def _main_symbols(expr: sp.Expr) -> Sequence[sp.Expr]:
     """An expression that is a symbol, a function of time, or a number times one; otherwise nothing of it."""
     _, bare = expr.as_coeff_Mul()
-    if isinstance(bare, sp.Symbol) or (
-        isinstance(bare, sp.Function) and len(bare.args) == 1 and bare.args[0].is_Symbol
-    ):
+    if isinstance(bare, sp.Symbol) and str(bare) not in LOCAL:
         return [bare]
     inputs = sorted(expr.atoms(sp.core.function.AppliedUndef), key=str)
     return [x for x in inputs if not expr.has(sp.Derivative)][:1]

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from lagrangian.page.ground import extended, laid_out
 from lagrangian.page.placing import Drawn, placed, places
-from lagrangian.page.scene import Scene, ScenePart, Trace, drawing_order
+from lagrangian.page.scene import SWING, Scene, ScenePart, Trace, drawing_order
 from lagrangian.records import dataclass
 
 Array = NDArray[np.float64]
 
+LETTER = 9.0
+"""At least how wide a frame is for each letter of the words in it [px]."""
 MARGIN = 18.0
 """The space around everything that moves [px]."""
 
@@ -104,7 +106,10 @@ def motion(
         scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending, bool(np.ptp(away) > 0)
     )
     left, top, right, bottom = _proportioned(*_bounds(whole, still))
-    bottom += WORDS * (right - left) if ending or whole.pace else 0.0
+    if ending or whole.pace:
+        wide = max(0.0, min(WIDEST, LETTER * max(len(ending), len(whole.pace))) - (right - left)) / 2
+        left, right = left - wide, right + wide
+        bottom += max(2 * LETTER, WORDS * (right - left))
     low, high = away.min(axis=0), away.max(axis=0)
     reach = left + low[0], top + low[1], right + high[0], bottom + high[1]
     parts = tuple(extended(part, fine[0], reach) for part in scene.parts)
@@ -137,16 +142,22 @@ def restrained(scene: Scene, at: Array) -> Array:
     """Return places (frames, anchors, 2) in which bodies that the scene moved apart do not meet.
 
     Such a scene is not to scale: displacements from its pose are reduced by one factor. Anchors that turn about another
-    one keep their distance from it.
+    one keep their distance from it. Where nothing has a size, displacements from the middle of the motion are drawn as
+    large as there is room, and at least so large that they can be seen.
     """
-    if scene.room is None or len(scene.handles) < 2:
+    handles, rest = list(scene.handles), places(scene)
+    if not handles or (scene.room is None and not scene.sizeless) or (len(handles) < 2 and not scene.sizeless):
         return at
-    rest = places(scene)
-    moved = at - rest
-    pairs = list(combinations(scene.handles, 2))
-    apart = max(float(np.max(np.hypot(*(moved[:, a] - moved[:, b]).T))) for a, b in pairs)
-    factor = min(1.0, 2 * scene.room / apart) if apart > 0 else 1.0
-    if factor == 1.0:
+    moved = at - ((at.min(axis=0) + at.max(axis=0)) / 2 if scene.sizeless else rest)
+    ways = moved[:, handles]
+    apart = max((float(np.hypot(*(ways[:, a] - ways[:, b]).T).max()) for a, b in combinations(range(len(handles)), 2)),
+                default=2 * float(np.hypot(*ways[:, 0].T).max()))  # fmt: skip
+    factor = 2 * scene.room / apart if scene.room is not None and apart > 0 else np.inf
+    if factor >= 1.0:
+        most = float(np.hypot(*np.moveaxis(ways, -1, 0)).max())
+        seen = scene.sizeless and most > 1e-9 * scene.scale
+        factor = max(1.0, min(factor, (scene.room or SWING) / most)) if seen else 1.0
+    if factor == 1.0 and (scene.room is None or not scene.sizeless):
         return at
     found = rest + factor * moved
     for anchor, about in _carried(at):

@@ -53,6 +53,8 @@ class Placement:
 
 
 FIXED = Placement()
+SWING = 34.0
+"""How far the motion of a picture without sizes reaches at least, to both sides of its middle [px]."""
 
 
 @dataclass(frozen=True)
@@ -180,6 +182,8 @@ class Scene:
 
     flows: tuple[Flow, ...] = ()
     """The charges that flow around the loops of circuits."""
+    sizeless: bool = False
+    """Whether nothing in it has a size [m]: displacements are then drawn as large as can be seen well."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""
@@ -199,6 +203,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "parts": [_part(part) for part in scene.parts if part.moves],
         "handles": scene.handles,
         "room": scene.room,
+        "swing": SWING if scene.sizeless else None,
         "solids": scene.solids,
     }
 

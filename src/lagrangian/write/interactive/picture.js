@@ -235,18 +235,25 @@ class Picture {
       const charges = states.map(({ x }) => x[flow.state]);
       [flow.low, flow.high] = [Math.min(...charges), Math.max(...charges)];
     }
-    if (scene.room === null || !states.length) return;
+    const { room, swing } = scene;
+    if ((room === null && swing === null) || !states.length) return;
     const keep = displaced.middle;
     displaced.middle = null;
     const seen_ = states.map(({ x, t }) => Float64Array.from(this.place(x, t)));
     const middle = keep ?? this.r.map((_, i) => (Math.min(...seen_.map((s) => s[i])) + Math.max(...seen_.map((s) => s[i]))) / 2);
-    let largest = 0;
+    let largest = 0, most = 0; // how far two bodies come apart, and how far one goes
     for (const s of seen_)
       for (const a of scene.handles)
-        for (const b of scene.handles)
-          for (let i = 0; i < depth; i++) largest = Math.max(largest, Math.abs(s[a * depth + i] - middle[a * depth + i] - s[b * depth + i] + middle[b * depth + i]));
-    displaced.middle = middle;
-    displaced.factor = Math.min(4, (2 * scene.room) / Math.max(1e-12, scene.scale * largest));
+        for (let i = 0; i < depth; i++) {
+          const way = (b) => s[b * depth + i] - middle[b * depth + i];
+          most = Math.max(most, Math.abs(way(a)));
+          for (const b of scene.handles) largest = Math.max(largest, Math.abs(way(a) - way(b)));
+        }
+    if (scene.handles.length === 1) largest = 2 * most;
+    const free = room === null ? Infinity : (2 * room) / Math.max(1e-12, scene.scale * largest);
+    if (free < 1 || swing === null) displaced.factor = Math.min(4, free);
+    else displaced.factor = most > 1e-9 ? Math.max(1, Math.min(free, (room ?? swing) / (scene.scale * most))) : 1;
+    displaced.middle = room === null && displaced.factor === 1 ? keep : middle;
   }
 
   /** Zoom so that a box in pixels of the picture fills a canvas of a size, with a margin. */
