@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import pi
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -41,12 +42,13 @@ def to_and_fro(board: Board, at: Array, e: Array, names: tuple[str, ...]) -> Non
     board.wish(names, at, side if side[0] < 0 else -side, "input", distance=5.0)
 
 
-def moving_names(board: Board, expressions: Iterable[sp.Expr]) -> tuple[str, ...]:
+def moving_names(board: Board, expressions: Iterable[Any]) -> tuple[str, ...]:
     """The letters in what moves as a function of time, such as those of an amplitude and a frequency."""
     model = board.stage.model
     still = {c.symbol: sp.Dummy() for c in model.coordinates}
     found = list[sp.Expr]()
-    for term in (x for expr in expressions for x in sp.Add.make_args(model.expand(expr).xreplace(still))):
+    moved: list[Any] = [model.expand(expr).xreplace(still) for expr in expressions]
+    for term in (x for expr in moved for x in sp.Add.make_args(expr)):
         if term.has(time):
             functions = [f for f in term.atoms(sp.core.function.AppliedUndef) if f.args == (time,)]
             found += functions or [s for s in term.free_symbols if s != time and not isinstance(s, sp.Dummy)]

@@ -42,7 +42,9 @@ def draw_pulls(board: Board, parts: list[Player], resolver: Resolver) -> None:
         slope = _slope(board, element, moving[0])
         tie = resolver.driven(element, moving[0].symbol)
         part = by_point.get(tie.b) if isinstance(tie.b, int) and tie.way == "slides" and tie.a is None else None
-        if part is None or part.glyph not in (BodyGlyph.CART, BodyGlyph.BLOCK) or not np.isfinite(slope) or not slope:
+        if part is None or part.direction is None or part.glyph not in (BodyGlyph.CART, BodyGlyph.BLOCK):
+            continue
+        if not slope or not np.isfinite(slope):
             continue
         e = np.sign(slope) * tie.sign * board.seen(part.direction)
         e = e / np.linalg.norm(e)

@@ -14,7 +14,7 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.codegen.javascript import names_function
 from lagrangian.errors import RunError
-from lagrangian.graph import Program, count_program
+from lagrangian.graph import Output, Program, count_program, replaced
 from lagrangian.integrate import Events, Projection
 from lagrangian.integrate.chattering import ASIDE, LEAST, NEAR, RESTS, Sticking
 from lagrangian.integrate.portable import PortableIntegrator, portable
@@ -197,18 +197,30 @@ class BrowserParts:
             checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
         needed = {**self._around, **checked}
         spared = {name: program for name, program in unchecked.items() if name not in needed}
-        if SHORTEST[brief] * sum(count_program(program).operations for program in spared.values()) > fallback:
-            spared = {}
         printed = machine.brief_javascript if brief else machine.to_javascript
-        texts = {
-            name: printed(_ordered(program), name=name, checked=name in checked)
-            for name, program in {**unchecked, **checked}.items()
-            if name in needed or name in spared
-        }
-        whole = _object(texts)
-        if len(whole) <= fallback:
-            return whole
-        return _object({name: text for name, text in texts.items() if name in needed})
+
+        def written(programs: Mapping[str, Program]) -> str:
+            return _object(
+                {name: printed(_ordered(x), name=name, checked=name in checked) for name, x in programs.items()}
+            )
+
+        if SHORTEST[brief] * sum(count_program(program).operations for program in spared.values()) <= fallback:
+            whole = written({**needed, **spared})
+            if len(whole) <= fallback:
+                return whole
+        return written({**self._residual, **needed})
+
+    @property
+    def _residual(self) -> dict[str, Program]:
+        """x, p, u, t → the rows on positions, which are 0 where loops are closed; for pages without ``approach``."""
+        if self.rows is None or self.rows.approach is None:
+            return {}
+        found = dynamics.residual(self.model)
+        graph, rows, n = found.graph, found.outputs["f"], len(found.inputs["q"])
+        known = {graph.input("q", i): graph.input("x", i) for i in range(n)}
+        known |= {graph.input("v", i): graph.input("x", n + i) for i in range(len(found.inputs["v"]))}
+        f = Output(tuple(replaced(graph, rows.ids, known)), rows.shape)
+        return {"residual": Program("residual", graph, self.field.inputs, {"f": f}, found.defaults)}
 
 
 def _object(texts: Mapping[str, str]) -> str:

@@ -3,13 +3,14 @@
 
 /**
  * The state nearest to x that satisfies all constraints: Newton steps on positions, then one on velocities.
- * @param {Record<string, Function>} functions  `approach` and `landing` are there if the system has constraints
+ * @param {Record<string, Function>} functions  `approach` and `landing` if the system has constraints, or `residual` alone where they are too long
  * @param {ArrayLike<number>} x
  * @param {number} machine  the number of states of the solver, which may have one more
  */
 function consistent(functions, x, p, u, t, machine, velocities = true) {
-  const { approach, landing } = functions, n = x.length, y = new Float64Array(machine);
+  const { approach, landing, residual } = functions, n = x.length, y = new Float64Array(machine);
   y.set(x);
+  if (!approach && residual) return nearest((q) => residual(q, p, u, t).slice(), x);
   for (let round = 0, gap = Infinity; approach && gap > 1e-12 && round < 30; round++) {
     const change = approach(y, p, u, t);
     for (let i = 0; i < n; i++) y[i] += change[i];
@@ -21,6 +22,43 @@ function consistent(functions, x, p, u, t, machine, velocities = true) {
     for (let i = 0; i < n; i++) y[i] += change[i];
   }
   return y.every(Number.isFinite) ? y.slice(0, n) : Float64Array.from(x);
+}
+
+/**
+ * The state nearest to x at which all rows are 0: Newton steps of least length, with slopes from finite differences.
+ * @param {(x: Float64Array) => Float64Array} rows
+ * @param {ArrayLike<number>} x
+ */
+function nearest(rows, x) {
+  let y = Float64Array.from(x), f = rows(y);
+  for (let round = 0; round < 9 && f.some((r) => Math.abs(r) > 1e-13); round++) {
+    const slopes = Array.from(f, () => new Float64Array(y.length));
+    for (let i = 0; i < y.length; i++) {
+      const h = 1e-7 * Math.max(1, Math.abs(y[i])), moved = y.slice();
+      moved[i] += h;
+      rows(moved).forEach((r, k) => (slopes[k][i] = (r - f[k]) / h));
+    }
+    const weights = solved(slopes.map((a) => slopes.map((b) => a.reduce((sum, s, i) => sum + s * b[i], 0))), f);
+    y = y.map((q, i) => q - weights.reduce((sum, w, k) => sum + w * slopes[k][i], 0));
+    f = rows(y);
+  }
+  return y.every(Number.isFinite) ? y : Float64Array.from(x);
+}
+
+/** The solution of A z = b with a symmetric, positive A, by elimination; a row that follows from others counts nothing. */
+function solved(A, b) {
+  const n = b.length, rows = A.map((row, i) => [...row, b[i]]), z = new Float64Array(n);
+  for (let k = 0; k < n; k++)
+    for (let i = k + 1; i < n; i++) {
+      const factor = rows[k][k] > 1e-12 * A[k][k] ? rows[i][k] / rows[k][k] : 0;
+      for (let j = k; j <= n; j++) rows[i][j] -= factor * rows[k][j];
+    }
+  for (let k = n - 1; k >= 0; k--) {
+    let sum = rows[k][n];
+    for (let j = k + 1; j < n; j++) sum -= rows[k][j] * z[j];
+    z[k] = rows[k][k] > 1e-12 * A[k][k] ? sum / rows[k][k] : 0;
+  }
+  return z;
 }
 
 /** T + V of a state at t = 0. */

@@ -9,8 +9,7 @@
   const picture = new Picture(scene, (x, t, r) => physics.functions.anchors(x, run.p, run.u, t, r));
   const motion = new Motion(state, picture), graphs = new Graphs(state), address = new Address(state);
   const player = new Player(state, motion, address), sliders = new Sliders(state, player, address);
-  // without the functions that close loops nothing can be dragged
-  new Dragging(motion, player, sliders, data.constrained && !physics.functions.approach ? [] : scene.handles);
+  new Dragging(motion, player, sliders, scene.handles);
   lightEachOther(state);
   const studies = [offerMap, offerSweep, offerSection].map((offer) => offer(state, sliders));
   sliders.changed = () => studies.forEach((redraw) => redraw());
