@@ -16,7 +16,7 @@ author = "the lagrangian authors"
 copyright = "2026, the lagrangian authors"
 extensions = ["myst_parser", "sphinx.ext.autodoc", "mathml"]
 myst_enable_extensions = ["dollarmath"]
-myst_heading_anchors = 2
+myst_heading_anchors = 3
 source_suffix = {".md": "markdown"}
 exclude_patterns = ["_build"]
 html_theme = "furo"
@@ -28,7 +28,16 @@ html_show_sphinx = False
 html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#1f6aa5", "color-brand-content": "#1f6aa5"},
     "dark_css_variables": {"color-brand-primary": "#6db3e8", "color-brand-content": "#6db3e8"},
+    "top_of_page_buttons": [],
 }
+
+NAMED = {
+    '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Pages">',
+    '<aside class="toc-drawer': '<aside aria-label="On this page" class="toc-drawer',
+    'class="caption" role="heading"': 'class="caption" role="heading" aria-level="2"',
+    "<pre>": '<pre tabindex="0">',
+}
+"""What the theme leaves out: names of regions, levels of headings, and code that the keyboard can scroll."""
 
 
 autodoc_default_options = {"members": True, "inherited-members": "tuple", "member-order": "groupwise"}
@@ -58,7 +67,17 @@ def write_gallery(app: object) -> None:
     runpy.run_path(str(HERE.parent / "tools" / "gallery.py"))["write"](HERE / "gallery")
 
 
+def name_regions(app: Any, failed: object) -> None:
+    """Give the pages that were built what the theme leaves out."""
+    for path in [] if failed else pathlib.Path(app.outdir).rglob("*.html"):
+        text = path.read_text(encoding="utf-8")
+        for before, after in NAMED.items():
+            text = text.replace(before, after) if after not in text else text
+        path.write_text(text, encoding="utf-8")
+
+
 def setup(app: Any) -> None:
     """Hook into the build."""
+    app.connect("build-finished", name_regions)
     app.connect("builder-inited", write_gallery)
     app.connect("autodoc-process-docstring", as_rst)
