@@ -395,7 +395,7 @@ def test_a_loop_stays_closed_while_it_is_dragged(browser: Any, tmp_path: Path) -
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["stewart-platform", "chaplygin-sleigh"])
 def test_a_long_loop_and_a_skate_can_be_dragged(browser: Any, tmp_path: Path, name: str) -> None:
-    """The steps that close the platform's loops are too long for its page; the sleigh's constraint is on rates alone."""
+    """Steps that close the platform's loops are too long for its page; the sleigh's constraint is on rates alone."""
     path = tmp_path / "page.html"
     picture(name).save(path)
     made = Opened(browser, path.as_uri())
