@@ -190,7 +190,7 @@ def test_tables_are_read_as_they_are_written(
 def test_a_table_without_end_is_refused(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(import_module("lagrangian.cli.simulate"), "MAX_BYTES", 1000)
+    monkeypatch.setattr(import_module("lagrangian.cli.table_files"), "MAX_BYTES", 1000)
     table = tmp_path / "force.csv"
     table.write_bytes(b"0" * 1001)
     code, _, err = said(capsys, "-e", "cart-pole", "-d", "1", "-i", f"F=@{table}")

@@ -25,6 +25,34 @@ def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
     return found
 
 
+def ranges(given: Sequence[str] | None, option: str) -> dict[str, tuple[str, str]]:
+    """Return name → (low, high) of options of the form ``name=low:high``."""
+    return {name: _ends(name, side, option) for name, side in assignments(given, option).items()}
+
+
+def _ends(name: str, side: str, option: str) -> tuple[str, str]:
+    low, colon, high = (part.strip() for part in side.partition(":"))
+    if not (low and colon and high):
+        what = "box" if option == "--box" else "range"
+        raise Error(f"the {what} of '{name}' is not low:high", fix=f"{option} {name}=-1:1", code="E406")
+    return low, high
+
+
+def guesses(given: Sequence[str]) -> dict[str, str | None]:
+    """Return name → first guess, or None, of words of the form ``name`` or ``name=value``; raises `Error` for none."""
+    if not given:
+        raise Error("no unknown was named", fix="name parameters or states behind the file: L, or L=0.8", code="E401")
+    found: dict[str, str | None] = {}
+    for item in given:
+        name, equals, value = (part.strip() for part in item.partition("="))
+        if not name or (equals and not value):
+            raise Error(f"unknowns are names, or name=guess (got '{item[:80]}')", fix="L, or L=0.8", code="E406")
+        if name in found:
+            raise Error(f"'{name[:64]}' is given twice", fix="name each unknown once", code="E404")
+        found[name] = value or None
+    return found
+
+
 def point(
     at: Sequence[str] | None, values: Sequence[str] | None, inputs: Sequence[str] | None, fixed: Sequence[str] | None
 ) -> dict[str, Any]:

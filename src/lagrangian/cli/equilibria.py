@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from lagrangian.cli.assignments import assignments
+from lagrangian.cli.assignments import assignments, ranges
 from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import (
     ConstantInputs,
@@ -19,7 +19,6 @@ from lagrangian.cli.terminal import (
     Width,
     open_system,
 )
-from lagrangian.errors import Error
 
 
 def equilibria(
@@ -57,14 +56,7 @@ def equilibria(
     found = open_system(file, example).equilibria(
         inputs=assignments(inputs, "--input"),
         params=assignments(values, "--set"),
-        box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
+        box=ranges(box, "--box"),
         starts=starts,
     )
     put_report(found.report(), wanted, width, output)
-
-
-def _ends(name: str, side: str) -> tuple[str, str]:
-    low, colon, high = (part.strip() for part in side.partition(":"))
-    if not (low and colon and high):
-        raise Error(f"the box of '{name}' is not low:high", fix=f"--box {name}=-1:1", code="E406")
-    return low, high

@@ -11,6 +11,7 @@ import typer
 from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.door import fail, put, say
 from lagrangian.cli.formats import as_json
+from lagrangian.cli.table_files import times_and_values
 from lagrangian.cli.terminal import (
     COMPUTING,
     INTEGRATION,
@@ -34,7 +35,7 @@ from lagrangian.cli.terminal import (
     output_option,
 )
 from lagrangian.cli.wording import in_options
-from lagrangian.errors import Error, ModelError, Place
+from lagrangian.errors import Error
 from lagrangian.integrate.method_names import MACHINE, SCIPY
 
 if TYPE_CHECKING:
@@ -42,10 +43,6 @@ if TYPE_CHECKING:
     from lagrangian.simulate.trajectory import Trajectory
 
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
-
-MAX_BYTES = 64_000_000
-"""The largest size in bytes of a table: a million lines of two long numbers."""
-
 
 Results = Annotated[
     Path | None,
@@ -211,55 +208,4 @@ def input_signal(name: str, value: str) -> Any:
     if kind.strip() not in ("", "hold", "linear"):
         what = f"--input {name}=@FILE may be followed by 'hold' or 'linear' (got '{kind.strip()[:40]}')"
         raise Error(what, fix=f"--input '{name}=@{path} hold'", code="E406")
-    return (*_columns(path), kind.strip() or "linear")
-
-
-def _columns(path: str) -> tuple[list[float], list[float]]:
-    """Return the times and values of a CSV file; a first line of names is skipped."""
-    from lagrangian.simulate.inputs import MAX_KNOTS
-
-    times: list[float] = []
-    values: list[float] = []
-    for number, line in enumerate(_table_text(path).splitlines(), 1):
-        cells = [cell.strip().strip('"') for cell in line.split(",")]
-        if not line.strip() or line.lstrip().startswith("#") or (number == 1 and not any(map(_is_number, cells))):
-            continue
-        if len(cells) != 2 or not all(map(_is_number, cells)):
-            raise ModelError(
-                f"'{line[:60]}' is not a time and a value",
-                place=Place(path, number),
-                fix="write two numbers on each line: 0.5,12.3",
-                code="E406",
-            )
-        times.append(float(cells[0]))
-        values.append(float(cells[1]))
-        if len(times) > MAX_KNOTS:
-            raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
-    if not times:
-        raise ModelError(
-            "the table contains no numbers", place=Place(path), fix="write a time and a value on each line", code="E406"
-        )
-    return times, values
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _table_text(path: str) -> str:
-    """Return the text of a table, up to the largest allowed size, without a byte order mark."""
-    try:
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-        text = data.decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as trouble:
-        reason = getattr(trouble, "strerror", None) or "it is not text"
-        what, fix = f"cannot read the table: {reason.lower()}", "name a text file with a time and a value on each line"
-        raise ModelError(what, place=Place(path), fix=fix, code="E702") from None
-    if len(data) > MAX_BYTES:
-        raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")
-    return text
+    return (*times_and_values(path), kind.strip() or "linear")

@@ -31,6 +31,7 @@ from lagrangian.cli.terminal import (
     Plot,
     Rtol,
     Step,
+    file_and_rest,
     open_system,
     output_option,
 )
@@ -155,7 +156,7 @@ def sweep(
       lagrangian sweep cart.toml 'm~normal(0.2, 0.02)' --draws 1000 -o sweep.zarr
       lagrangian sweep carts.toml k=10:100:50 --output-of "max x1" --json
     """
-    file, grid = _file_and_grid(given, example)
+    file, grid = file_and_rest(given, example, "=" in given[0])
     _check_targets(output, plot, resume, force)
     system = open_system(file, example)
     with _unless_declined():
@@ -210,16 +211,6 @@ def _unless_declined() -> Iterator[None]:
         yield
     except NotStarted:
         raise typer.Exit(0) from None
-
-
-def _file_and_grid(given: list[str], example: str | None) -> tuple[str | None, list[str]]:
-    """Return the path of the model file, None if an example is used, and the texts of what varies."""
-    if example is not None:
-        return None, given
-    if "=" in given[0]:
-        fix = "name a model file first, or a built-in example with --example NAME"
-        raise Error(f"'{given[0]}' is not a model file", fix=fix, code="E401")
-    return given[0], given[1:]
 
 
 def _is_store(output: str | None) -> bool:

@@ -179,6 +179,17 @@ def open_system(file: str | None, example: str | None = None) -> System:
     return load(file)
 
 
+def file_and_rest(given: list[str], example: str | None, no_file: bool) -> tuple[str | None, list[str]]:
+    """Return the path of the model file, None if an example is used, and the other words; ``no_file`` says that the
+    first word cannot be a file."""
+    if example is not None:
+        return None, given
+    if no_file:
+        fix = "name a model file first, or a built-in example with --example NAME"
+        raise Error(f"'{given[0]}' is not a model file", fix=fix, code="E401")
+    return given[0], given[1:]
+
+
 def standard_input() -> str:
     """Return the text of standard input; raises `Error` if it is closed, or no text."""
     from lagrangian import read

@@ -70,6 +70,17 @@ VERBS = {
         "sweep",
         "Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.",
     ),
+    "fit": (
+        "fit",
+        "fit",
+        "Find the parameters and initial values whose runs fit measured data best; exit 1 if the search finds no "
+        "minimum.",
+    ),
+    "optimize": (
+        "optimize",
+        "optimize",
+        "Find the parameters, initial values and inputs that make a run best; exit 1 if the search finds no minimum.",
+    ),
     "look": ("look", "look", "Draw the system and open a page on which it moves, with sliders, plots and equations."),
     "web": (
         "lagrangian.web.verb",

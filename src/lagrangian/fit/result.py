@@ -187,7 +187,7 @@ def _left_over(fit: Fit) -> Part:
     else:
         said = (
             "σ was estimated from these residuals, so χ² equals the degrees of freedom whatever the fit is like: it "
-            "says nothing of it. With the σ of the measurement, sigma=…, it would."
+            "says nothing of it. If the σ of the measurement were given, as sigma, it would."
         )
     uneven = [text(Verbatim(words)) for name in fit.sigma if (words := _not_random(fit, name))]
     return Part(text("Model minus data"), (Table(tuple(map(text, header)), tuple(rows)), text(said), *uneven))

@@ -11,6 +11,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model, as_expr
 from lagrangian.optimize.objective import FAR, Goal, Objective
@@ -125,7 +126,13 @@ def _goal(model: Model, options: OptimizeOptions, given: Given) -> Goal:
     if options.final is None and options.integral is None:
         raise RunError(
             "nothing is to be minimized",
-            fix='give final="(x - 1)^2", a cost at the end, or integral="F^2", a cost along the run',
+            fix=Advice(
+                "give ",
+                Argument("final", "'(x - 1)^2'"),
+                ", a cost at the end, or ",
+                Argument("integral", "'F^2'"),
+                ", a cost along the run",
+            ),
             code="E401",
         )
     reach = options.reach or {}
