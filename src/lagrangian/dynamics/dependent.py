@@ -17,7 +17,8 @@ from lagrangian.dynamics.ordering import Order, cheapest_solution, found_solutio
 from lagrangian.dynamics.row_problem import DependentRow, Problem, RowSolution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError, listed
-from lagrangian.graph import Graph, Output, Program, Valuation, Variations, evaluate, reached
+from lagrangian.graph import Graph, Output, Program, Valuation, evaluate, reached
+from lagrangian.graph.variations import Variations
 
 Array = NDArray[np.float64]
 

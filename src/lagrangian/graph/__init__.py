@@ -10,7 +10,6 @@ from lagrangian.graph.program import Count, Output, Program, count_operations, c
 from lagrangian.graph.replace import copied, replaced
 from lagrangian.graph.scalar import Scalar
 from lagrangian.graph.to_sympy import to_sympy
-from lagrangian.graph.variations import Variations
 
 __all__ = [
     "Count",
@@ -22,7 +21,6 @@ __all__ = [
     "Scalar",
     "Tangents",
     "Valuation",
-    "Variations",
     "backwards",
     "bends",
     "bounds",

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from lagrangian.dynamics import Inputs, placed
 from lagrangian.dynamics.vectors import plus, times
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, Output, Program, Valuation, Variations, jvp
+from lagrangian.graph import Graph, Output, Program, Valuation, jvp
+from lagrangian.graph.variations import Variations
 from lagrangian.model import Frame, Model, Point
 from lagrangian.records import dataclass
 
