@@ -28,7 +28,9 @@ def held(name: str) -> list[bool | None]:
     return [check.holds for check in drawn.drawn_checks(model, states_of(model))]
 
 
-@pytest.mark.parametrize("name", ["cart-pole", "two-carts"], ids=["to scale", "not to scale"])
+@pytest.mark.parametrize(
+    "name", ["cart-pole", "two-carts", "rolling-disc"], ids=["to scale", "not to scale", "in space"]
+)
 def test_a_picture_and_an_animation_hold(name: str) -> None:
     assert held(name) == [True, True, True]
 

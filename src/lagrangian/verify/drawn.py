@@ -20,7 +20,7 @@ from lagrangian.graph import Program
 from lagrangian.model import Model, Point, time
 from lagrangian.page.formula import Check, text
 from lagrangian.page.motion import SceneMotion, restrained
-from lagrangian.page.scene import Disc, Scene, ScenePart, Trace, drawing_order
+from lagrangian.page.scene import Disc, Path, Scene, ScenePart, Trace, drawing_order
 from lagrangian.picture import Picture, picture
 from lagrangian.simulate.animating import animate
 from lagrangian.simulate.settings import RunSettings
@@ -147,10 +147,32 @@ def _apart(parts: Sequence[ScenePart], z: NDArray[np.complex128], found: Sequenc
         wanted = _placed(part, z)
         if not wanted and (not leaf or np.ptp(leaf) == 0):  # the side of a plane that is not seen
             continue
+        if _is_ellipse(part):
+            leaf, wanted = _reach(leaf), _reach(wanted)
         if len(leaf) != len(wanted):
             return np.inf
         worst = max(worst, *(abs(a - b) for a, b in zip(leaf, wanted, strict=True)))
     return worst
+
+
+def _is_ellipse(part: ScenePart) -> bool:
+    """Whether a part is a whole circle in a plane in space, which may begin anywhere and have any number of pieces."""
+    if not isinstance(part.shape, Path) or part.placement.across is None or len(part.shape.commands) < 4:
+        return False
+    ends = [complex(*numbers[-2:]) for letter, numbers in part.shape.commands if letter in "MC"]
+    whole = len(ends) == len(part.shape.commands) and abs(ends[0] - ends[-1]) < ROUNDING
+    return whole and max(abs(abs(z) - 1.0) for z in ends) < ROUNDING
+
+
+def _reach(leaf: Leaf) -> Leaf:
+    """How far a closed outline of cubic curves reaches in each of many directions [px]."""
+    if len(leaf) < 4 or len(leaf) % 3 != 1:
+        return leaf
+    s, z = np.linspace(0.0, 1.0, 33)[:, None], np.array(leaf)
+    a, b, c, d = (z[k : len(z) - 3 + k : 3] for k in range(4))
+    spots = a * (1 - s) ** 3 + 3 * b * s * (1 - s) ** 2 + 3 * c * s**2 * (1 - s) + d * s**3
+    turns = np.exp(-2j * np.pi * np.arange(16) / 16)
+    return [complex(x) for x in (spots.ravel() * turns[:, None]).real.max(axis=1)]
 
 
 def _still(drawn: Picture) -> Check:
@@ -173,7 +195,7 @@ def _film(model: Model, drawn: Picture, state: State) -> Check:
     motion: SceneMotion = made.motion
     chosen = np.unique(np.linspace(0, motion.count - 1, FRAMES).round().astype(int))
     needed = (
-        chosen if drawn.scene.room is None else np.arange(motion.count)
+        np.arange(motion.count) if drawn.scene.room is not None or drawn.scene.sizeless else chosen
     )  # how much less bodies move, all frames say
     again = _run(model, state, motion.times[needed])
     if len(again.t) != len(needed):
@@ -205,7 +227,7 @@ def _anchors_of(model: Model, drawn: Picture, run: Trajectory, k: int) -> Array:
 def _moved_together(scene: Scene, motion: SceneMotion, z: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """The places (frames, anchors) as the motion shows them: bodies that were moved apart move less, and the frame may
     move with all of them."""
-    if scene.room is not None:
+    if scene.room is not None or scene.sizeless:
         at = restrained(scene, np.stack([z.real, z.imag], axis=-1))
         z = at[..., 0] + 1j * at[..., 1]
     if motion.followed:

@@ -23,6 +23,8 @@ from lagrangian.write.tracks import TOLERANCE, Timing, animate, key_frames, move
 
 Array = NDArray[np.float64]
 
+COARSE = 4.0
+"""From so many pixels of the drawing for one on the screen on, forms are written in whole ones."""
 STILL = 0.04
 """What moves less [px] stands still."""
 
@@ -91,7 +93,7 @@ def _together(parts: list[ScenePart], placement: Placement, at: Array, timing: T
     origin, x, y = axes(placement, at)
     oblique = np.abs((x * y).sum(axis=-1)).max() > 1e-6 * np.abs(x).max() * np.abs(y).max()
     if oblique or any(part.facing for part in parts):
-        return "".join(_alone(part, at, timing) for part in parts)
+        return _in_plane(parts, origin, x, y, timing)
     sizes = [np.hypot(v[..., 0], v[..., 1]) for v in (x, y)]
     if any(np.ptp(size * _reach(part, i)) > STILL for i, size in enumerate(sizes) for part in parts):
         if placement.scaling == "along" and all(_is_long(part) for part in parts):
@@ -115,6 +117,55 @@ def _together(parts: list[ScenePart], placement: Placement, at: Array, timing: T
     ox, oy = (number(v) for v in origin[0])
     return f'<g transform="translate({ox},{oy})"><g>{turn}{shapes}</g></g>'
 
+
+def _in_plane(parts: list[ScenePart], origin: Array, x: Array, y: Array, timing: Timing) -> str:
+    """Parts in a plane in space: moved with its origin, about which their forms change.
+
+    The ellipse as which a circle is seen does not change as the circle turns in its plane: its form begins where it is
+    farthest to the right of its middle, at the same height.
+    """
+    axis = np.where(
+        np.abs(x[:, 1]) + np.abs(y[:, 1]) > STILL, np.arctan2(-x[:, 1], y[:, 1]), np.arctan2(y[:, 0], x[:, 0])
+    )
+    axis += np.where(x[:, 0] * np.cos(axis) + y[:, 0] * np.sin(axis) < 0, np.pi, 0.0)
+    c, s = np.cos(axis)[:, None], np.sin(axis)[:, None]
+    steady = np.stack([0 * x, c * x + s * y, c * y - s * x], axis=1)
+    plain = np.stack([0 * x, x, y], axis=1)
+    forms = [
+        _alone(replace(part, shape=ROUND, placement=FLAT), steady, timing)
+        if _is_round(part)
+        else _alone(replace(part, placement=FLAT), plain, timing)
+        for part in parts
+    ]
+    if np.ptp(origin, axis=0).max() <= STILL:
+        px, py = (number(v) for v in origin[0])
+        return f'<g transform="translate({px},{py})">{"".join(forms)}</g>'
+    return f"<g>{moved(origin, timing)}{''.join(forms)}</g>"
+
+
+def _is_round(part: ScenePart) -> bool:
+    """Whether the shape of a part is a circle of radius 1 about the origin of its axes."""
+    if not isinstance(part.shape, Path) or len(part.shape.commands) < 5:
+        return False
+    (first, start), *rest = part.shape.commands
+    ends = [numbers[-2:] for letter, numbers in rest if letter == "C"]
+    if first != "M" or len(ends) < len(rest) or abs(np.subtract(start, ends[-1])).max() > 1e-9:
+        return False
+    return bool(abs((np.array(ends) ** 2).sum(axis=1) - 1.0).max() < 1e-9)
+
+
+QUARTER = 0.5522847498
+ROUND = Path(
+    (
+        ("M", (1.0, 0.0)),
+        ("C", (1.0, QUARTER, QUARTER, 1.0, 0.0, 1.0)),
+        ("C", (-QUARTER, 1.0, -1.0, QUARTER, -1.0, 0.0)),
+        ("C", (-1.0, -QUARTER, -QUARTER, -1.0, 0.0, -1.0)),
+        ("C", (QUARTER, -1.0, 1.0, -QUARTER, 1.0, 0.0)),
+    )
+)
+"""A circle of four curves: at most 0.03 % from the true one."""
+FLAT = Placement(0, 1, across=2)
 
 LAID = Placement(0, 1, "along")
 
@@ -179,10 +230,11 @@ def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
     first = [(letter, numbers[0]) for letter, numbers in drawn]
     if timing is None or len(at) < 2 or _stands(part, at):
         return shape(part, outline(first))
-    geometry = outline([(letter, np.round(numbers, 1)) for letter, numbers in first])  # rounded like the other frames
+    digits = 1 if timing.zoom < COARSE else 0
+    geometry = outline([(letter, np.round(numbers, digits)) for letter, numbers in first])  # as in the other frames
     if len(drawn) == 1 and drawn[0][0] == "O":
         within = "".join(
-            animate(name, drawn[0][1][:, [i]], lambda row: number(float(row[0]), 1), timing)
+            animate(name, drawn[0][1][:, [i]], lambda row: number(float(row[0]), digits), timing)
             for i, name in enumerate(("cx", "cy", "r"))
         )
         return shape(part, geometry, within)
@@ -191,7 +243,7 @@ def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
 
     def write(row: Array) -> str:
         pieces = zip(letters, ends, ends[1:], strict=False)
-        return "".join(letter + pair_text(row[a:b].tolist(), 1) for letter, a, b in pieces)
+        return "".join(letter + pair_text(row[a:b].tolist(), digits) for letter, a, b in pieces)
 
     track = np.concatenate([n for _, n in drawn], axis=-1)
     return shape(part, geometry, animate("d", track, write, timing))
