@@ -83,3 +83,11 @@ def test_time_is_no_letter_of_a_torque() -> None:
     system.torque(3 * system.t, on=frame)
     system.torque(2, on=frame, name="brake")
     assert [x.names for x in system.look().scene.labels if x.role == "input"] == [("brake",)]
+
+
+def test_the_way_of_a_sliding_joint_is_measured_beside_what_slides() -> None:
+    scene = picture("scara").scene
+    arrow, shaft = (
+        _middle(scene, kind="coordinate", elements=("d",)), _middle(scene, kind="link", elements=("shaft",))
+    )  # fmt: skip
+    assert abs(arrow[0] - shaft[0]) > 15.0

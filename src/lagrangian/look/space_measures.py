@@ -72,16 +72,18 @@ class SpaceMeasures:
                 continue
             if i in spins:
                 self.arcs.arc(spins[i], name)
-            elif i in shifts and not (self._rope(i) and self._along(i, name)):
+            elif i in shifts and not (self._joint(i) and self._along(i, name)):
                 chains.setdefault(shifts[i][0], []).append((i, shifts[i][1]))
             elif i not in shifts and not self._along(i, name):
                 board.lacks(f"coordinate {name} is not drawn", "[look] pose may show what it moves")
         for k, ways in chains.items():
             self._chain(k, ways)
 
-    def _rope(self, i: int) -> bool:
-        """Whether a coordinate is the length of a rope, whatever else it moves."""
-        return any(h.how is HoldKind.TELESCOPE and h.along == i for h in self.board.motions.holds)
+    def _joint(self, i: int) -> bool:
+        """Whether a coordinate is the length of a rope or the way of a sliding joint, whatever else it moves."""
+        return any(t.coordinate == i for t in self.bodies.tracks) or any(
+            h.how is HoldKind.TELESCOPE and h.along == i for h in self.board.motions.holds
+        )
 
     def _legs(self, spins: list[Spin]) -> set[int]:
         """The angles at the joints of many like legs."""
