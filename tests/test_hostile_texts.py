@@ -34,6 +34,8 @@ ANSWERS = {
     "a line below": "x1'' = 0 " + "_" * N + "y",
     "words in brackets": "x1'' = 0 (" + "so" * (N // 2) + ")",
     "a word before blanks": "ad" + BLANK + "y",
+    "a condition before blanks": "x1'' = 0\ncheck: for x1" + BLANK + "= x2r y",
+    "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
 }
 

@@ -12,13 +12,14 @@ from lagrangian.records import dataclass
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
-    accelerations as the rates of coordinates."""
+    accelerations as the rates of coordinates, and whether remarks beside the equations are left out (``bare``)."""
 
     flipped: bool = False
     listed: bool | None = None
     units: bool = False
     summed: bool = False
     rated: bool = False
+    bare: bool = False
 
     def told(self) -> Iterator[str]:
         """What to say about a reading that is not the likeliest."""
@@ -37,7 +38,7 @@ LIKELIEST = Choices()
 """The reading that is tried first."""
 
 
-def less_likely(words: Words, *, rated: bool, listed: bool | None) -> Iterator[Choices]:
+def less_likely(words: Words, *, rated: bool, listed: bool | None, remarks: bool) -> Iterator[Choices]:
     """The other ways in which an answer may be read, as its ``words`` leave them open."""
     if words.doubtful:
         yield Choices(units=True)
@@ -49,3 +50,5 @@ def less_likely(words: Words, *, rated: bool, listed: bool | None) -> Iterator[C
         yield Choices(flipped=True)
     if listed is not None:
         yield Choices(listed=listed)
+    if remarks:
+        yield Choices(bare=True)

@@ -51,6 +51,7 @@ from lagrangian.check.reading.said_values import SaidValues, completed, misspell
 from lagrangian.check.reading.session_lists import without_lists, without_sets
 from lagrangian.check.reading.sessions import without_prompts, without_session
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, may_be_result
+from lagrangian.check.reading.side_remarks import without_side_remarks
 from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.stands_for import (
@@ -172,8 +173,9 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
     """The answer in one reading; those that are less likely are added to ``others``."""
-    given = text
-    lines = Lines(model)
+    given, lines = text, Lines(model)
+    bare, remarks = without_side_remarks(text, model, lines.names.known)
+    text = bare if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
     plain = _without_notations(typed, lines)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
@@ -206,10 +208,15 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
     statements, errors, aside = _parsed(source, parsers, written, words, lines)
     if reading == LIKELIEST:
-        others += less_likely(words, rated=rated and not latex, listed=not listed if choice else None)
+        others += less_likely(
+            words, rated=rated and not latex, listed=not listed if choice else None, remarks=bool(remarks)
+        )
     again = [partial(_answer, given, model, place, x, []) for x in others]
     made = lines.read(statements, errors)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
+    aside += [
+        f"Line {k} was not judged: it is a remark beside the equations." for k in remarks[:MOST_TOLD] if reading.bare
+    ]
     notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}

@@ -38,6 +38,11 @@ def is_remark(text: str) -> bool:
     return _ACCELERATES.search(text) is None or _DOTS.search(text) is not None
 
 
+def accelerates_in(text: str) -> bool:
+    """Whether a second derivative, in any spelling, stands in a text."""
+    return _ACCELERATES.search(text.replace('\\"', "")) is not None
+
+
 def may_redefine(text: str, words: Words) -> bool:
     """Whether a part of a line may say what a name of the system means, so that equations are not wrong for sure."""
     return any(words.names.scope.meanings(x)[0] for x in _NAMED.findall(_COMMAND.sub(" ", text)))

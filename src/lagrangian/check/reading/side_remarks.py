@@ -1,0 +1,273 @@
+"""Takes the remarks off an answer that stand beside its equations: a check, a special case, an equilibrium.
+
+    Check: for m = 0 we get M x'' = F.         a line that begins with such a word, and what stands under it
+    If the cart is fixed, x = 0, (...) = 0.    a sentence with a condition
+
+They are about other motions than all, and an answer whose equations are complete does without them. What states T*, V,
+L, D or a Ξ, what explains a name that is used elsewhere, and equations for all coordinates once more are no such
+remarks.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate, islice
+
+from lagrangian.check.reading.remarks import accelerates_in
+from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.check.reading.words import function_of
+from lagrangian.model import Model
+from lagrangian.read.letters import undotted
+from lagrangian.records import dataclass
+
+_CHECKS = (
+    "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
+    "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
+    "remark remarks note notes nb bemerkung bemerkungen anmerkung hinweis remarque comment kommentar observation "
+    "interpretation discussion diskussion comparison vergleich sum summe adding addition somme "
+    "conserved conservation erhaltung energieerhaltung impulserhaltung drallerhaltung energiebilanz"
+)
+_CASES = (
+    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
+    "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
+    "static statics statisch statische statischer steady stationär stationäre"
+)
+CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
+"""Words with which a check or a remark begins, and those of a case that is not every motion."""
+
+_FIRST = 6
+"""The words of a line of which one says that it is a remark."""
+_MOST = 40
+"""The largest number of remarks."""
+_LONGEST_TITLE = 8
+"""The most words of a title on a line of its own."""
+
+_WORD = re.compile(r"[^\W\d_]{2,}")
+_LAST = re.compile(r"(?<![^\W_])[^\W\d_]{2,24}\Z")
+_NAME = r"[^\W\d]\w{0,23}+['’′]{0,2}"
+_SIMPLE = rf"(?:[-−]?\d(?:[\d./,]{{0,8}}\d)?|{_NAME}|∞)"
+_RELATION = re.compile(
+    rf"(?<![\w^*/+)'’′-])(?P<left>{_NAME})(?P<chain>(?:[ \t]*=[ \t]*{_NAME}){{0,3}})"
+    rf"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=)[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
+)
+_CUE = re.compile(
+    r"(?<![^\W_])(?:if|when|whenever|for|unless|provided|assuming|setting|set|without|with|at|wenn|falls|bei|"
+    r"f(?:ü|ue|[\\ ]?\"[{ ]?u[} ]?)r|sofern|mit|ohne|setzt|setze|si|pour|sans|avec)(?![^\W_])",
+    re.IGNORECASE,
+)
+_TERM = re.compile(r"[-+*/^²'’′]|\w\(")
+"""What stands between a condition and the word that begins it only if a formula begins there."""
+_HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
+_RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
+_SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
+"""A derivative of an energy."""
+_STATED = re.compile(
+    r"(?P<name>(?<![\w\\])\\?[^\W\d]\w{0,23}+(?:_\{\w{1,12}\})?)\*?(?:\^\*)?[ \t]*&?=(?![=>])"
+    r"(?P<zero>[ \t]*0(?![\w.]))?"
+)
+"""A name with a value, and whether that is 0."""
+_ENDS = re.compile(r"[.;!?](?=\s|\Z)")
+_OPEN = re.compile(r"[:,][ \t*`_)}\\]*\Z|=[ \t]*\Z")
+_MARKS = re.compile(r"\$|\\[\[\]()]|\\(?:begin|end)\{")
+_TEX = re.compile(r"\\(?:dot|ddot|equiv|text|mathrm|approx|to|rightarrow|ll|gg)(?![A-Za-z])|[\\${}&`*]")
+_SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "≪", "gg": "≫"}
+
+
+@dataclass(frozen=True)
+class _Remark:
+    """A part of a text, and whether it is about a case that is not every motion."""
+
+    start: int
+    end: int
+    case: bool
+
+
+def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) -> tuple[str, tuple[int, ...]]:
+    """Return an answer in which remarks are blank, and the numbers of the lines with their statements."""
+    lines = text.split("\n")
+    starts = [0, *accumulate(len(line) + 1 for line in lines)]
+    found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
+    found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
+    moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
+    if sum(n for r, n in zip(found, moving, strict=True) if not r.case) >= len(model.coordinates):
+        found = [r for r in found if r.case]
+    elif model.constraints:  # a remark may state a constraint
+        found = [r for r, n in zip(found, moving, strict=True) if r.case or n]
+    bare = _blanked(text, found)
+    used = [r for r in found if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known))]
+    bare = _blanked(text, [r for r in found if r not in used]) if used else bare
+    changed = (k for k, at in enumerate(starts[:-1]) if not bare.startswith(lines[k], at))
+    return bare, tuple(k + 1 for k in changed if "=" in lines[k])
+
+
+def _blanked(text: str, remarks: Sequence[_Remark]) -> str:
+    parts, at = [], 0
+    for r in remarks:
+        start, end = max(r.start, at), max(r.end, at)
+        parts += [text[at:start], *("\n" if x == "\n" else " " for x in text[start:end])]
+        at = end
+    return "".join((*parts, text[at:]))
+
+
+def _uses(text: str, name: str) -> bool:
+    return re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text) is not None
+
+
+def _general(part: str, known: Callable[[str], bool]) -> list[str]:
+    """The statements of a remark, one a line, of which none holds in a special case alone."""
+    return [line for line in part.split("\n") if "=" in line and not _is_case(line, known, led=True)]
+
+
+def _is_whole(part: str) -> bool:
+    """Whether a part of a text neither opens nor closes mathematics of LaTeX."""
+    marks = [m.group() for m in _MARKS.finditer(part)]
+    pairs = ((r"\[", r"\]"), (r"\(", r"\)"), (r"\begin{", r"\end{"))
+    return marks.count("$") % 2 == 0 and all(marks.count(a) == marks.count(b) for a, b in pairs)
+
+
+def _states(written: str, model: Model) -> bool:
+    """Whether a part of a text states an energy, a generalized force or a derivative of an energy."""
+    if _SUBJECT.search(written):
+        return True
+    stated = (m["name"] for m in _STATED.finditer(written) if m["zero"] is None)
+    names = [x.lstrip("\\").replace("{", "").replace("}", "") for x in stated]
+    return any(energy_of(x, model, lhs=True) or force_of(x, model) for x in names)
+
+
+def _explained(written: str, known: Callable[[str], bool]) -> Iterator[str]:
+    """The names that a part of a text gives a value to and that the system does not have."""
+    for match in _STATED.finditer(written):
+        if _begins(written[max(0, match.start() - 40) : match.start()], known) and not known(
+            match["name"].lstrip("\\")
+        ):
+            yield match["name"]
+
+
+# -- where remarks are ------------------------------------------------------------------------------------------------
+
+
+def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str], bool]) -> Iterator[_Remark]:
+    k = 0
+    while k < len(lines):
+        kind = _kind(lines[k])
+        if kind is None:
+            yield from _sentences(lines, k, starts, known)
+            k += 1
+            continue
+        end = _end(lines, k) if _is_open(lines, k) else k + 1
+        case = kind == "case" or _is_case(" ".join(lines[k:end][:2]), known, led=True)
+        yield _Remark(starts[k], starts[end] - 1, case)
+        k = end
+
+
+def _kind(line: str) -> str | None:
+    """Whether a line begins as a check or a case."""
+    head = line.split("=", 1)[0] if ":" not in line else line.split(":", 1)[0].split("=", 1)[0]
+    words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
+    return "case" if CASES & set(words) else "check" if CHECKS & set(words) else None
+
+
+def _is_title(lines: Sequence[str], k: int) -> bool:
+    """Whether a line is a heading."""
+    line = lines[k]
+    if _HEADING.match(line) or (k + 1 < len(lines) and line.strip() and _RULE.fullmatch(lines[k + 1])):
+        return True
+    words = line.split()
+    return "=" not in line and bool(_WORD.search(line)) and len(words) <= _LONGEST_TITLE and not accelerates_in(line)
+
+
+def _is_open(lines: Sequence[str], k: int) -> bool:
+    """Whether the lines below a line belong to it."""
+    return _is_title(lines, k) or bool(_OPEN.search(lines[k].rstrip())) or "=" not in lines[k]
+
+
+def _end(lines: Sequence[str], k: int) -> int:
+    """The line behind what stands under line k."""
+    marked = bool(_HEADING.match(lines[k]))
+    stated, j = False, k + 1
+    if j < len(lines) and _RULE.fullmatch(lines[j]):
+        marked, j = True, j + 1
+    while j < len(lines):
+        if lines[j].strip() and stated_title(lines, j, stated):
+            break
+        if stated and not marked and not lines[j - 1].strip() and accelerates_in(_block(lines, j)):
+            break
+        stated = stated or "=" in lines[j]
+        j += 1
+    return j
+
+
+def stated_title(lines: Sequence[str], j: int, stated: bool) -> bool:
+    """Whether a heading ends what stands above it: any behind an equation, a marked one anywhere."""
+    marked = bool(_HEADING.match(lines[j])) or (j + 1 < len(lines) and bool(_RULE.fullmatch(lines[j + 1])))
+    return marked or (_is_title(lines, j) and (stated or lines[j].rstrip().endswith(":")))
+
+
+def _block(lines: Sequence[str], j: int) -> str:
+    """The lines up to the next blank one."""
+    end = next((i for i in range(j, len(lines)) if not lines[i].strip()), len(lines))
+    return "\n".join(lines[j:end])
+
+
+def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Callable[[str], bool]) -> Iterator[_Remark]:
+    """The sentences of a line that hold only under a condition, each with the line below if it goes on there."""
+    line = lines[k]
+    if "=" not in _plain(line) and not re.search("→|->|≪|≫", _plain(line)):
+        return
+    ends = [*(m.end() for m in _ENDS.finditer(line)), len(line)]
+    start = 0
+    for end in ends:
+        part = line[start:end]
+        if part.strip() and _is_case(part, known, led=False):
+            last = k
+            if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
+                last = k + 1
+            yield _Remark(starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), True)
+        start = end
+
+
+def _rest_states(part: str) -> bool:
+    """Whether a sentence has another equals sign than those of its conditions."""
+    return "=" in _RELATION.sub(" ", _plain(part))
+
+
+def _plain(line: str) -> str:
+    """A line without the marks of LaTeX and Markdown, of the same length."""
+    return _TEX.sub(lambda m: _SIGNS.get(m.group()[1:], " ").ljust(len(m.group())), line)
+
+
+def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
+    """Whether a part of a text holds under a condition, x = 0 or M → ∞; ``led``: it needs no word in front of it."""
+    plain = _plain(part)
+    for match in _RELATION.finditer(plain):
+        names = [match["left"], *re.findall(_NAME, match["chain"])]
+        if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
+            continue
+        before = plain[max(0, match.start() - 80) : match.start()]
+        if led and _begins(before, known):
+            return True
+        cues = list(_CUE.finditer(before))
+        if cues and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :])):
+            return True
+    return False
+
+
+def _begins(before: str, known: Callable[[str], bool]) -> bool:
+    """Whether a statement begins behind a text: it is empty, or ends in a mark or a word."""
+    before = before.rstrip(" \t")
+    word = _LAST.search(before)
+    return (
+        not before
+        or before[-1] in ",;:(.$`*\n⇒"
+        or (word is not None and not known(word.group()) and function_of(word.group()) is None)
+    )
+
+
+def _is_special(match: re.Match[str], known: Callable[[str], bool]) -> bool:
+    """Whether a relation is no value of a parameter and no other name of a coordinate: x = 0, m1 = m2, φ' = W."""
+    right = match["right"].rstrip("'’′")
+    if match["sign"] not in ("=", "≡") or right in ("0", "∞", "pi", "π"):
+        return True
+    moves = match["left"][-1:] in "'’′"
+    return moves or (not right[:1].isdigit() and known(right) and right != match["left"])

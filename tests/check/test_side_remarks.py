@@ -1,0 +1,67 @@
+"""Remarks beside right and complete equations decide nothing: checks, special cases, positions at rest.
+
+Oracle: the equations of the cart with a pole, and the special cases that follow from them. Beside a wrong equation, and
+where a remark states an energy, explains a name or repeats all equations, it is judged as ever.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from built_in import derivation
+from student_answers import CART, POLE, right
+
+WRONG_POLE = POLE.replace("- m g", "+ m g")
+
+REMARKS = [
+    "Probe: mit x ≡ 0 (Wagen fest) bleibt (J + m l²) θ̈ = m g l sin θ ✓",
+    "Special case m = 0: the cart alone, M x'' + b x' = F",
+    "Sonderfall θ = 0:\n(M + m) x'' + b x' = F",
+    "\nEquilibrium without F (x' = x'' = 0 etc.):\nm g l sin(theta_0) = 0\n",
+    "Setting b = 0 and F = 0 gives (M + m) x' + m l theta' cos theta = p_0 = const.",
+    "Without friction (F = b = 0) and theta = 0: (M + m) x' = const",
+    "Remark: without the pole (m = J = 0) the cart obeys M x'' = F - b x'.",
+    "At the greatest speed x' = w, x'' = theta'' = 0 we get b w = F",
+    "\n## Plausibility\n\n- `theta = 0`: `(M + m)*x'' + b*x' = F`\n- `M = 0`, `m = 0`: `J*theta'' = 0`",
+]
+
+
+@pytest.mark.parametrize("remark", REMARKS)
+def test_a_remark_does_not_make_right_equations_wrong(remark: str) -> None:
+    verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{remark}\n")
+    assert verdict.right
+    assert any("was not judged: it is a remark beside the equations." in str(note) for note in verdict.notes)
+
+
+def test_remarks_in_latex_are_taken_off_with_their_formulas() -> None:
+    cart = r"(M + m)\ddot x + m l \ddot\theta\cos\theta - m l\dot\theta^2\sin\theta + b\dot x = F"
+    pole = r"(J + m l^2)\ddot\theta + m l\ddot x\cos\theta - m g l\sin\theta = 0"
+    said = r"F\"ur $x\equiv 0$ folgt $(J + m l^2)\ddot\theta = m g l\sin\theta$, das Pendel."
+    case = "Special case $x = 0$ (cart fixed):\n$$J\\ddot\\theta = m l(g\\sin\\theta - l\\ddot\\theta)$$"
+    assert right(f"$${cart}$$\n$${pole}$$\n{said}\n{case}\n")
+    assert not right(f"$${cart}$$\n$${pole.replace('- m g', '+ m g')}$$\n{said}\n{case}\n")
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        f"{CART}\n{WRONG_POLE}\nCheck: for theta = 0 (M + m) x'' = F - b x'",
+        f"{CART}\n{POLE}\nNote:\n{WRONG_POLE}\n{CART}",
+        f"{CART}\n{POLE}\nNote: V = - m g l cos theta",
+        f"{CART}\n{POLE}\nRemark: Q_x = F + b x'",
+        f"{CART}\n{POLE}\nResult for m = 0.2 kg, M = 1 kg, l = 0.3 m, J = 0.006 kg m^2:\n{WRONG_POLE}",
+        f"Note: u = 2 x\n{CART.replace('x', 'u')}\n{POLE.replace('x', 'u')}",
+        f"For the cart: {CART}\nFor the pole: {WRONG_POLE}\nSpecial case M = 0: {POLE}",
+        f"{CART}\n{POLE}\nV = m g l cos theta + 1, for theta = 0 this is m g l + 1, T = m x'^2",
+    ],
+)
+def test_what_is_no_remark_is_judged(answer: str) -> None:
+    assert not right(answer)
+
+
+def test_a_constraint_is_no_remark() -> None:
+    wheel = derivation("wheel-on-incline")
+    equations = "(m + J/r^2) x'' = m g sin(beta)\nJ phi'' = r S\nm x'' = m g sin(beta) - S\n"
+    assert wheel.check(f"{equations}Check: phi' = x'/r, because it rolls").right
+    assert wheel.check(f"{equations}Check: for beta = 0 nothing drives it, x'' = 0").right
+    assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls").right
