@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lagrangian.graph import Graph, Valuation, Variations, jvp
+from lagrangian.graph import Graph, Valuation, jvp
 from lagrangian.graph.graph import UNARY
+from lagrangian.graph.variations import Variations
 
 
 def test_the_slopes_of_every_operation_are_those_of_its_tangents() -> None:

@@ -11,11 +11,11 @@ from lagrangian.graph import Graph, Output, Program, from_sympy
 from lagrangian.model import Model, time
 
 
-def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
+def body_numbers(model: Model, names: Iterable[str], *, inertias: bool = True) -> Program | None:
     """p → the masses [kg] and inertias [kg m²] that depend on the parameters ``names``; None if there are none.
 
     The outputs are ``mass k`` of bodies that move and ``resting mass k`` of those that only turn, shape (), and
-    ``inertia k``, shape (d, d), where k is the index of the body.
+    ``inertia k``, shape (d, d), where k is the index of the body; ``inertias``: whether these are wanted.
     """
     wanted = set(names)
     symbols = {p.symbol for p in model.parameters if p.name in wanted}
@@ -33,7 +33,7 @@ def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
             model.expand(x).has(AppliedUndef, time) for x in model.position(body.at)
         )
         add(f"resting mass {k}" if rests else f"mass {k}", [body.mass], ())
-        if body.axes is not None:
+        if inertias and body.axes is not None:
             add(f"inertia {k}", [x for row in body.tensor for x in row], (len(body.tensor),) * 2)
     if not outputs:
         return None

@@ -95,19 +95,21 @@ def count_operations(graph: Graph, ids: Iterable[int], *, hoist: Iterable[str] =
     separately."""
     nodes = graph.nodes
     held = frozenset(hoist)
-    fixed: dict[int, bool] = {}
+    moving: set[int] = set()
     operations = prologue = 0
     angles: set[int] = set()
     for i in reached(graph, ids):
         node = nodes[i]
         op = node[0]
         if op in LEAVES:
-            fixed[i] = op == "const" or node[1] in held
+            if op != "const" and node[1] not in held:
+                moving.add(i)
             continue
-        fixed[i] = all(fixed[k] for k in operands(node))
-        if fixed[i]:
+        if moving.isdisjoint(operands(node)):
             prologue += 1
-        elif op in ("sin", "cos"):
+            continue
+        moving.add(i)
+        if op in ("sin", "cos"):
             angles.add(node[1])
         elif op == "powi":
             n = abs(node[2])

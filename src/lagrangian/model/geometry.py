@@ -92,7 +92,9 @@ def is_listed(value: object) -> TypeGuard[Sequence[object]]:
 
 def turned(matrix: sp.MatrixBase, components: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
     """The components of a vector after a rotation: matrix · components."""
-    return entries(cast("sp.MatrixBase", matrix * sp.Matrix(components)))
+    size, flat = len(components), entries(matrix)
+    rows = (flat[k : k + size] for k in range(0, len(flat), size))
+    return tuple(sp.Add(*(a * b for a, b in zip(row, components, strict=True))) for row in rows)
 
 
 def entries(matrix: sp.MatrixBase) -> tuple[sp.Expr, ...]:

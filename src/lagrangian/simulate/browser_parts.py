@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -33,7 +33,7 @@ Quantities: TypeAlias = Program | Mapping[str, Any]
 ORDER = ("x", "p", "u", "t")
 """The order in which functions in JavaScript take the groups."""
 
-SHORTEST = {False: 16, True: 4}
+SHORTEST = {False: 16, True: 6}
 """An operation in JavaScript has at least so many characters; and where they are few."""
 
 MOST = 100_000
@@ -133,19 +133,19 @@ class BrowserParts:
     @cached_property
     def _masses(self) -> Program | None:
         """p → the masses that depend on parameters, None if there are none."""
-        bodies = dynamics.body_numbers(self.model, (p.name for p in self.model.parameters))
-        if bodies is None:
-            return None
-        outputs = {name: output for name, output in bodies.outputs.items() if "mass" in name}
-        return replace(bodies, name="masses", outputs=outputs) if outputs else None
+        bodies = dynamics.body_numbers(self.model, (p.name for p in self.model.parameters), inertias=False)
+        return None if bodies is None else replace(bodies, name="masses")
 
     @cached_property
-    def _projections(self) -> dict[str, Program]:
-        """The programs that project a state onto the constraints."""
+    def _projections(self) -> dict[str, Callable[[], Program]]:
+        """What makes the programs that project a state onto the constraints, by their names."""
         if self.rows is None:
             return {}
-        approach = {} if self.rows.approach is None else {"approach": self.rows.approach}
-        return {**approach, **self._landing}
+        approach = self.rows.approach
+        return {
+            **({} if approach is None else {"approach": lambda: approach}),
+            "landing": lambda: self._landing["landing"],
+        }
 
     @cached_property
     def _landing(self) -> dict[str, Program]:
@@ -176,6 +176,17 @@ class BrowserParts:
             "needs": list(self._around),
         }
 
+    def _replacing(self, most: float) -> dict[str, Program]:
+        """The programs of a run in JavaScript, none if they have more than ``most`` operations: not all are made."""
+        found: dict[str, Program] = {}
+        count = 0
+        for name, make in {"rhs": lambda: self.field, **self._projections}.items():
+            found[name] = make()
+            count += 0 if name in self._around else count_program(found[name]).operations
+            if count > most:
+                return {}
+        return found
+
     def functions(self, more: Mapping[str, Quantities], *, fallback: float, brief: bool = False) -> str:
         """An expression of JavaScript: the object of all functions, by name.
 
@@ -184,27 +195,29 @@ class BrowserParts:
         cannot have.
         """
         model, feedback = self.model, self.drive.feedback
-        unchecked = {**self._around, "rhs": self.field, **self._projections}
         checked: dict[str, Program] = {}
         if "power" not in more:  # whose balance has T and V, too
             power = dynamics.power_closed(model, feedback)
             checked["energy"] = replace(power, name="energy", outputs={n: power.outputs[n] for n in ("T", "V")})
         for name, asked in more.items():
-            if name in unchecked or name in checked or not names_function(name):
+            if name in {*self._around, "rhs", *self._projections, *checked} or not names_function(name):
                 raise RunError(
                     f"'{name}' cannot name a function", fix="use letters, digits and underscores", code="E702"
                 )
             checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
         needed = {**self._around, **checked}
-        spared = {name: program for name, program in unchecked.items() if name not in needed}
         printed = machine.brief_javascript if brief else machine.to_javascript
+        every: dict[str, Program] = {}
+
+        @cache
+        def text(name: str) -> str:
+            return printed(_ordered(every[name]), name=name, checked=name in checked)
 
         def written(programs: Mapping[str, Program]) -> str:
-            return _object(
-                {name: printed(_ordered(x), name=name, checked=name in checked) for name, x in programs.items()}
-            )
+            every.update(programs)
+            return _object({name: text(name) for name in programs})
 
-        if SHORTEST[brief] * sum(count_program(program).operations for program in spared.values()) <= fallback:
+        if spared := self._replacing(fallback / SHORTEST[brief]):
             whole = written({**needed, **spared})
             if len(whole) <= fallback:
                 return whole
