@@ -53,6 +53,25 @@ NAMELESS = """() => {
 }"""
 """Controls without a name."""
 
+STOP = """() => {
+  const e = document.activeElement, words = e.getAttribute("aria-label") || e.labels?.length || e.textContent.trim();
+  return e === document.body ? "" : words || e.title ? "named" : e.outerHTML.slice(0, 120);
+}"""
+"""Whether what has the focus has a name: "named", "" if nothing has the focus, or what has none."""
+
+
+def nameless_stops(page: Any, most: int = 60) -> list[str]:
+    """What the Tab key reaches, one after another, and has no name."""
+    found: list[str] = []
+    for _ in range(most):
+        page.keyboard.press("Tab")
+        found.append(page.evaluate(STOP))
+        if not found[-1]:
+            break
+    assert len(found) > 10
+    return [said for said in found if said not in ("named", "")]
+
+
 LOST = """() => {
   const slides = (e) => /auto|scroll/.test(getComputedStyle(e).overflowX);
   const scrolls = (e) => e && e !== document.documentElement && (slides(e) || scrolls(e.parentElement));

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from accessible import CONTRAST, LOST, NAMELESS, broken_rules
+from accessible import CONTRAST, LOST, NAMELESS, broken_rules, nameless_stops
 from built_in import derivation, picture, system
 from test_live import CHROMIUM, Opened
 
@@ -70,6 +70,13 @@ def test_a_page_has_contrast_and_names(browser: Any, files: dict[str, Path], sch
     unfolded(made)
     assert made.page.evaluate(CONTRAST) == []
     assert made.page.evaluate(NAMELESS) == []
+    made.context.close()
+
+
+def test_the_keyboard_stops_at_what_has_a_name(browser: Any, files: dict[str, Path]) -> None:
+    """A body in space has many glyphs, and listening to the focus makes a glyph a stop in Chromium."""
+    made = Opened(browser, files["furuta-pendulum"].as_uri())
+    assert nameless_stops(made.page) == []
     made.context.close()
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from served_app import TOKEN, Served
 
-from accessible import CONTRAST, LOST, NAMELESS, broken_rules
+from accessible import CONTRAST, LOST, NAMELESS, broken_rules, nameless_stops
 from lagrangian import examples
 
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -319,6 +319,8 @@ def test_the_schematic_and_the_terms_light_each_other(page: Any) -> None:
     assert {node.get_attribute("data-element") for node in lit.all()} == {"k"}
     page.locator(".part-look [data-element=k]").first.hover()
     assert page.locator("#derivation .term.lit").count() == page.locator("#derivation .term.stiffness").count()
+    assert nameless_stops(page, 40) == []
+    assert page.locator(".part-look .glyph[tabindex]").count() > 3
 
 
 def test_the_motion_runs_in_a_frame_that_cannot_reach_the_app(page: Any) -> None:

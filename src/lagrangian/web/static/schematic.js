@@ -39,9 +39,27 @@ function light(sheet, titles) {
     sheet.classList.toggle("choosing", names.length > 0);
     for (const { node, names: own } of all) node.classList.toggle("lit", own.some((name) => names.includes(name)));
   };
+  describe(parts, titles);
   for (const { node, names } of all) {
     if (!names.some((name) => name in titles)) continue;
-    for (const event of ["pointerenter", "focus"]) node.addEventListener(event, () => choose(names));
-    for (const event of ["pointerleave", "blur"]) node.addEventListener(event, () => choose([]));
+    const reached = node.matches("[tabindex]"); // what listens to the focus gets it in some browsers, named or not
+    for (const event of ["pointerenter", ...(reached ? ["focus"] : [])]) node.addEventListener(event, () => choose(names));
+    for (const event of ["pointerleave", ...(reached ? ["blur"] : [])]) node.addEventListener(event, () => choose([]));
+  }
+}
+
+/**
+ * The keyboard reaches one glyph of each element, which has its name.
+ * @param {{ node: Element, names: string[] }[]} parts
+ * @param {Record<string, string>} titles
+ */
+function describe(parts, titles) {
+  const described = new Set();
+  for (const { node, names } of parts) {
+    const words = names.map((name) => titles[name] ?? name).join(", ");
+    if (!words || described.has(words)) continue;
+    described.add(words);
+    for (const [key, value] of [["tabindex", "0"], ["role", "img"], ["aria-label", words]]) node.setAttribute(key, value);
+    node.closest("svg")?.setAttribute("role", "group");
   }
 }

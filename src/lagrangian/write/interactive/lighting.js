@@ -17,14 +17,15 @@ function lightEachOther(state) {
     state.stale = true;
   }
 
+  describe(glyphs, elements);
   for (const { node, names } of all) {
     if (!names.length) continue;
-    for (const name of ["pointerenter", "focus"]) node.addEventListener(name, () => light(names));
-    for (const name of ["pointerleave", "blur"]) node.addEventListener(name, () => light(null));
+    const reached = node.matches("[tabindex]"); // what listens to the focus gets it in some browsers, named or not
+    for (const name of ["pointerenter", ...(reached ? ["focus"] : [])]) node.addEventListener(name, () => light(names));
+    for (const name of ["pointerleave", ...(reached ? ["blur"] : [])]) node.addEventListener(name, () => light(null));
   }
   for (const { node } of terms) node.setAttribute("role", "group"); // it has a label
   drawing.querySelector("svg")?.setAttribute("role", "group");
-  describe(glyphs, elements);
 }
 
 /** Glyphs can be reached by the keyboard and have names, one glyph for each element. */
