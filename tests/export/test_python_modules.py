@@ -127,3 +127,14 @@ def test_names_with_another_meaning_are_refused(target: str, file: str, tmp_path
     with pytest.raises(lg.ModelError, match="it has a meaning there"):
         built_in.system("pendulum").export(tmp_path / file, to=target)
     assert not list(tmp_path.iterdir())
+
+
+def test_exported_python_runs_as_it_is(tmp_path: pathlib.Path) -> None:
+    """The declared parameters and t = 0 are defaults, and the file prints the accelerations where the model starts."""
+    system = lg.example("cart-pole")
+    path = tmp_path / "cart.py"
+    system.export(path)
+    printed = subprocess.run([sys.executable, str(path)], capture_output=True, text=True, check=True).stdout
+    known = system.compile().forward([0.0, 0.1], [0.0, 0.0], [0.0], [p.value for p in system.model.parameters])
+    assert [float(x) for x in printed.strip(" []\n").split()] == pytest.approx(list(known), rel=1e-6)
+    assert "def cart_forward(in_q, in_v, in_u, in_p=PARAMETERS, in_t=0.0):" in path.read_text(encoding="utf-8")

@@ -96,7 +96,7 @@ def _arguments(groups: list[tuple[str, str, tuple[str, ...]]], parameters: bool)
     words: list[str] = []
     optional = True
     for c, group, entries in reversed(groups):
-        default = "()" if not entries else "PARAMETERS" if group == "p" and parameters else None
+        default = {"p": "PARAMETERS" if parameters else None, "t": "0.0"}.get(group) if entries else "()"
         optional = optional and default is not None
         words.append(f"{c}={default}" if optional else c)
     return ", ".join(reversed(words))
