@@ -215,9 +215,11 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
         return _renamed(truth, change, spelling, verdict)
     if (other := in_these(truth, change)) is None:
         return None
+    own = {c.name for c in truth.model.coordinates}
     told = without_relations(relations(list(change.table), spelling.lines), change.put, spelling.lines)
-    lines = tuple(line for line in told if line.kind != "definition")
-    return _in_these(other, lines, change, spelling.notes, verdict)
+    return _in_these(
+        other, [x for x in told if x.kind != "definition" or x.name not in own], change, spelling.notes, verdict
+    )
 
 
 def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdict: Verdict) -> Verdict | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -24,6 +25,8 @@ MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
 MOST_TOGETHER = 10
 """The largest number of explanations of each of two lines that are tried together."""
+ELSEWHERE = 0.8
+"""What it costs more to take a mistake of another step for one that shows in a derivative of an energy."""
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
@@ -71,6 +74,27 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
     return [e for e in found if e.cost <= UNNATURAL], []
 
 
+def of_forces(pool: Pool, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[Explanation]:
+    """The mistakes, or pairs, that lead to all wrong Ξ at once, where several are wrong: a force in the wrong one."""
+    truth, rests = pool.truth, dict[int, Array]()
+    for line in wrong:
+        i = index_of(truth, line.name)
+        if line.kind == "Xi" and i is not None:
+            undamped = without_dampers(truth, line, i, lines)
+            right = truth.Xi[i] if undamped is None else undamped
+            rests[i] = CompiledExpressions([line.expr - right]).at(truth.states)[0]
+    rest = np.array(list(rests.values()))
+    if len(rests) < 2 or not np.isfinite(rest).all() or np.abs(rest).max() > LARGEST:
+        return []
+    if np.abs(rest).max(axis=1).min() <= 1e-12:
+        return []
+    if found := [e for e in singles(pool, [pool.Xi[:, i] for i in rests], rest) if e.cost <= EXOTIC]:
+        return found
+    rows = tuple(rests)
+    vectors: Vectors = pool.kept(("vectors", "Xi", rows), lambda: Vectors(pool, pool.Xi[:, list(rows)]))
+    return [e for e in vectors.pairs(rest) if e.cost <= UNNATURAL]
+
+
 def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     """The likely mistakes of one equation alone that lead to its d/dt ∂L/∂ξ̇, to its ∂L/∂ξ or to both."""
     right = right_value(pool.truth, line, i)
@@ -79,7 +103,8 @@ def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
         return []
     found = [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
-    return [e for e in found if all(_step(t.mistake) == LINES["equation"] for t in e.told)] or found
+    own = [e if _step(e.told[0].mistake) == LINES["equation"] else replace(e, cost=e.cost + ELSEWHERE) for e in found]
+    return sorted(own, key=lambda e: e.cost)
 
 
 def _step(possible: Possible) -> int | None:

@@ -10,11 +10,11 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check import say
 from lagrangian.check.align import Alignment, alignments
-from lagrangian.check.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.bodies_said import BodiesSaid, agrees
+from lagrangian.check.changes.pool import Pool, pool_of
 from lagrangian.check.energy_theorem import is_energy_theorem, of_energy_theorem
-from lagrangian.check.line_mistakes import MOST_TOLD, UNNATURAL, contradicted, followed, of_line, stated
+from lagrangian.check.line_mistakes import MOST_TOLD, UNNATURAL, contradicted, followed, of_forces, of_line, stated
 from lagrangian.check.numerators import by_numerators, said_of
 from lagrangian.check.own_terms import OwnTerm, own_terms
 from lagrangian.check.quoted import is_quotable, letters_of
@@ -29,11 +29,12 @@ from lagrangian.check.search import (
 )
 from lagrangian.check.second_choices import distinct
 from lagrangian.check.sheets import sheets
+from lagrangian.check.slips import below_right_equations, of_slip
 from lagrangian.check.solved import denominator, solved_from_wrong
+from lagrangian.check.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.undivided import undivided
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
-from lagrangian.page.formula import text
 from lagrangian.records import dataclass
 
 SPARED = 1.0
@@ -46,8 +47,6 @@ FAR = 3.6
 """A mistake that costs more is far-fetched: it explains the answer, but what differs is said first."""
 FAR_TOGETHER = 2.6
 """The same for several mistakes, a mistake."""
-ALIKE = 0.05
-"""The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 
 SHOWN = 1e-9
 """The size from which on a mistake is seen in an energy or a force."""
@@ -80,9 +79,18 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     against = contradicted(pool, [f.line for f in findings if f.status.right], lines)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
+    bodies = BodiesSaid(truth, lines)
+    quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
+    forces = of_forces(pool, wrong, lines)
     for line in wrong:
-        if line.kind != "equation":
+        if line.kind == "Xi" and forces:
+            groups += [forces] if forces not in groups else []
+        elif line.kind != "equation":
             found, more = of_line(pool, line, lines)
+            if said := bodies.of_line(line):
+                found = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
+                found = found if found and found[0].cost <= EXOTIC else []
+                more = [] if found else [p.mistake for p in said]
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
@@ -95,13 +103,17 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     left: list[AnsweredLine] = []
     of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
     rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
-    for sheet in sheets(truth, of_equation):
+    below = below_right_equations(truth, findings)
+    for sheet in sheets(truth, [f for f in of_equation if id(f.line) not in below]):
         right = [rows[id(line)] for line in sheet if id(line) in rows]
         of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
     for found, more in _without_partial(of_sheets):
         groups.append(found)
         own += more
-    quotable = letters_of([f.line for f in findings])
+    for line in (f.line for f in of_equation if id(f.line) in below and any(f.line is w for w in wrong)):
+        slip = of_slip(pool, line)
+        own += slip
+        left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
@@ -119,7 +131,7 @@ def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
-    return all(is_quotable(_mistake(truth, t, explanation.under), written) for t in explanation.told)
+    return all(is_quotable(in_words(truth, t, explanation.under), written) for t in explanation.told)
 
 
 def _without_partial(
@@ -127,11 +139,19 @@ def _without_partial(
 ) -> Sequence[tuple[list[Explanation], list[Mistake]]]:
     """The explanations of several sets of equations, without those that need more mistakes than another.
 
-    What lacks several things beside an equation that has one mistake is a part of it, such as d/dt ∂T*/∂ξ̇ alone.
+    What lacks several things beside an equation that has one mistake is a part of it, such as d/dt ∂T*/∂ξ̇ alone, unless
+    that mistake is one of them.
     """
     counts = [len(found[0].told) if found else len(more) for found, more in told]
     fewest = min(counts, default=0)
-    return [t for t, count in zip(told, counts, strict=True) if count == fewest or fewest > 1]
+    first = {
+        id(found[0].told[0].mistake) for (found, _), count in zip(told, counts, strict=True) if found and count == 1
+    }
+    return [
+        (found, more)
+        for (found, more), count in zip(told, counts, strict=True)
+        if count == fewest or fewest > 1 or (found and first & {id(t.mistake) for t in found[0].told})
+    ]
 
 
 def _of_sheet(
@@ -248,7 +268,7 @@ def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm)
     """A slip in what a row was solved for, in words."""
     if isinstance(found, OwnTerm):
         return said_of(truth, found.mistake(truth), expr)
-    return said_of(truth, _mistake(truth, found.told[0], None), expr)
+    return said_of(truth, in_words(truth, found.told[0], None), expr)
 
 
 def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes:
@@ -280,11 +300,10 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
     chosen = _joined(pool, chosen)
-    every = [_mistake(pool.truth, t, a) for t, a in chosen]
-    if len(every) == 1:
-        every[0], others = _of_either(pool.truth, every[0], chosen[0], others)
-    told = _once(every, ())
-    listed = [_mistake(pool.truth, t, e.under) for e in others[:8] for t in e.told]
+    every = [in_words(pool.truth, t, a) for t, a in chosen]
+    every[0], others = of_either(pool.truth, every[0], chosen[0], others)
+    told = _once(moved_elsewhere(pool, chosen, every), ())
+    listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]
     ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
     own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open
     elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
@@ -321,39 +340,6 @@ def _is_part(pool: Pool, told: Told, of: Told) -> bool:
             return False
         felt = True
     return felt and not (pool.felt[k] & ~pool.felt[j]).any()
-
-
-def _of_either(
-    truth: Reference, mistake: Mistake, chosen: tuple[Told, Alignment | None], others: Sequence[Explanation]
-) -> tuple[Mistake, list[Explanation]]:
-    """The mistake in either of two bodies, or springs, … if both lead to the same answer; the others that are left."""
-    told, under = chosen
-    ledgers = {e.title: e.ledger for e in truth.model.elements}
-    own = ledgers.get(mistake.element or "")
-    for e in others:
-        if own is None or e.under is not under or e.told[0].cost > told.cost + ALIKE:
-            continue
-        rival = _mistake(truth, e.told[0], e.under)
-        if rival.name == mistake.name and rival.element != mistake.element and ledgers.get(rival.element or "") == own:
-            what = text("Either this: ", *mistake.what.parts, " Or this: ", *rival.what.parts)
-            element = f"{mistake.element} or {rival.element}"
-            brief = None
-            if mistake.brief is not None and rival.brief is not None:
-                brief = text("Either this: ", *mistake.brief.parts, " Or this: ", *rival.brief.parts)
-            either = replace(mistake, what=what, brief=brief, element=element)
-            return either, [x for x in others if x is not e]
-    return mistake, list(others)
-
-
-def _mistake(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
-    """A possible mistake in words."""
-    possible: Possible = told.mistake
-    if possible.wrong is not None:
-        return possible.wrong.mistake(truth)
-    assert possible.change is not None
-    row = possible.change.site.coordinate
-    factor = under.factor(truth, row) if under is not None and row is not None else None
-    return say.mistake(possible.change, told.times, truth.model, factor)
 
 
 def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:

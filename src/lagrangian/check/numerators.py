@@ -22,7 +22,7 @@ from lagrangian.check.reference import Reference, terms
 from lagrangian.check.right_terms import RightTerm, RightTerms, right_terms
 from lagrangian.check.search import EXOTIC, SMALL, Explanation, simple_number, singles
 from lagrangian.check.verdict import Mistake
-from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 from lagrangian.records import dataclass
 
@@ -93,6 +93,12 @@ def in_numerator(pool: Pool, expr: sp.Expr) -> tuple[list[Explanation], list[Own
     return [e for e in explained if e.cost <= EXOTIC], []  # a pair that fits one row alone may be an accident
 
 
+def own_in_numerator(pool: Pool, expr: sp.Expr) -> OwnTerm | None:
+    """The term of the numerator of a solved row that is wrong."""
+    row = solved_row(pool.truth, expr)
+    return _own(pool, row) if row is not None and np.abs(row.rest).max() > 1e-9 else None
+
+
 def multiplied(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     """A solved row times its denominator, D ξ̈_i − N, and the right one in the same scale, to be compared by terms.
 
@@ -148,20 +154,19 @@ def _inverse(truth: Reference) -> Array:
 
 
 def _own(pool: Pool, row: SolvedRow) -> OwnTerm | None:
-    """A term of the numerator that is wrong, if the denominator is right."""
+    """A term of the numerator that is wrong, if the denominator is right: but for a factor of letters, it is det M."""
     truth = pool.truth
     M, _, ratio = _determinant(truth, row)
     below = CompiledExpressions([row.below]).at(truth.states)[0]
-    scale = _scale(truth, row, M, ratio)
-    if scale is None:
+    if not np.isfinite(ratio).all() or np.ptp(ratio.reshape(SETS, -1), axis=1).max() > CONSTANT * np.abs(ratio).max():
         return None
-    right = _right(pool, row, M, scale)
     parts = [*sp.Add.make_args(row.expr), *sp.Add.make_args(bounded.expand(row.expr))]
     written = [t for t in dict.fromkeys(parts) if t != 0]
     values = CompiledExpressions(written).at(truth.states)
     listed = [(t, v) for t, v in zip(written, values, strict=True) if np.isfinite(v).all()]
     rest = row.rest * below
-    found = in_place(pool, listed, rest, "numerator", row.i, right)
+    scale = _scale(truth, row, M, ratio)
+    found = in_place(pool, listed, rest, "numerator", row.i, _right(pool, row, M, scale)) if scale is not None else None
     if found is not None and found.cost <= SURE:
         return found
     for t, v in listed:

@@ -47,7 +47,6 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     ]
     if all(line.expr in q for line in stated):
         return None
-    others = tuple(line for line in lines if line.kind != "definition")
     named = names_of_motion(truth, lines)
     gone = [c.symbol for c in truth.model.coordinates if key(c.name) not in named]
     if not stated or len(stated) != len(gone) or len(gone) > MOST or len(gone) > len(q):
@@ -66,7 +65,7 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     rest = [symbols[str(x.name)] - cast("sp.Expr", x.expr.xreplace(dict.fromkeys(gone, sp.S.Zero))) for x in stated]
     values = cast("list[sp.Expr]", list(J.LUsolve(sp.Matrix(rest))))
     back = ProposedChange({x: bounded.expand(v) for x, v in zip(gone, values, strict=True)}, change.words, True)
-    moved = tuple(replace(line, expr=bounded.expand(back.put(line.expr))) for line in others)
+    moved = tuple(replace(line, expr=bounded.expand(back.put(line.expr))) for line in lines if line not in stated)
     return InStatedCoordinates(other, moved, change)
 
 

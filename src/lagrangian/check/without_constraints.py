@@ -137,12 +137,13 @@ def _moved(
     """The lines with the coordinates that go written out; what says nothing then, or has a multiplier, is none."""
     gone = {str(cast("AppliedUndef", q).func) for q in table}
     for line in lines:
-        if line.kind in ("definition", "statement"):
+        if line.kind == "statement" or (line.kind == "definition" and line.name in gone):
             continue
         slopes = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
         names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
         if slopes or names & unknown or (line.kind in OF_OLD and line.name in gone):
-            yield replace(line, kind="statement")
+            if line.kind != "definition":
+                yield replace(line, kind="statement")
             continue
         moved = replace(line, expr=change.put(line.expr))
         holds = line.kind in ("equation", "identity") and _is_zero(moved.expr)
