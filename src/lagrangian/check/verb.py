@@ -13,6 +13,7 @@ from lagrangian.check import AnsweredLine
 from lagrangian.check.needless import Needed, needed
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.unexplained import question, unexplained
+from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
@@ -118,11 +119,24 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
                 return _told(verdict, other, decides.notes)
     decides = own[-1]
     verdict = check.check(derivation, decides.lines, hint=hint)
+    again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
+    if again is not None:
+        answer, decides = again.answer, again.decides
+        verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
     if asked := unexplained(derivation, answer, verdict):
         raise question(asked)
     return _told(verdict, answer, decides.notes)
+
+
+def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:
+    """The lines of an answer that decide, and the verdict on them, without mistakes."""
+    for decides in _deciding(derivation, answer):
+        verdict = check.check(derivation, decides.lines, explain=False)
+        if verdict.right:
+            break
+    return decides, verdict
 
 
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:

@@ -65,6 +65,16 @@ class Unknown:
 
 
 @dataclass(frozen=True)
+class MarkedRow:
+    """A row with marks or words that may be no part of it: the line and the place where it begins, and the number of
+    its other readings."""
+
+    line: int
+    start: int
+    count: int
+
+
+@dataclass(frozen=True)
 class Answer:
     """A whole answer, in the order in which it was written; ``notes`` say how unusual spellings were read.
 
@@ -84,6 +94,10 @@ class Answer:
     """The error of parts that were not read and may say what names of the system mean: no reason to call it wrong."""
     lacking: bool = field(default=False, repr=False, compare=False)
     """Whether parts that may be equations were not read."""
+
+    marked_rows: Callable[[], tuple[MarkedRow, ...]] = field(default=tuple, repr=False, compare=False)
+    read_marked: Callable[[tuple[tuple[int, int], ...]], Answer] | None = field(default=None, repr=False, compare=False)
+    """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

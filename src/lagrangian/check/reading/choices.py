@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
+from lagrangian.check.reading.answer import MarkedRow
+from lagrangian.check.reading.marks import readings, told_without
+from lagrangian.check.reading.rows import AnswerRow
 from lagrangian.check.reading.words import Words
+from lagrangian.errors import ParseError
 from lagrangian.records import dataclass
+
+MOST_AGAIN = 4
+"""The largest number of readings of all rows that cannot be read."""
 
 
 @dataclass(frozen=True)
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
-    accelerations as the rates of coordinates, and whether remarks beside the equations are left out (``bare``)."""
+    accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), and which
+    rows, at the places in ``marks``, are without what may be no part of them, in the reading of this number."""
 
     flipped: bool = False
     listed: bool | None = None
@@ -20,6 +29,16 @@ class Choices:
     summed: bool = False
     rated: bool = False
     bare: bool = False
+    marks: tuple[tuple[int, int], ...] = ()
+
+    def row(self, row: AnswerRow, words: Words) -> AnswerRow:
+        """A row in the reading that is chosen for it, as a note tells."""
+        chosen = next((k for start, k in self.marks if start == row.start), None)
+        others = readings(row.text, words) if chosen is not None else []
+        if chosen is None or chosen >= len(others):
+            return row
+        words.names.notes.setdefault(told_without(row.text, others[chosen]))
+        return replace(row, text=others[chosen])
 
     def told(self) -> Iterator[str]:
         """What to say about a reading that is not the likeliest."""
@@ -52,3 +71,11 @@ def less_likely(words: Words, *, rated: bool, listed: bool | None, remarks: bool
         yield Choices(listed=listed)
     if remarks:
         yield Choices(bare=True)
+
+
+def marked_readings(rows: Sequence[MarkedRow], failed: Sequence[ParseError]) -> Iterator[Choices]:
+    """The readings in which the rows that cannot be read are without what may be no part of them."""
+    lines = {e.place.line for e in failed if e.place is not None}
+    unread = [row for row in rows if row.line in lines]
+    for k in range(min(MOST_AGAIN, max((row.count for row in unread), default=0))):
+        yield Choices(marks=tuple((row.start, min(k, row.count - 1)) for row in unread))

@@ -72,9 +72,8 @@ class Lines:
         self.remarks: list[ParseError] = []
         self.doubts: list[ParseError] = []
         """The errors of lines that matter only beside incomplete equations, and of those that may redefine a name."""
-        self.results: list[ParseError] = []
-        self.lacking: list[ParseError] = []
-        """The errors of rows that may be the result, and of statements that a right answer does without."""
+        self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
+        """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
         self.unread: set[str] = set()
         """The names in parts of the answer that were not read."""
 
@@ -96,10 +95,11 @@ class Lines:
             except ParseError as error:
                 if complete and says_constant(statements[i], self.names):
                     continue
+                self.failed.append(error)
                 remark = complete and error.code != "E703" and statements[i].remark()
                 (self.remarks if remark else aside if self._is_general(i, error) else found).append(error)
                 results += [error] if may_be_result(statements[i].source.text) else []
-            if len(found) >= MOST_LACKING or (found and found[-1].code == "E703"):
+            if len(found) >= MOST_LACKING or any(e.code == "E703" for e in found):
                 break
         for i, line in contradicting(self.names, [s.source for s in statements]):
             self._made.setdefault(i, []).append(line)

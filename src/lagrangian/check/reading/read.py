@@ -12,7 +12,7 @@ from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
-from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely
+from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
 from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
@@ -23,7 +23,7 @@ from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_layout import with_open_text
 from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
-from lagrangian.check.reading.line_forms import Statement, together
+from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.listed_values import without_values
@@ -35,24 +35,21 @@ from lagrangian.check.reading.markup import (
     without_markup,
 )
 from lagrangian.check.reading.operators import without_operators
+from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
-from lagrangian.check.reading.plain_tokens import with_points
 from lagrangian.check.reading.program_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.program_functions import without_functions
 from lagrangian.check.reading.program_marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.program_matrices import with_whole_matrices
 from lagrangian.check.reading.program_names import with_program_names
 from lagrangian.check.reading.programs import without_long_names, without_programs
-from lagrangian.check.reading.prose import LINKING, has_words, in_words, is_statement
-from lagrangian.check.reading.remarks import is_remark, may_redefine
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, missing_brackets, plain_rows, without_sums
+from lagrangian.check.reading.prose import LINKING, is_statement
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.said_values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.session_lists import without_lists, without_sets
 from lagrangian.check.reading.sessions import without_prompts, without_session
-from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, may_be_result
-from lagrangian.check.reading.side_remarks import without_side_remarks
-from lagrangian.check.reading.spans import statements
+from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.stands_for import (
     with_stated_letters,
@@ -62,7 +59,6 @@ from lagrangian.check.reading.stands_for import (
 )
 from lagrangian.check.reading.text_matrices import on_one_line
 from lagrangian.check.reading.traced_text import TracedText
-from lagrangian.check.reading.unit_vectors import is_vector
 from lagrangian.check.reading.words import Words, led_names
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
@@ -72,23 +68,19 @@ from lagrangian.read.letters import key
 MAX_ANSWER = 60_000
 """The largest number of characters of an answer."""
 
-MANY_WORDS = 2
-"""English words in a row that make it a sentence."""
-
 LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
-_NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
-_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{_NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
-_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
+_DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
+_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
-_USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
-_PRIMED = re.compile(rf"(?<![\w/])((?>{_NAME}))['’′″](?!s\b)")
-_ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
+_USED = re.compile(rf"(?<!\w)((?>{NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{NAME}))")
+_PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
+_ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{NAME}))")
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
 _EXPLAINED = re.compile(
@@ -125,13 +117,17 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         others = others if error.code != "E703" else []
     if isinstance(likeliest, Answer) and not likeliest.lacking:
         return likeliest
-    for reading in others:
+    for k, reading in enumerate(others):
         try:
             found = _with_said_values(reading, [], text, model, place)
         except ParseError:
             continue
-        if isinstance(likeliest, ParseError) or not found.lacking:
+        if isinstance(likeliest, Answer) and found.lacking:
+            continue
+        if isinstance(likeliest, Answer) or not reading.marks:
             return found
+        more = (partial(_with_said_values, x, [], text, model, place) for x in others[k + 1 :])
+        return replace(found, doubt=likeliest, others=(*found.others, *more))
     if isinstance(likeliest, ParseError):
         raise likeliest
     return likeliest
@@ -195,36 +191,52 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     source = source if latex else plain.source(typed, text)
     written = written_out(source) if latex else None
     text = text if latex else without_values(text, partial(_value, lines), lines.names.notes)
-    rows = plain_rows(text, words) if written is None else latex_rows(written.text)
-    outside: list[AnswerRow] = []
-    if written is not None:
-        rows = [row for row in (without_sums(x, lines.names) for x in rows) if row.text.strip()] or rows[:1]
-        outside = _beside(written, words)
-        rows = sorted([*rows, *outside], key=lambda row: row.start)
-    rows = without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0]))
+    rows, outside = _rows(text, written, words, lines)
     _check_number(rows, source, written)
     in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
     in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
-    statements, errors, aside = _parsed(source, parsers, written, words, lines)
+    statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
-        others += less_likely(
-            words, rated=rated and not latex, listed=not listed if choice else None, remarks=bool(remarks)
-        )
+        listing = not listed if choice else None
+        others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks))
+    marked = partial(places_of_marks, rows, source, written, words)
+    try:
+        made = lines.read(statements, errors)
+    finally:
+        if reading == LIKELIEST and lines.failed:
+            others += marked_readings(marked(), lines.failed)
     again = [partial(_answer, given, model, place, x, []) for x in others]
-    made = lines.read(statements, errors)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
-    aside += [
-        f"Line {k} was not judged: it is a remark beside the equations." for k in remarks[:MOST_TOLD] if reading.bare
-    ]
+    aside += told_remarks(remarks) if reading.bare else []
     notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
-    doubt = together(lines.doubts) if lines.doubts else None
-    unknown = tuple(lines.names.unknown.values())
     return Answer(
-        made, "latex" if latex else "text", unknown, notes, said, unread, tuple(again), doubt, bool(lines.lacking)
+        made,
+        "latex" if latex else "text",
+        tuple(lines.names.unknown.values()),
+        notes,
+        said,
+        unread,
+        tuple(again),
+        together(lines.doubts) if lines.doubts else None,
+        bool(lines.lacking),
+        marked,
+        lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
     )
+
+
+def _rows(
+    text: str, latex: ExpandedLatex | None, words: Words, lines: Lines
+) -> tuple[list[AnswerRow], list[AnswerRow]]:
+    """The statements of an answer, and those of them that are plain text beside LaTeX."""
+    rows, outside = plain_rows(text, words) if latex is None else latex_rows(latex.text), list[AnswerRow]()
+    if latex is not None:
+        rows = [row for row in (without_sums(x, lines.names) for x in rows) if row.text.strip()] or rows[:1]
+        outside = _beside(latex, words)
+        rows = sorted([*rows, *outside], key=lambda row: row.start)
+    return without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0])), outside
 
 
 def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLatex | None) -> None:
@@ -306,83 +318,3 @@ def _words(lines: Lines, text: str) -> Words:
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.taken = frozenset(key(name) for name in own)
     return Words(lines.names, own, alone, used, primed, led_names(text))
-
-
-def _parsed(
-    source: Source,
-    rows: Sequence[tuple[AnswerRow, Callable[[Source], Parser]]],
-    latex: ExpandedLatex | None,
-    words_of: Words,
-    lines: Lines,
-) -> tuple[list[Statement], list[ParseError], list[str]]:
-    """The statements, whose places refer to the whole answer, the errors of those that cannot be parsed, and notes
-    about rows that are no statements about the system and were left out."""
-    found: list[Statement] = []
-    errors: list[ParseError] = []
-    words: list[ParseError] = []
-    for row, parser in rows:
-        start = row.start + len(row.text) - len(row.text.lstrip())
-        written = row.text.strip() if latex is not None else with_points(row.text.strip())
-        own = Source(written, source.what, source.place, partial(_place, source, latex, start))
-        whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
-        remark = partial(is_remark, whole)
-        try:
-            found.append(replace(_statement(own, parser, lines), remark=remark))
-        except ParseError as error:
-            if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
-                found += [replace(part, remark=remark) for part in parts]
-                continue
-            lines.unread.update(key(x) for x in re.findall(_NAME, whole))
-            stated = _is_stated(written, whole, words_of) and not is_vector(written, lines.names)
-            if stated and error.code != "E703" and remark():
-                lines.remarks.append(error)
-                lines.doubts += [error] if may_redefine(whole, words_of) else []
-                continue
-            (errors if stated or error.code == "E703" else words).append(error)
-            lines.results += [error] if may_be_result(whole) else []
-            if len(errors) >= MOST_LACKING or error.code == "E703":
-                break
-    aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
-    notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]
-    return found, errors if found or errors or lines.remarks else words[:1], notes
-
-
-def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
-    """The statements in a row of plain text that cannot be parsed as a whole; none if one of them cannot be parsed."""
-    if "\\" in own.text:
-        return []
-    found: list[Statement] = []
-    try:
-        for span in statements(own.text, words):
-            part = Source(own.text[span.start : span.end], own.what, own.place, lambda at, k=span.start: own.at(k + at))
-            found.append(_statement(part, parser, lines))
-    except ParseError:
-        return []
-    return found
-
-
-def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:
-    """The statement of a row; a bracket that is missing at its end alone is closed there, which a note tells."""
-    try:
-        return Statement(tuple(parser(own).sides()), own)
-    except ParseError as error:
-        if error.code == "E703" or len(end := missing_brackets(own.text)) != 1 or end == "?" or "=" not in own.text:
-            raise
-        try:
-            sides = tuple(parser(replace(own, text=own.text + end)).sides())
-        except ParseError:
-            raise error from None
-        at = error.place.line if error.place is not None and error.place.line else 1
-        lines.names.notes.setdefault(f"Line {at} lacks a bracket, which was closed at its end.")
-        return Statement(sides, own)
-
-
-def _is_stated(row: str, whole: str, words: Words) -> bool:
-    """Whether a row that cannot be read is a statement, and no heading and no sentence; ``whole`` has the words in
-    front of it."""
-    linked = sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", whole))
-    return "=" in row and linked < MANY_WORDS and not has_words(row, words) and not in_words(row, words)
-
-
-def _place(source: Source, latex: ExpandedLatex | None, start: int, offset: int) -> Place:
-    return source.at(start + offset if latex is None else latex.origin(start + offset))

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, islice
 
 from lagrangian.check.reading.remarks import accelerates_in
+from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.words import function_of
 from lagrangian.model import Model
@@ -271,3 +272,8 @@ def _is_special(match: re.Match[str], known: Callable[[str], bool]) -> bool:
         return True
     moves = match["left"][-1:] in "'’′"
     return moves or (not right[:1].isdigit() and known(right) and right != match["left"])
+
+
+def told_remarks(lines: Sequence[int]) -> list[str]:
+    """What to say about lines with remarks that were left out."""
+    return [f"Line {k} was not judged: it is a remark beside the equations." for k in lines[:MOST_TOLD]]

@@ -1,0 +1,130 @@
+"""Parses the statements of an answer one by one, and keeps the errors of those that cannot be parsed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+from lagrangian.check.reading.answer import MarkedRow
+from lagrangian.check.reading.choices import Choices
+from lagrangian.check.reading.latex_macros import ExpandedLatex
+from lagrangian.check.reading.line_forms import Statement
+from lagrangian.check.reading.lines import Lines
+from lagrangian.check.reading.marks import readings
+from lagrangian.check.reading.parser import Parser
+from lagrangian.check.reading.plain_tokens import with_points
+from lagrangian.check.reading.prose import LINKING, has_words, in_words
+from lagrangian.check.reading.remarks import is_remark, may_redefine
+from lagrangian.check.reading.rows import AnswerRow, missing_brackets
+from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, may_be_result
+from lagrangian.check.reading.spans import statements
+from lagrangian.check.reading.unit_vectors import is_vector
+from lagrangian.check.reading.words import Words
+from lagrangian.errors import ParseError, Place
+from lagrangian.quantities.source import Source
+from lagrangian.read.letters import key
+
+MANY_WORDS = 2
+"""English words in a row that make it a sentence."""
+
+NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
+"""A name, with combining dots."""
+
+
+def parsed(
+    source: Source,
+    rows: Sequence[tuple[AnswerRow, Callable[[Source], Parser]]],
+    latex: ExpandedLatex | None,
+    words_of: Words,
+    lines: Lines,
+    reading: Choices,
+) -> tuple[list[Statement], list[ParseError], list[str]]:
+    """Return the statements, whose places refer to the whole answer, the errors of those that cannot be parsed, and
+    notes about rows that are no statements about the system and were left out."""
+    found: list[Statement] = []
+    errors: list[ParseError] = []
+    words: list[ParseError] = []
+    for typed, parser in rows:
+        row = reading.row(typed, words_of)
+        own = _source(row, source, latex)
+        written = own.text
+        whole = written if latex is not None else source.text[row.start : row.start + len(row.text)]
+        remark = partial(is_remark, whole)
+        try:
+            found.append(replace(_statement(own, parser, lines), remark=remark))
+        except ParseError as error:
+            if error.code != "E703" and (parts := _spans(own, parser, lines, words_of)):
+                found += [replace(part, remark=remark) for part in parts]
+                continue
+            lines.failed.append(error)
+            lines.unread.update(key(x) for x in re.findall(NAME, whole))
+            stated = _is_stated(written, whole, words_of) and not is_vector(written, lines.names)
+            if stated and error.code != "E703" and remark():
+                lines.remarks.append(error)
+                lines.doubts += [error] if may_redefine(whole, words_of) else []
+                continue
+            (errors if stated or error.code == "E703" else words).append(error)
+            lines.results += [error] if may_be_result(whole) else []
+            if len(errors) >= MOST_LACKING or error.code == "E703":
+                break
+    aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
+    notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]
+    return found, errors if found or errors or lines.remarks else words[:1], notes
+
+
+def places_of_marks(
+    rows: Sequence[AnswerRow], source: Source, latex: ExpandedLatex | None, words: Words
+) -> tuple[MarkedRow, ...]:
+    """Return the rows that have other readings, with the line where each begins."""
+    counted = ((row, len(readings(row.text, words))) for row in rows)
+    return tuple(MarkedRow(_source(row, source, latex).at(0).line or 1, row.start, n) for row, n in counted if n)
+
+
+def _source(row: AnswerRow, source: Source, latex: ExpandedLatex | None) -> Source:
+    """The text of a row, with its places in the whole answer."""
+    start = row.start + len(row.text) - len(row.text.lstrip())
+    written = row.text.strip() if latex is not None else with_points(row.text.strip())
+    return Source(written, source.what, source.place, partial(_place, source, latex, start))
+
+
+def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
+    """The statements in a row of plain text that cannot be parsed as a whole; none if one of them cannot be parsed."""
+    if "\\" in own.text:
+        return []
+    found: list[Statement] = []
+    try:
+        for span in statements(own.text, words):
+            part = Source(own.text[span.start : span.end], own.what, own.place, lambda at, k=span.start: own.at(k + at))
+            found.append(_statement(part, parser, lines))
+    except ParseError:
+        return []
+    return found
+
+
+def _statement(own: Source, parser: Callable[[Source], Parser], lines: Lines) -> Statement:
+    """The statement of a row; a bracket that is missing at its end alone is closed there, which a note tells."""
+    try:
+        return Statement(tuple(parser(own).sides()), own)
+    except ParseError as error:
+        if error.code == "E703" or len(end := missing_brackets(own.text)) != 1 or end == "?" or "=" not in own.text:
+            raise
+        try:
+            sides = tuple(parser(replace(own, text=own.text + end)).sides())
+        except ParseError:
+            raise error from None
+        at = error.place.line if error.place is not None and error.place.line else 1
+        lines.names.notes.setdefault(f"Line {at} lacks a bracket, which was closed at its end.")
+        return Statement(sides, own)
+
+
+def _is_stated(row: str, whole: str, words: Words) -> bool:
+    """Whether a row that cannot be read is a statement, and no heading and no sentence; ``whole`` has the words in
+    front of it."""
+    linked = sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", whole))
+    return "=" in row and linked < MANY_WORDS and not has_words(row, words) and not in_words(row, words)
+
+
+def _place(source: Source, latex: ExpandedLatex | None, start: int, offset: int) -> Place:
+    return source.at(start + offset if latex is None else latex.origin(start + offset))
