@@ -26,6 +26,14 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     found = set(_used_as_names(statements, first, subjects))
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
         kind = None if named is None or named[1] or moving[k] else energy_of(named[0], model, lhs=True)
+        if (
+            named is not None
+            and str(named[0]) == "P"
+            and not named[1]
+            and moving[k]
+            and not names.scope.meanings("P")[0]
+        ):
+            found.add(key("P"))  # the power of a force: no energy V has rates
         if named is None or kind is None:
             continue
         listed = [str(x) for side in sides[1:] for x, _ in names_in(side)]

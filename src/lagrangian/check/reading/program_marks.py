@@ -41,6 +41,16 @@ _SHOWN = re.compile(
 )
 _SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))", re.MULTILINE)
 """The structure of a solution: S.dds = …"""
+_NUMBERED = re.compile(
+    r"^[ \t>]*+(?:eq|Eq|EQ|equation|ode|de|gl|EL|EOM|eom)[a-z]{0,9}[\[(]\d{1,2}[\])][ \t]*+:?=[ \t]*+(?=[^\n=]*=|Eq\()",
+    re.MULTILINE,
+)
+"""An entry of a list of equations: eq[1] := a = b."""
+_ANSWERED = re.compile(
+    rf"^[ \t]*+>>[ \t]*+(?:[a-z]{{4,16}}\()?(?:{_NAME}\.)?(?P<name>{_NAME})\)?[ \t]*+\n\s{{0,9}}ans[ \t]*+=(?=\s)",
+    re.MULTILINE,
+)
+"""What MATLAB answers to the name of a quantity: simplify(S.xdd) ⏎ ans = …"""
 _TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
 _DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
@@ -50,6 +60,7 @@ _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME}
 def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
     written = written.edited(_comments(written.text)).sub(_LABELLED, lambda m: "")
+    written = written.sub(_NUMBERED, lambda m: "").sub(_ANSWERED, lambda m: f"{m['name']} =")
     written = written.sub(_SOLUTION, lambda m: "").sub(_TRANSPOSED, lambda m: "^T")
     written = with_shown_matrices(written)
     shown = {m["name"] for m in _SHOWN.finditer(written.text)}

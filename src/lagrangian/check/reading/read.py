@@ -89,7 +89,8 @@ _EXPLAINED = re.compile(
     r"(?:(?:the|an?)[ \t])?(?P<word>[^\W\d_]{4,})"
 )
 """A name with words that say what it is: rho: radius of the drum."""
-
+_BY_TIME = re.compile(r"[(\[](?P<by>d/dt)[)\]](?=[ \t]?[(\[d∂])")
+"""d/dt in brackets of its own: (d/dt)(∂T/∂x')."""
 _CHOSEN = re.compile(
     r"\bcoordinates?\b[^.;=\n]{0,60}\bthe[ ](?:angle|distance|displacement|position)[ ]"
     r"(?P<name>[^\W\d]\w{0,23}+)(?=[ ][a-z])"
@@ -278,7 +279,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     if _LATEX.search(said.text):
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
-        said = with_stated_values(with_derivatives(said), taken)
+        said = with_stated_values(with_derivatives(said.sub(_BY_TIME, lambda m: m["by"])), taken)
         said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
         own = {key(name) for name in lines.model.symbols}
         said = with_program_names(said, names.changes, lambda name: key(name) in own)

@@ -190,7 +190,7 @@ def _command(written: str, taken: Callable[[str], bool]) -> bool:
     if name in MATHEMATICAL or function_of(name) is not None or (taken(name) and not of):
         return False
     if match["to"] and any(taken(x.strip()) for x in match["to"].split(",")):
-        return name in ("ReferenceFrame", "Point", "symbols", "dynamicsymbols", "Symbol", "Function", "var")
+        return name in _WORKING or name == "ReferenceFrame"
     if of:
         return name not in _METHODS
     return is_program(name) or _STRING.search(written) is not None or _KEYWORD.search(written) is not None

@@ -1,0 +1,41 @@
+"""Marks around statements say nothing of the system: bullets before code, headings between rules, numbers of entries.
+
+Oracle: the equations of the cart with a pole, and the same with another sign.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from student_answers import CART, POLE, right
+
+CART_TYPED = "(M + m)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) + b*x' = F"
+POLE_TYPED = "(J + m*l^2)*theta'' + m*l*x''*cos(theta) - m*g*l*sin(theta) = 0"
+KINETIC = "T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 l x' theta' cos theta + l^2 theta'^2) + 1/2 J theta'^2"
+DETERMINANT = "((M + m)*(J + m*l^2) - m^2*l^2*cos(theta)^2)"
+CART_SOLVED = f"((J + m*l^2)*(F - b*x' + m*l*theta'^2*sin(theta)) - m^2*l^2*g*sin(theta)*cos(theta))/{DETERMINANT}"
+POLE_SOLVED = f"((M + m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*x' + m*l*theta'^2*sin(theta)))/{DETERMINANT}"
+
+ANSWERS = [
+    f"1. `{KINETIC}`\n\nFinal:\n\n- `{CART_TYPED}`\n- `{POLE_TYPED}`",
+    f"- `u = x + l*sin(theta)` (pole)\n\n```\n{CART_TYPED}\n{POLE_TYPED}\n```",
+    f"--- x ---\n{CART}\n--- theta ---\n{POLE}",
+    f"=== Equation of the cart ===\n{CART}\n-- 2nd --\n{POLE}",
+    f"eq(1) = {CART_TYPED.replace(' = ', ' == ')};\neqn[2] := {POLE_TYPED};",
+    f">> S = solve([eq1, eq2], [xdd, thdd]);\n>> simplify(S.xdd)\n \nans =\n \n{CART_SOLVED}\n \n>> S.thdd\n \nans ="
+    f"\n \n{POLE_SOLVED}\n \n% xdd = x'', thdd = theta''",
+    f"{CART}\n{POLE}\nPower of the force: P = F x'",
+    f"{KINETIC}\n(d/dt)(dT/dx') = (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta\n{CART}\n{POLE}",
+]
+
+
+@pytest.mark.parametrize("answer", ANSWERS)
+def test_marks_around_statements_are_no_part_of_them(answer: str) -> None:
+    assert right(answer)
+    sign = next(x for x in ("- m*g*l", "- m g l", "(M + m)*m*g") if x in answer)
+    assert not right(answer.replace(sign, sign.replace("- ", "+ ").replace("(M + m)", "(M - m)")))
+
+
+@pytest.mark.parametrize("line", ["P = - m g l cos theta", f"{KINETIC}\n(d/dt)(dT/dx') = (M + m) x'' + m l theta''"])
+def test_what_is_marked_so_is_judged(line: str) -> None:
+    assert not right(f"{line}\n{CART}\n{POLE}")
