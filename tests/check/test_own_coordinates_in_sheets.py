@@ -139,7 +139,8 @@ def test_a_force_where_a_coordinate_of_the_answers_own_replaces_another() -> Non
 
 @pytest.mark.parametrize(
     "said",
-    ["V = -k*s^2   <- crossed out", "V = k*s^2  (crossed out, the half is missing)", "V = k*s^2  // durchgestrichen"],
+    ["V = -k*s^2   <- crossed out", "V = k*s^2  (crossed out, the half is missing)", "V = k*s^2  // durchgestrichen"]
+    + ["V = k*s^2   ← wrong, see below", "V = k*s^2   (scrap that)", "V = k*s^2  # wrong factor, corrected below"],
 )
 def test_a_line_that_a_remark_calls_crossed_out_is_not_judged(said: str) -> None:
     rows = """(J + m*h^2 + m*s^2)*phi'' - m*h*s'' + 2*m*s*s'*phi' + d*phi' = tau
@@ -147,6 +148,7 @@ m*s'' - m*h*phi'' - m*s*phi'^2 + b*s' + k*s = 0"""
     found = table().check(f"{said}\nV = k*s^2/2\n{rows}")
     assert found.right and any("crossed out" in str(note) for note in found.notes)
     assert not table().check(f"{said}\nV = k*s^2\n{rows}").right
+    assert not table().check(f"{said.split()[0]} = k*s^2   (the wrong one is below)\n{rows}").right
 
 
 def test_terms_crossed_out_in_a_sum_keep_their_signs() -> None:

@@ -1,6 +1,6 @@
 r"""Takes off an answer what is crossed out, which is no part of it: ~~V = k r²~~, <s>…</s>, \sout{…}.
 
-A remark says it of the line in front of it: V = m g z   <- crossed out.
+A remark says it of the line in front of it: V = m g z   <- crossed out, V = m g z   ← wrong, see below.
 """
 
 from __future__ import annotations
@@ -15,11 +15,14 @@ _BETWEEN = re.compile(r"~~(?=[^\s~])[^~\n]{1,1000}~~|<(?P<tag>s|del|strike)>[^<>
 _COMMAND = re.compile(r"\\(?:sout|xout)\s?\{")
 _SAID = re.compile(
     r"(?:<-+|←|\(|\[|//|#|%|--|—|…|\.\.\.)[ \t]{0,4}(?:this )?(?:line |is )?"
-    r"(?:(?:crossed|struck|scratched)[ -](?:out|through)|(?:durch)?gestrichen)[ \t]{0,4}(?=[,;:.)\]\n]|\Z)",
+    r"(?:(?:crossed|struck|scratched)[ -](?:out|through)|(?:durch)?gestrichen|verworfen"
+    r"|(?:scrap|forget|ignore|discard)[ ](?:that|this)"
+    r"|(?:wrong|incorrect|falsch)(?=[^\n]{0,40}?\b(?:below|corrected|unten|korrigiert)\b)[^\n)\]]{0,60}"
+    r"|wrong|incorrect|falsch)[ \t]{0,4}(?=[!,;:.)\]\n]|\Z)",
     re.IGNORECASE,
 )
-"""A remark that begins with these words."""
-_WORDS = ("crossed", "struck", "scratched", "gestrichen")
+"""A remark that begins with these words: the line is crossed out or taken back."""
+_WORDS = ("crossed", "struck", "scratched", "gestrichen", "wrong", "incorrect", "falsch", "verworfen", " that", " this")
 _MOST = 50
 
 
