@@ -6,6 +6,7 @@ Oracle: the equations of the cart with a pole, and the same with another sign.
 from __future__ import annotations
 
 import pytest
+import sympy as sp
 
 from student_answers import CART, POLE, right
 
@@ -39,3 +40,14 @@ def test_marks_around_statements_are_no_part_of_them(answer: str) -> None:
 @pytest.mark.parametrize("line", ["P = - m g l cos theta", f"{KINETIC}\n(d/dt)(dT/dx') = (M + m) x'' + m l theta''"])
 def test_what_is_marked_so_is_judged(line: str) -> None:
     assert not right(f"{line}\n{CART}\n{POLE}")
+
+
+def test_two_equations_drawn_below_each_other_are_two() -> None:
+    """The second begins with a minus, and does not go on with the first; the carts of the lecture."""
+    t, m1, m2, k, F = sp.symbols("t m1 m2 k F")
+    x, r = (sp.Function(name)(t) for name in ("x1", "x2r"))
+    first = sp.pretty(sp.Eq(m1 * x.diff(t, 2) - k * r, -F), use_unicode=True)
+    second = sp.pretty(sp.Eq(-F + k * r, -m2 * (x + r).diff(t, 2)), use_unicode=True)
+    wrong = sp.pretty(sp.Eq(-F - k * r, -m2 * (x + r).diff(t, 2)), use_unicode=True)
+    assert right(f">>> pprint(e1)\n{first}\n>>> pprint(e2)\n{second}", "lecture-3b")
+    assert not right(f">>> pprint(e1)\n{first}\n>>> pprint(e2)\n{wrong}", "lecture-3b")

@@ -142,8 +142,8 @@ def _goes_on(above: str | None, below: str | None, rows: Sequence[str]) -> bool:
     """Whether a drawing without arrows, which is ``above`` on one line, goes on in the one below it."""
     if above is None or _OPEN_END.search(above) or not _balanced(above):
         return above is not None or _is_wide(rows)
-    if below is None:
-        return _is_wide(rows)
+    if below is None or ("=" in above and "=" in below):  # two equations
+        return below is None and _is_wide(rows)
     return _GOES_ON.match(below) is not None or (_is_wide(rows) and "=" in below and "=" not in above)
 
 
