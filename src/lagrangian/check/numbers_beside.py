@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from lagrangian.check.reference import Reference
 from lagrangian.check.spelling import in_numbers, values_of
@@ -33,6 +34,10 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     second = judge(truth.with_values(values), numbers)
     if second.status is Status.OTHER_COORDINATES:
         return None
+    others = first.right and len(numeric) > 1 and not truth.values
+    if others and all(f.status is Status.WRONG for f in second.findings):
+        note = text("The lines in numbers were not judged: they are for other values than those of the system.")
+        return replace(first, notes=(*first.notes, note))
     wrong = first if not first.right else second
     order: dict[int, list[Finding]] = {}
     for finding in (*first.findings, *second.findings):
