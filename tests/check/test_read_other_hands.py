@@ -144,10 +144,10 @@ def test_lists_of_values_are_statements_in_any_sentence() -> None:
 
 
 @pytest.mark.slow
-def test_coordinates_in_brackets_in_front_are_labels_only_if_all_are_there() -> None:
+def test_coordinates_in_brackets_in_front_are_labels_where_they_are_no_factors() -> None:
     assert bead().check(f"(r)  {BEAD}\n(φ)  {TUBE}").right
     assert not bead().check(f"(r)  {BEAD.replace(' = 0', ' = tau')}\n{TUBE}").right
-    assert not bead().check(f"(r) {BEAD}\n{TUBE}").right
+    assert "was read without '(r)'" in bead().check(f"(r) {BEAD}\n{TUBE}").to_text()
 
 
 def test_general_equations_in_matrices_are_told() -> None:
