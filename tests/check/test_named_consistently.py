@@ -87,3 +87,10 @@ def test_speeds_that_are_stated_are_told_before_masses_that_are_exchanged() -> N
     answer = "v_A = l*q'*sin(q)\nv_B = l*p'*cos(p)\nT = a*v_A^2/2 + b*v_B^2/2"
     found = told(sliders(), answer)
     assert len(found) == 2 and all("speed" in x for x in found), found
+
+
+def test_a_cause_of_a_later_line_is_no_first_word_where_the_first_line_is_open() -> None:
+    """Both wrong in many terms: what differs in the first equation is said before what explains the second alone."""
+    rows = "(2 M + 3 m) x'' + 5 m l theta'' - 7 b x' + 4 J = F\n" + POLE.replace("- m g", "+ m g")
+    verdict = derivation("cart-pole").check(rows)
+    assert verdict.mistakes and not verdict.sure

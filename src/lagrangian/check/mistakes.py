@@ -16,7 +16,7 @@ from lagrangian.check.changes.pool import Pool, pool_of
 from lagrangian.check.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.line_mistakes import MOST_TOLD, UNNATURAL, contradicted, followed, of_forces, of_line, stated
 from lagrangian.check.numerators import by_numerators, said_of
-from lagrangian.check.own_terms import OwnTerm, own_terms
+from lagrangian.check.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.quoted import is_quotable, letters_of
 from lagrangian.check.reduced import of_reduced
 from lagrangian.check.reference import Reference
@@ -57,7 +57,7 @@ class NamedMistakes:
     """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
     ``certain``: a single likely mistake explains everything. ``sure``: none of them is far-fetched. ``left`` are the
-    wrong equations that they leave open.
+    wrong equations that they leave open; the first wrong line is explained, or they are not ``sure``.
     """
 
     told: tuple[Mistake, ...] = ()
@@ -79,6 +79,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     against = contradicted(pool, [f.line for f in findings if f.status.right], lines)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
+    left: list[AnsweredLine] = []
     bodies = BodiesSaid(truth, lines)
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
@@ -93,6 +94,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
                 more = [] if found else [p.mistake for p in said]
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
+            left += [] if found or more else [line]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
     groups += [of_energy_theorem(pool, line.expr) for line in powers]
     of_equation = [f for f in findings if f.line.kind == "equation" and not any(f.line is x for x in powers)]
@@ -100,7 +102,6 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
         against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
-    left: list[AnsweredLine] = []
     of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
     rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
     below = below_right_equations(truth, findings)
@@ -117,7 +118,10 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
     told = (*named.told, *_once(own, named.told))
-    return replace(named, told=told, certain=named.certain and not own and not left, left=tuple(left))
+    open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
+    certain, sure = named.certain and not own and not left, named.sure and not open_first
+    rows_left = tuple(line for line in left if line.kind == "equation")
+    return replace(named, told=told, certain=certain, left=rows_left, sure=sure)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:

@@ -45,8 +45,8 @@ def of_either(
     ledgers = {e.title: e.ledger for e in truth.model.elements}
     own = ledgers.get(mistake.element or "")
     for e in others:
-        shape = mistake.name in NUMBERS and e.told[0].mistake.change is not None
-        shape = shape and e.told[0].mistake.change.kind == "inertia_form"
+        change = e.told[0].mistake.change
+        shape = mistake.name in NUMBERS and change is not None and change.kind == "inertia_form"
         if own is None or e.under is not under or e.told[0].cost > told.cost + (AS_LIKELY if shape else ALIKE):
             continue
         rival = in_words(truth, e.told[0], e.under)
