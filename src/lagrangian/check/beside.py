@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.misconceptions.small_angle import first_order, small
-from lagrangian.check.places import only_places, place_or_approximation
+from lagrangian.check.places import AT_REST, is_rate, only_places, place_or_approximation, rests
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
 from lagrangian.check.verdict import AnsweredLine
@@ -29,9 +29,15 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    if not wrong or comparison.rank < truth.n:
+    values = [line for line in lines if line.kind == "identity" and rests(truth, line.expr)]
+    if not (wrong or values) or comparison.rank < truth.n:
         return lines, ()
     aside = {id(line): why for line in wrong if (why := place_or_approximation(truth, line.expr, line.text))}
+    aside |= {id(line): AT_REST for line in values}
+    places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
+    aside |= {
+        id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
+    }
     others = [line for line in wrong if id(line) not in aside]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
@@ -53,7 +59,7 @@ def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:
     names = [x for c in coordinates for x in (c.symbol, c.rate, c.acceleration)]
     P = CompiledExpressions(exprs).at(truth.states)
     holds = np.zeros(len(exprs), bool)
-    for rows in (changed, [first_order(row, names) for row in changed]):
+    for rows in filter(None, (changed, first_order(changed, names))):
         W: Array = CompiledExpressions(rows).at(truth.states)
         holds |= factors_of(truth, P, W)[1]
     return [bool(x) for x in holds]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any, cast
 
 import sympy as sp
@@ -10,6 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.model import time
 
 HIGHEST = 4
 """The highest degree of an approximation: cos θ = 1 − θ²/2 + θ⁴/24."""
@@ -24,6 +25,7 @@ STEPS = 40
 FARTHEST = 50
 """Beyond this value no position is sought."""
 
+AT_REST = "it is about the position at rest"
 STARTS = (sp.Rational(3, 5), sp.Rational(-7, 4) + sp.I / 3, sp.Rational(13, 5) + sp.I / 5)
 
 
@@ -42,8 +44,12 @@ def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str
     """
     if "=" in written and _is_input(truth, expr):
         return "it is about one value of an input"
+    if "=" not in written or bounded.hard([expr], LONG):
+        return None
+    if rests(truth, expr):
+        return AT_REST
     changing = only_places(truth, expr)
-    if "=" not in written or not changing or bounded.hard([expr], LONG):
+    if not changing:
         return None
     if _approximates(expr, changing):
         return "it is about small motions"
@@ -51,6 +57,56 @@ def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str
         return None
     (place,) = changing
     return "it is about one position" if _is_chosen(expr, place) or _is_at_rest(truth, expr, place) else None
+
+
+def is_rate(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line only gives the rate of a coordinate a constant value: θ′ = 0, φ′ = Ω."""
+    rates = expr.atoms(sp.Derivative)
+    if len(rates) != 1 or not rates <= {c.rate for c in truth.model.coordinates}:
+        return False
+    (rate,) = rates
+    rest = bounded.expand(expr - expr.diff(rate) * rate)
+    return bool(expr.diff(rate).is_number) and (rest.is_number or (-rest).is_Symbol or rest.is_Symbol)
+
+
+def rests(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line gives coordinates the constant values that they have at rest: s = m g/k, x2 - x1 = F/k2.
+
+    Rows of the system that are linear in the coordinates at rest, with constant inputs or without these, say so.
+    """
+    coordinates = [c.symbol for c in truth.model.coordinates]
+    still: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
+    slopes = [expr.diff(q) for q in coordinates]
+    if expr.has(sp.Derivative) or not any(slopes) or not all(x.is_number for x in slopes):
+        return False
+    for given in (True, False):
+        inputs = {u.symbol: sp.Symbol(u.name) if given else sp.S.Zero for u in truth.model.inputs}
+        listed = [cast("sp.Expr", x.xreplace(still | inputs)) for x in (*truth.rows, expr)]
+        names = sorted(set().union(*(x.free_symbols for x in listed)) - {time}, key=str)
+        table = {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
+        *rows, own = (_linear(cast("sp.Expr", x.xreplace(table)), coordinates) for x in listed)
+        if own is not None and own[-1] != 0 and _combined([row for row in rows if row is not None], own):
+            return True
+    return False
+
+
+def _linear(expr: sp.Expr, coordinates: Sequence[AppliedUndef]) -> list[sp.Expr] | None:
+    """The factors of the coordinates in an expression of numbers, and what is left; None if it is not linear."""
+    parts = [expr.diff(q) for q in coordinates]
+    parts.append(cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero))))
+    return [sp.N(x, DIGITS) for x in parts] if all(x.is_number and x.is_finite for x in parts) else None
+
+
+def _combined(rows: list[list[sp.Expr]], own: list[sp.Expr]) -> bool:
+    """Whether a row of numbers is a sum of multiples of others; those with a last number alone do not count."""
+    small = sp.Float(10) ** (10 - DIGITS)
+    for k in range(len(own) - 1):
+        pivot = max(rows, key=lambda row: abs(row[k]), default=None)
+        if pivot is None or abs(pivot[k]) <= small:
+            continue
+        rows = [row for row in rows if row is not pivot]
+        own, *rows = ([a - b * row[k] / pivot[k] for a, b in zip(row, pivot, strict=True)] for row in (own, *rows))
+    return all(abs(x) <= small for x in own)
 
 
 def _is_input(truth: Reference, expr: sp.Expr) -> bool:

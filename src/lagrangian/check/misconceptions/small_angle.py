@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
@@ -33,7 +33,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         return
     changed = [put(row, replaced) for row in rows]
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(changed, rows, strict=True))})
-    linear = [first_order(c, (*s.q, *s.v, *s.a)) for c in changed]
+    linear = first_order(changed, (*s.q, *s.v, *s.a))
+    if linear is None:
+        return
     yield Variant(what=what, rows={i: c - r for i, (c, r) in enumerate(zip(linear, rows, strict=True))})
 
 
@@ -56,8 +58,13 @@ def small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
     return 1 - angle**2 / 2 if quadratic else sp.S.One  # type: ignore[operator]
 
 
-def first_order(row: sp.Expr, moving: Iterable[sp.Expr]) -> sp.Expr:
-    """The part up to first order in coordinates, rates and accelerations, all of them in ``moving``."""
+def first_order(rows: Sequence[sp.Expr], moving: Iterable[sp.Expr]) -> list[sp.Expr] | None:
+    """The parts up to first order in coordinates, rates and accelerations, all of them in ``moving``.
+
+    None where the rows have no value at 0: 1/r² is of no order in r.
+    """
     e = sp.Dummy("e")
-    scaled = put(row, {x: e * x for x in moving})
-    return put(scaled, {e: sp.S.Zero}) + put(bounded.diff(scaled, e), {e: sp.S.Zero})
+    table = {x: e * x for x in moving}
+    scaled = [put(row, table) for row in rows]
+    found = [put(x, {e: sp.S.Zero}) + put(bounded.diff(x, e), {e: sp.S.Zero}) for x in scaled]
+    return None if any(x.has(sp.zoo, sp.nan, sp.oo, -sp.oo) for x in found) else found

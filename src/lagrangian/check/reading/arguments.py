@@ -1,9 +1,16 @@
-"""What quantities are said to depend on: after I(r) = …, I(r) is I and no product of I and r."""
+"""What quantities are said to depend on: after I(r) = …, I(r) is I and no product of I and r.
+
+After L(x) = L0 + L1 x and g(x, y) = x² + y² − l², with L the Lagrangian and g gravity, these are other names.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+
+from lagrangian.check.reading.prose import moves
+from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.read.letters import key
 
 _NAME = r"(?<![\w\\])\\?[^\W\d_]\w*(?:\{\w{1,20}\})?"
 _STATED = re.compile(
@@ -31,6 +38,56 @@ def dependents(text: str, taken: Callable[[str], bool]) -> frozenset[str]:
         if len(found) < _MAX and first and free and all(_QUANTITY.match(x) for x in re.split("[,;]", of)):
             found.add(f"{name}({written(of)})")
     return frozenset(found)
+
+
+_LETTERS = frozenset(["L", "T", "D", "R", "K"])
+"""Letters of energies that always hold rates."""
+_ENERGY = re.compile(r"(?<![\w\\])(?:[TVUK]|PE|KE)\*?(?![\w(])")
+_VALUE_END = re.compile(r"[\n;$]|\\\\")
+
+
+def with_own_functions(
+    text: TracedText,
+    system: Callable[[str], bool],
+    changes: Callable[[str], bool],
+    told: dict[str, None],
+    *,
+    latex: bool,
+) -> TracedText:
+    """Return an answer in which functions of coordinates that are called as a quantity of the system, or as an energy
+    without any rate, have names of their own; notes tell these.
+
+    ``system`` says whether a name belongs to the system, ``changes`` whether it changes with time.
+    """
+    named = {key(name): name for name in _functions(text.text, system, changes)}
+    if not named:
+        return text
+    edits: list[Edit] = []
+    for match in _APPLIED.finditer(text.text):
+        whole = written(match["name"] + match["of"].removeprefix("\\left"))
+        if key(whole) not in named:
+            continue
+        index = re.sub(r"\W", "", whole.partition("(")[2])
+        edits.append((*match.span("of"), f"_{{{index}}}" if latex else f"_{index}"))
+        told.setdefault(f"'{whole}' was read as a quantity of its own.")
+    return text.edited(edits)
+
+
+_APPLIED = re.compile(rf"(?P<name>{_NAME})\s{{0,3}}(?P<of>(?:\\left)?\([^()=+*/^\n-]{{1,60}}\))")
+
+
+def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str], bool]) -> Iterator[str]:
+    """The functions that are stated under a name of the system, or of an energy."""
+    for match in _STATED.finditer(text):
+        name, of = written(match["name"]), written(match["of"].removeprefix("\\left"))
+        before = _BEFORE.search(text, max(0, match.start() - 40), match.start())
+        first = before is None or (before[1] is not None and len(before[1]) > 1)
+        listed = [x for x in re.split("[,;]", of[1:-1]) if x]
+        end = _VALUE_END.search(text, match.end())
+        value = text[match.end() : len(text) if end is None else end.start()]
+        own = system(name) or (name in _LETTERS and not moves(value) and not _ENERGY.search(value))
+        if first and own and not changes(name) and all(map(changes, listed)):
+            yield f"{name}{of}"
 
 
 def written(text: str) -> str:

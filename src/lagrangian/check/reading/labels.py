@@ -63,6 +63,12 @@ _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
 _QUANTITY = rf"(?:[∂d][²2]?\s?/\s?(?:[∂d]\w{{1,12}}[²2]?|\([∂d]\w{{1,12}}\))|{_NAMED})"
 _OF_QUANTITY = re.compile(rf"\s*+[(\[]?{_QUANTITY}[)\]]?\s*+:(?!=)")
 """A quantity alone: T*: …, θ'': …, ∂/∂x: …"""
+_OF_VALUE = re.compile(
+    r"\s*+(?:\w{1,3}[).]\s++)?[(\[]?(?:[^\W\d_]{2,12}[ \t]++){0,2}"
+    r"(?P<name>(?:[qξηijkn]|[xX]i)(?:_?[ijkn\d])?)[ \t]*+=[ \t]*+"
+    r"(?P<of>[^\W\d]\w{0,12}+|\d)[ \t]*+[)\]]?(?:[ \t]*+\([^()=]{1,20}\))?[ \t]*+(?::(?!=)|=+>|⇒|⟹|→|-+>|$)"
+)
+"""Which coordinate a general letter is: q = x: m x'' = F."""
 _HEAD = re.compile(r"\s*+(?P<said>[^\W\d_](?:[^=:()]|\([^=:()]*+(?:\([^=:()]*+\)[^=:()]*+)*+\)){2,100}?):(?![=\w])")
 _IN_BRACKETS = re.compile(r"\([^()]*+(?:\([^()]*+\)[^()]*+)*+\)")
 _SPOKEN_SIGNS = re.compile(r"[\w\s.,#'’&+/*-]*")
@@ -100,7 +106,7 @@ _STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\))[^=]*\Z|\s(?:<-+|�
 _DOTS = re.compile(r"(?<=[\w\u0307\u0308)\]'’′²³])\s+(?:\.\.\.|…)\s+(?=[^\W\d_]{2})[^=+*/^()\[\]\d]{0,80}\Z")
 """Words behind dots: J_A = J + m*l^2 ... used below."""
 _UNIT = re.compile(
-    r"(?<=[\w\u0307\u0308)\]'’′″²³,.;])(?P<gap>[ \t]+)\[(?P<unit>[A-Za-zµΩ·*/^²³⁻¹\d \t-]{1,12})\]"
+    r"(?<=[\w\u0307\u0308)\]'’′″²³,.;])(?P<gap>[ \t]+)\[(?:in[ \t])?(?P<unit>[A-Za-zµΩ·*/^²³⁴⁻¹()\d \t-]{1,16})\]"
     r"(?=[ \t]*(?:[.,;:]|$)|[ \t]+[^\W\d_]{2,}[ \t])",
     re.MULTILINE,
 )
@@ -133,6 +139,8 @@ class Numbering:
     that are found nowhere else, (A) …, (B) …"""
     tags: frozenset[str] = frozenset()
     """The letters in brackets far behind equations that are found outside brackets nowhere."""
+    chosen: frozenset[str] = frozenset()
+    """The letters that stand for one coordinate after the other: q = x: …, q = θ: …"""
     counted: bool = False
     """Whether numbers in front of lines, far from these, count the steps: 2  T = …"""
 
@@ -161,7 +169,18 @@ def numbering(text: str, words: Words) -> Numbering:
     tags = frozenset(x for x in behind_far if _is_tag(x, text, words))
     steps = [int(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
     counted = len(steps) > FEWEST_STEPS and steps == list(range(steps[0], steps[0] + len(steps)))
-    return Numbering(before, behind, in_order, frozenset(written if told or beside else ()), tags, counted)
+    names = frozenset(written if told or beside else ())
+    return Numbering(before, behind, in_order, names, tags, _chosen(text, words), counted)
+
+
+def _chosen(text: str, words: Words) -> frozenset[str]:
+    """The letters of which lines say that they stand for one coordinate after the other."""
+    found: dict[str, set[str]] = {}
+    for match in filter(None, map(_OF_VALUE.match, text.split("\n"))):
+        called = words.names.scope.meanings(match["of"])[0]
+        if match["of"].isdigit() or (called and words.names.changes(match["of"])):
+            found.setdefault(match["name"], set()).add(match["of"])
+    return frozenset(name for name, values in found.items() if len(values) > 1)
 
 
 def _in_order(marks: Sequence[str]) -> bool:
@@ -191,6 +210,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
         line = blank(line, 0, step.end())
     for _ in range(_ROUNDS):
         above = line
+        if (of := _OF_VALUE.match(line)) is not None and of["name"] in numbers.chosen:
+            line = blank(line, 0, of.end())
         for form in (
             _BRACE,
             _ARROW,
@@ -285,11 +306,11 @@ def without_units(text: str, words: Words) -> str:
 
 
 def _is_unit(written: str, words: Words, gap: str) -> bool:
-    """Whether all words in brackets are units, and one is no product of names; far from a statement, all may be."""
+    """Whether all words in brackets are units, and one no letter that is a name; far from a statement, all may be."""
     found = re.findall("[A-Za-zµΩ]+", written)
-    if not found or any(lookup(x) is None and x != "Nm" for x in found):
+    if not found or any(lookup(x) is None and x not in ("Nm", "kgm", "Nms") for x in found):
         return False
-    return len(gap) > 1 or not all(words.is_name(x) or words.is_product(x) for x in found)
+    return len(gap) > 1 or not all(len(x) == 1 and words.is_name(x) for x in found)
 
 
 def _is_factor(match: re.Match[str], words: Words) -> bool:

@@ -75,13 +75,17 @@ def without_expressions(
     made: Mapping[int, Sequence[AnswerLine]], statements: Sequence[Statement], names: Names
 ) -> tuple[AnswerLine, ...]:
     """The lines of all statements, in their order, without expressions that have no equals sign, if there is an
-    equation with accelerations for every coordinate: … ⇒ m l² φ̈ + m g l sin φ, before the result. Notes tell them."""
+    equation with accelerations for every coordinate: … ⇒ m l² φ̈ + m g l sin φ, before the result. Notes tell them.
+
+    If these equations have no equals signs, only the expressions without accelerations go, such as that of L.
+    """
     moving = {k: sum(x.kind == "equation" and _moves(x) for x in lines) for k, lines in made.items()}
     stated = sum(count for k, count in moving.items() if len(statements[k].sides) > 1)
     equations = (k for k, lines in made.items() if any(x.kind == "equation" for x in lines))
     aside = {k for k in equations if len(statements[k].sides) == 1}
     if stated < len(names.model.coordinates):
-        aside = set[int]()
+        moved = sum(moving.values()) >= len(names.model.coordinates)
+        aside = {k for k in aside if not moving[k]} if moved else set[int]()
     for k in sorted(aside):
         written = " ".join(statements[k].source.text.split())
         names.notes.setdefault(f"'{written}' was not judged: it is an expression without an equals sign.")

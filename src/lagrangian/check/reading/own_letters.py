@@ -17,26 +17,25 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     """Return the letters of energies that statements, given by their sides, give a value that is no energy.
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them; and those that
-    an equation with accelerations uses alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0.
+    an equation with accelerations uses alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power
+    if rates stand in its value: P = F x' - b theta'^2.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
     first = [only_name(sides[0]) if len(sides) > 1 else None for sides in statements]
     given = {key(str(x[0])) for x in first if x is not None and not x[1]}
     found = set(_used_as_names(statements, first, subjects))
+    rates = {key(str(x[0])) for x, moved in zip(first, moving, strict=True) if moved and x is not None and not x[1]}
     for k, (named, sides) in enumerate(zip(first, statements, strict=True)):
-        kind = None if named is None or named[1] or moving[k] else energy_of(named[0], model, lhs=True)
-        if (
-            named is not None
-            and str(named[0]) == "P"
-            and not named[1]
-            and moving[k]
-            and not names.scope.meanings("P")[0]
-        ):
-            found.add(key("P"))  # the power of a force: no energy V has rates
+        kind = None if named is None or named[1] else energy_of(named[0], model, lhs=True)
         if named is None or kind is None:
             continue
         listed = [str(x) for side in sides[1:] for x, _ in names_in(side)]
+        own = str(named[0]) == "P" and not names.scope.meanings("P")[0]
+        if own and (moving[k] or any(key(x) in rates for x in listed)):
+            found.add("P")
+        if moving[k]:
+            continue
         if kind in ("V", "L") and any(names.changes(x) or key(x) in given for x in listed):
             continue
         others = [s for s, moved in zip(statements, moving, strict=True) if moved and s is not sides]

@@ -71,7 +71,7 @@ _SIGNS = re.compile(r"[-=+*/^()\[\]{}'’′″²³·×−\u0307\u0308\u20db]")
 _LEVEL = re.compile(rf"\s*+(?P<name>{_NAMED})\s*+=\s*+0\s*+[.,;]?\s*+")
 _PLACED = re.compile(r"=\s*0\s+(?:at|for|when|where|if|is|means|in|on|along|bei|im|in|für|wenn|wo|ist|heißt|à|au)\b")
 _RATE = re.compile(r"[\w)\]]['’′″\"]|[\u0307\u0308\u20db˙¨ẋẍẏÿżṙṁ]|\bd\w*/d|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
-_OPENS = re.compile(r"[(\[]")
+_OPENS = re.compile(r"[(\[\d]")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
 _LISTED = (
     "the is are of for we with that this these as get gets gives obtain find finds have has so and then "

@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer
-from lagrangian.check.reading.arguments import dependents
+from lagrangian.check.reading.arguments import dependents, with_own_functions
 from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
@@ -185,7 +185,8 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = without_bullets(text) if listed else text
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE)
-    lines.names.dependents = dependents(text, lambda name: bool(lines.names.scope.meanings(name)[0]))
+    own = {key(name) for name in model.symbols}
+    lines.names.dependents = dependents(text, lambda name: key(name) in own)
     words = _words(lines, text)
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     text = text if latex else with_spoken_signs(text, words)
@@ -267,7 +268,10 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     session = without_session(code, taken, commands.append)
     if commands:
         names.notes.setdefault(told_commands(text, commands))
+    own = {key(name) for name in lines.model.symbols}
     tagless = solved_matrices(without_drawn_formulas(session, typed))
+    latex = bool(_LATEX.search(tagless.text))
+    tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
     if not _LATEX.search(tagless.text):
@@ -281,7 +285,6 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     else:
         said = with_stated_values(with_derivatives(said.sub(_BY_TIME, lambda m: m["by"])), taken)
         said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
-        own = {key(name) for name in lines.model.symbols}
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)

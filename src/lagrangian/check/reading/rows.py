@@ -24,6 +24,7 @@ from lagrangian.check.reading.prose import (
     without_remarks,
     without_tail,
 )
+from lagrangian.check.reading.remarks import is_remark
 from lagrangian.check.reading.sketches import without_sketches
 from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
@@ -89,14 +90,17 @@ _NEXT = (
     r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]{2,}"
     r"(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_](?:\w|[\u0307\u0308]){0,8}['′*]?[ \t]*=(?!=))"
 )
+_COLUMN = r"(?P<column>(?<=[\w)\]'’′²³\u0307\u0308])(?:[ ]{3,}|[ ]?\t[ \t]*)(?=[\w(∂\[]))"
+"""A gap between two columns of a line."""
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = (
     r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
     r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
     r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )
+_EQUALS = re.compile(r"(?<![=<>:!])=(?![=>])")
 _BETWEEN = re.compile(
-    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
+    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLUMN}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
 
 
@@ -201,6 +205,9 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
         elif depth <= 0 and match["stop"]:
             if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
                 letters[match.start("stop")] = ";"
+        elif match["column"]:
+            if depth <= 0 and _beside(text, match.start(), match.end()):
+                letters[match.end() - 1] = ";"
         elif match["foreign"] and (words.known(mark) or words.is_product(mark)):
             continue
         elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end()) or _is_meant(text, match)):
@@ -228,6 +235,14 @@ def _both(text: str, start: int, end: int) -> bool:
     return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
 
 
+def _beside(text: str, start: int, end: int) -> bool:
+    """Whether statements stand on both sides of a gap: p = m x'      dp/dt = m x'' is no product."""
+    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+    left = re.split(r"[;\t]| {3}", text[first:start].rstrip())[-1]
+    right = re.split(r"[;\t]| {3}", text[end : last if last >= 0 else len(text)])[0]
+    return _EQUALS.search(left) is not None and _EQUALS.search(right) is not None
+
+
 def _is_meant(text: str, match: re.Match[str]) -> bool:
     """Whether a word says what a name means in the formula in front of it, which has no equals sign: a'' with a = …"""
     if _MEANING.fullmatch(match.group()) is None or _NAME_NEXT.match(text, match.end()) is None:
@@ -253,9 +268,14 @@ def _continues(above: str, line: str) -> bool:
         return False
     if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
         return True
-    if not _MINUS_START.match(line):
+    if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
     return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+
+
+def _begins(above: str, line: str) -> bool:
+    """Whether a program printed an equation of motion without its = 0, which is no part of what is above it."""
+    return "=" not in line and is_remark(above) and not is_remark(line)
 
 
 def _ends_open(above: str, line: str) -> bool:
