@@ -118,3 +118,69 @@ def test_the_lagrangian_with_its_arguments_is_judged() -> None:
     lagrangian = "L(x, theta, x', theta') = (M+m)*x'^2/2 + m*l*x'*theta'*cos(theta) + (J+m*l^2)*theta'^2/2"
     assert right(f"{lagrangian} - m*g*l*cos(theta)\n{CART}\n{POLE}")
     assert not right(f"{lagrangian} + m*g*l*cos(theta)\n{CART}\n{POLE}")
+
+
+RING = """
+name = "bead on a circle"
+[coordinates]
+x = "to the right"
+y = "upwards"
+[parameters]
+m = "1 kg"
+R = "2 m"
+g = "9.81 m/s^2"
+[points]
+P = ["x", "y"]
+[[particle]]
+mass = "m"
+at = "P"
+[[gravity]]
+direction = [0, -1]
+[[constraint]]
+name = "circle"
+expression = "x^2 + y^2 - R^2"
+"""
+
+
+@pytest.mark.parametrize(
+    "beside",
+    [
+        "cos(beta) = x/R and sin(beta) = y/R",
+        "N = 2*lambda*R",
+        "-m*x''*δx - m*(y'' + g)*δy = 0\nx*δx + y*δy = 0",
+        "δW = -m*g*δy",
+    ],
+)
+def test_names_that_equations_with_multipliers_do_without_are_not_judged(beside: str) -> None:
+    rows = "m*x'' = N*x/R\nm*y'' = -m*g + N*y/R\nx^2 + y^2 = R^2"
+    ring = lg.loads(RING).derive()
+    assert ring.check(f"{beside}\n{rows}").right
+    assert not ring.check(f"{beside}\n{rows.replace('-m*g', 'm*g')}").right
+    assert not ring.check(f"{beside}\n{rows.replace('N*y', 'N*x')}").right
+
+
+def test_the_principle_of_virtual_work_alone_is_no_answer() -> None:
+    virtual = "-m*x''*δx - m*(y'' + g)*δy = 0\nx*δx + y*δy = 0\nx^2 + y^2 = R^2"
+    assert not lg.loads(RING).derive().check(virtual).right
+    assert lg.loads(RING).derive().check(f"{virtual}\ny*x'' - x*(y'' + g) = 0").right
+
+
+def test_drawn_equations_without_a_blank_line_between_them_are_apart() -> None:
+    first = [
+        "           2",
+        "          d            d",
+        "(M + m)⋅ ───(x(t)) + b⋅──(x(t)) + H = F",
+        "           2           dt",
+        "         dt",
+    ]
+    second = [
+        "            2",
+        "⎛       2⎞ d",
+        "⎝J + m⋅l ⎠⋅───(θ(t)) + K - m⋅g⋅l⋅sin(θ(t)) = 0",
+        "             2",
+        "           dt",
+    ]
+    own = "H = m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta)\nK = m*l*x''*cos(theta)\n\n"
+    assert right(own + "\n".join((*first, *second)))
+    assert right(own + "\n".join((*second, *first)))
+    assert not right(own + "\n".join((*first, *second)).replace("- m⋅g", "+ m⋅g"))

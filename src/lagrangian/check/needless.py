@@ -60,6 +60,29 @@ def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: 
     return Needed((*kept, *more), tuple(dict.fromkeys(told)), bool(more))
 
 
+def unused_in_motion(
+    lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], coordinates: Collection[str]
+) -> list[sp.Basic]:
+    """The ``unknown`` names that stand beside no accelerations and are no results, and virtual displacements δx, δy.
+
+    A result is what a line alone determines: λ = m g cos θ. It may be the force of a constraint and is judged.
+    """
+    virtual = {f"delta{name}" for name in coordinates}
+    named = [x for x in unknown if _called(x).replace("_", "") in virtual]
+    for x in unknown:
+        held = [line.expr for line in lines if line.expr.has(x)]
+        others = [y for y in unknown if y != x and not isinstance(y, AppliedUndef)]  # no angles
+        alone = (e for e in held if not any(map(e.has, others)))
+        if not any(map(_accelerates, held)) and all(_slope(e, x) is None for e in alone):
+            named.append(x)
+    return named
+
+
+def _called(name: sp.Basic) -> str:
+    """The letters of a name, which may be a function of time."""
+    return str(name.func) if isinstance(name, AppliedUndef) else str(name)
+
+
 def _accelerates(expr: sp.Expr) -> bool:
     return any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative))
 

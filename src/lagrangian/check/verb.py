@@ -10,7 +10,7 @@ from typing import Any
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
-from lagrangian.check.needless import Needed, needed
+from lagrangian.check.needless import Needed, needed, unused_in_motion
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.unexplained import question, unexplained
 from lagrangian.check.without_marks import without_marks
@@ -142,8 +142,11 @@ def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
     lines = check.lines_of(answer)
-    names = () if derivation.multipliers else [u.symbol for u in answer.unknown]
-    fewer = needed(lines, names, len(derivation.model.coordinates))
+    names = [u.symbol for u in answer.unknown]
+    if derivation.multipliers:  # any name beside accelerations may be a multiplier
+        names = unused_in_motion(lines, names, [c.name for c in derivation.model.coordinates])
+    free = len(derivation.model.coordinates) - len(derivation.multipliers)
+    fewer = needed(lines, names, max(free, 1))
     if fewer is not None and fewer.together:
         return [fewer]
     return [Needed(lines), *([] if fewer is None else [fewer])]

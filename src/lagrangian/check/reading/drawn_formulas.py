@@ -135,7 +135,22 @@ def _made(drawings: Sequence[_Drawing], at: int, space: _Space) -> tuple[str | N
         space.take(rows)
         rows = _joined(pieces)
         made = None if all(x.rstrip().endswith(_ARROW) for x in following.lines) else _one(rows, space)
-    return (made if made is not None and _balanced(made) else None), len(pieces)
+    made = made if made is not None and _balanced(made) else None
+    return _stacked(rows, space) if made is None and len(pieces) == 1 else made, len(pieces)
+
+
+def _stacked(lines: Sequence[str], space: _Space) -> str | None:
+    """Several drawings, as pprint puts them below each other, each on one line; None if they are none or unclear."""
+    found: dict[int, list[list[str]]] = {len(lines): [[]]}
+    for start in range(len(lines) - 2, -1, -1):
+        ways: list[list[str]] = []
+        for end in (k for k in range(start + 2, len(lines) + 1) if found.get(k)):
+            made = _one(lines[start:end], space)
+            if made is not None and _balanced(made) and _STATES.search(made):
+                ways += [[made, *rest] for rest in found[end]]
+        found[start] = ways[:2]
+    whole = [way for way in found[0] if len(way) > 1] if len(lines) > 3 else []
+    return "\n".join(whole[0]) if len(whole) == 1 else None
 
 
 def _goes_on(above: str | None, below: str | None, rows: Sequence[str]) -> bool:
