@@ -6,12 +6,12 @@ and pages show it as it was written."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from types import FunctionType
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import sympy as sp
 
@@ -20,15 +20,15 @@ C = TypeVar("C", bound=type)
 _describing: ContextVar[set[sp.Rational] | None] = ContextVar("decimals", default=None)
 
 
-def noted(number: sp.Rational) -> sp.Rational:
+def noted(number: sp.Expr) -> sp.Expr:
     """Return a number that was written as a decimal; the description that is being made remembers it."""
-    if (found := _describing.get()) is not None and number.q != 1:
-        found.add(abs(number))
+    if (found := _describing.get()) is not None and isinstance(number, sp.Rational) and number.q != 1:
+        found.add(cast("sp.Rational", abs(number)))
     return number
 
 
 @contextmanager
-def noting(found: set[sp.Rational]) -> Iterator[None]:
+def noting(found: set[sp.Rational]) -> Generator[None]:
     """Meanwhile, decimals belong to a description; those that it noted are added to ``found``."""
     token = _describing.set(found)
     try:
