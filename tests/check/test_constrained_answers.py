@@ -178,3 +178,21 @@ def test_a_constraint_in_l_is_judged_as_a_constraint(pendulum: lg.Derivation, si
 
 def test_a_position_is_no_integrated_constraint(pendulum: lg.Derivation) -> None:
     assert judged(pendulum, f"{RIGHT[0]}\nx^2 + y^2 = 2*l^2") is Status.WRONG
+
+
+def test_derivatives_of_an_energy_with_the_constraint_put_in_beside_right_equations() -> None:
+    """Nothing is left to explain where all that differs follows from lines above: no special case is looked for."""
+    s = lg.System("cylinder on a plank")
+    x, y, phi = s.coordinates("x y phi")
+    M, m, J, R, k = s.parameters("M m J R k", M=4.0, m=2.0, J=0.01, R=0.1, k=60.0)
+    s.particle(M, at=s.point("A", (x, 0)))
+    s.rigid_body(m, J, at=s.point("C", (y, R)), frame=s.frame(-phi, name="B"), name="cylinder")
+    s.spring(k, deflection=y)
+    s.constraint(y - x - R * phi, name="rolling")
+    found = s.derive().check(
+        "T = 1/2 M x'^2 + 1/2 m (x' + R phi')^2 + 1/2 J phi'^2\nV = 1/2 k (x + R phi)^2\n"
+        "d/dt(dL/dx') = M x'' + m (x'' + R phi'')\ndL/dx = -k (x + R phi)\n"
+        "d/dt(dL/dphi') = m R (x'' + R phi'') + J phi''\ndL/dphi = -k R (x + R phi)\n"
+        "(M + m) x'' + m R phi'' + k (x + R phi) = 0\nm R x'' + (J + m R^2) phi'' + k R (x + R phi) = 0"
+    )
+    assert (found.right or found.motion) and not found.mistakes

@@ -49,12 +49,12 @@ def with_special_case(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer that nothing explains, with the terms of which a special case shows the mistake."""
     lines = [f.line for f in verdict.findings if f.line.kind == "equation"]
     unknown = unknown_names(expanded(truth), lines) if lines else []
-    nothing = verdict.status is Status.WRONG and not verdict.mistakes and lines
+    wrong = [f.line for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    nothing = verdict.status is Status.WRONG and not verdict.mistakes and lines and wrong
     if not nothing or len(unknown) > len(truth.derivation.multipliers):
         return verdict
     answer = AnswerOnRows(truth, lines, unknown)
     forces = [unknown.index(s) for s in results_in(truth.model, expanded(truth).known, lines)]
-    wrong = [f.line for f in verdict.findings if f.status is Status.WRONG and not f.follows]
     for case in _cases(truth):
         places = list(_places(answer, case.zero))
         holds = len(places) >= FEWEST and consistent(places, range(len(lines)))

@@ -136,7 +136,9 @@ def matrix_rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[
 def made_line(
     kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
 ) -> AnswerLine:
-    """Make the line; its place is that of its first side."""
+    """Make the line; its place is that of its first side. Raises `ParseError` if only one side is a matrix."""
+    if lhs is not None and isinstance(lhs, MatrixBase) != isinstance(rhs, MatrixBase):
+        reader.fail("a single quantity cannot equal a matrix", a, fix="write one equation per line")
     source = reader.source
     start = min(start_of(a), start_of(b))
     return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
