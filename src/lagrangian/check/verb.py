@@ -132,11 +132,12 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 
 def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:
     """The lines of an answer that decide, and the verdict on them, without mistakes."""
-    for decides in _deciding(derivation, answer):
+    *others, last = _deciding(derivation, answer)
+    for decides in others:
         verdict = check.check(derivation, decides.lines, explain=False)
         if verdict.right:
-            break
-    return decides, verdict
+            return decides, verdict
+    return last, check.check(derivation, last.lines, explain=False)
 
 
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
