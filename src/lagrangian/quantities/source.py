@@ -79,4 +79,6 @@ class Source:
 def printable(line: str | None) -> str | None:
     """Return a line with one printable character for each of its characters, so that the caret is under the right
     one."""
-    return None if line is None else "".join(c if c.isprintable() else " " for c in line)
+    if line is None or line.isprintable():
+        return line
+    return "".join(c if c.isprintable() else " " for c in line)
