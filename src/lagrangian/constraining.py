@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from typing import Any, Self
 
-from lagrangian.calls import Guided
+from lagrangian.calls import Guided, worded
 from lagrangian.model import (
     Ball,
     Builder,
@@ -29,6 +29,7 @@ Bodies = Frame | RigidBody | Sequence[Frame | RigidBody]
 """One body or two, as rigid bodies or as frames."""
 
 
+@worded
 @describes
 class Constrained(Guided):
     """The methods that add constraints: M v̇ + h = Ξ + Aᵀ λ.
