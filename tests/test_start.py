@@ -77,6 +77,7 @@ def test_source_code_is_written_without_llvm_and_its_absence_is_reported() -> No
 import pathlib, tempfile
 with tempfile.TemporaryDirectory() as folder:
     made = pendulum.export(pathlib.Path(folder) / "pendulum.c") + pendulum.export(pathlib.Path(folder) / "pendulum.py")
+    assert "this file does nothing" in made[-1].read_text()  # its start needs machine code
 assert len(made) == 3
 for verb in (pendulum.compile, lambda: pendulum.simulate(1.0, params={{"m": 1, "L": 1}})):
     try:

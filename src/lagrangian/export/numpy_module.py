@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping
 from lagrangian import codegen as machine
 from lagrangian.codegen.expressions import declared_values
 from lagrangian.codegen.labels import comment
-from lagrangian.errors import Error, MissingExtra
+from lagrangian.errors import Error
 from lagrangian.export.programs import named_programs, program_of
+from lagrangian.export.start import start_of
 from lagrangian.model import Model
 
 
@@ -23,12 +24,11 @@ def files(model: Model, stem: str) -> Mapping[str, str]:
 
 
 def _shown(model: Model, stem: str) -> Iterator[str]:
-    """What the file does when it is run: the accelerations at the start of the model."""
+    """What the file does when it is run: the accelerations at the start of the model, or why it does nothing."""
     try:
-        from lagrangian.export.start import start_of  # its runs need machine code
-
         start = start_of(model)
-    except (Error, MissingExtra):
+    except Error as error:
+        yield f"# run as it is, this file does nothing: {comment(error.what)}"
         return
     n = len(model.coordinates)
     yield "\n".join(

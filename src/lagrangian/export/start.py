@@ -5,11 +5,6 @@ from __future__ import annotations
 from lagrangian.export.programs import program_of
 from lagrangian.model import Model
 from lagrangian.records import dataclass
-from lagrangian.simulate.inputs import driving
-from lagrangian.simulate.settings import RunSettings
-from lagrangian.simulate.simulation import initial_state, named
-from lagrangian.simulate.starts import held, onto_constraints
-from lagrangian.values.values import Given
 
 
 @dataclass(frozen=True)
@@ -31,8 +26,15 @@ class Start:
 def start_of(model: Model) -> Start:
     """Return the start of a model, which satisfies its constraints.
 
-    Raises `ModelError` or `RunError` for a parameter without a value, and for constraints that cannot be satisfied.
+    Raises `ModelError` or `RunError` for a parameter without a value, and for constraints that cannot be satisfied;
+    `MissingExtra` without LLVM, which the rooms of runs need.
     """
+    from lagrangian.simulate.inputs import driving
+    from lagrangian.simulate.settings import RunSettings
+    from lagrangian.simulate.simulation import initial_state, named
+    from lagrangian.simulate.starts import held, onto_constraints
+    from lagrangian.values.values import Given
+
     settings = RunSettings()
     given = Given.of(model, named(model))
     p = given.parameter_values(None)
