@@ -1,29 +1,29 @@
-"""What an answer says of single bodies, v_A = l φ̇ sin φ or J = m r², and the energy or equations that follow from it.
+"""What an answer says of single bodies, v_A = l φ̇ sin φ or J = m r², and the energy that follows from it.
 
 A line that follows exactly from such a definition has its mistake there, whatever else would lead to the same line.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import combinations
 from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.align import LARGEST, Alignment
+from lagrangian.check.align import LARGEST
 from lagrangian.check.candidates import ingredients_of
+from lagrangian.check.line_mistakes import without_constant
 from lagrangian.check.misconceptions import Ingredients
+from lagrangian.check.quoted import letters_in
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import SMALL, Explanation
-from lagrangian.check.stated import left_values
 from lagrangian.check.verdict import AnsweredLine, Mistake
-from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
-from lagrangian.model import Gravity, RigidBody, time
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import Gravity, RigidBody
 from lagrangian.page.formula import Left, Text, text
 from lagrangian.records import dataclass
 
@@ -86,30 +86,30 @@ def agrees(explanation: Explanation, said: Sequence[SaidOfBody]) -> bool:
     for t in explanation.told:
         change, wrong = t.mistake.change, t.mistake.wrong
         if wrong is not None:
-            quoted = {x for part in wrong.variant.what.parts if isinstance(part, sp.Symbol) for x in _letters(part)}
+            quoted = {x for part in wrong.variant.what.parts if isinstance(part, sp.Symbol) for x in letters_in(part)}
             if wrong.name in NOT_OF_BODIES or not quoted <= known:
                 return False
         if change is not None:
             exprs = (change.right, change.written)
-            right, written = (_letters(x) if isinstance(x, sp.Expr) else frozenset[Any]() for x in exprs)
-            lost = change.kind in LEFT_OUT and right and all(right <= _letters(p.written) for p in said)
+            right, written = (letters_in(x) if isinstance(x, sp.Expr) else set[Any]() for x in exprs)
+            lost = change.kind in LEFT_OUT and right and all(right <= letters_in(p.written) for p in said)
             if change.kind == "part" or lost or not right | written <= known:
                 return False
     return True
-
-
-def _letters(expr: sp.Expr) -> frozenset[Any]:
-    return frozenset(x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x != time)
 
 
 class BodiesSaid:
     """The wrong definitions of an answer that may be of bodies, ready to be compared with its lines."""
 
     def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
-        self.truth = truth
-        told = [x for x in lines if x.kind == "definition" and bounded.operations(x.expr) <= LONGEST]
-        every = [part for x in told[:MOST_DEFINITIONS] for part in _parts(truth, x)]
-        self.parts = [p for p in every if p.T != 0 or p.V != 0][:MOST_PARTS]
+        self.truth, self.lines = truth, lines
+
+    @cached_property
+    def parts(self) -> list[SaidOfBody]:
+        """What the definitions may have wrong."""
+        told = [x for x in self.lines if x.kind == "definition" and bounded.operations(x.expr) <= LONGEST]
+        every = (part for x in told[:MOST_DEFINITIONS] for part in _parts(self.truth, x))
+        return [p for p in every if p.T != 0 or p.V != 0][:MOST_PARTS]
 
     def of_line(self, line: AnsweredLine) -> list[SaidOfBody]:
         """The wrong definitions from which a line of T*, V or L follows; none if it follows from none."""
@@ -118,25 +118,12 @@ class BodiesSaid:
             return []
         right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
         values = CompiledExpressions([line.expr - right, *self._exprs(line.kind)]).at(truth.states)
-        level = values if line.kind == "T" else _without_constant(values)
+        level = values if line.kind == "T" else without_constant(values)
         return self._named(level[0], level[1:])
-
-    def of_rows(self, found: Sequence[Alignment]) -> list[SaidOfBody]:
-        """The wrong definitions from which equations follow, under the first correspondence under which they do."""
-        for a in found if self.parts else ():
-            if told := self._named(a.rest.reshape(-1), self._rows[:, list(a.rows)].reshape(len(self.parts), -1)):
-                return told
-        return []
 
     def _exprs(self, kind: str) -> list[sp.Expr]:
         """What each definition adds to an energy."""
-        of: dict[str, Callable[[SaidOfBody], sp.Expr]] = {"T": lambda p: p.T, "V": lambda p: p.V}
-        return [of.get(kind, lambda p: p.T - p.V)(p) for p in self.parts]
-
-    @cached_property
-    def _rows(self) -> Array:
-        """What each definition adds to the left-hand sides, (parts, n, S)."""
-        return np.array([left_values(self.truth, p.T - p.V) for p in self.parts])
+        return [{"T": p.T, "V": p.V}.get(kind, p.T - p.V) for p in self.parts]
 
     def _named(self, rest: Array, effects: Array) -> list[SaidOfBody]:
         """The fewest definitions whose effects add up to what is wrong; none if it is nothing."""
@@ -153,12 +140,6 @@ class BodiesSaid:
         return []
 
 
-def _without_constant(values: Array) -> Array:
-    """Values minus the value at the first state with the same parameters."""
-    shaped = values.reshape(*values.shape[:-1], SETS, -1)
-    return (shaped - shaped[..., :1]).reshape(values.shape)
-
-
 def _parts(truth: Reference, line: AnsweredLine) -> Iterator[SaidOfBody]:
     """What a definition may say wrongly of each body."""
     s, said = ingredients_of(truth.derivation), truth.expand(line.expr)
@@ -167,8 +148,8 @@ def _parts(truth: Reference, line: AnsweredLine) -> Iterator[SaidOfBody]:
         return
     find = _inertias if not s.moves(said) and not said.has(*moving) else _speeds if said.has(*moving) else _positions
     for b in s.bodies:
-        for kind, words, T, V in find(s, b, said) if _letters(said) else ():
-            quoted = frozenset(x for part in words if isinstance(part, sp.Expr) for x in _letters(part))
+        for kind, words, T, V in find(s, b, said) if letters_in(said) else ():
+            quoted = frozenset(x for part in words if isinstance(part, sp.Expr) for x in letters_in(part))
             effects = (truth.put(sp.sympify(x)) for x in (T, V))
             yield SaidOfBody(b, kind, line.number, text(*words), quoted, said, *effects)
 

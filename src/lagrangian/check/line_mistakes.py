@@ -60,7 +60,7 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
         return [], []
     whole = values
     change = _changes(pool, line.kind, i)
-    values = _without_constant(values) if line.kind in ("V", "L") else values
+    values = without_constant(values) if line.kind in ("V", "L") else values
     if np.abs(values).max() <= 1e-12:
         return [], []
     found = singles(pool, [change], values)
@@ -128,10 +128,10 @@ def _changes(pool: Pool, kind: str, i: int | None) -> Array:
         return pool.Xi[:, i]
     if kind == "T":
         return pool.T
-    return pool.kept(("line", kind), lambda: _without_constant(pool.V if kind == "V" else pool.L))
+    return pool.kept(("line", kind), lambda: without_constant(pool.V if kind == "V" else pool.L))
 
 
-def _without_constant(values: Array) -> Array:
+def without_constant(values: Array) -> Array:
     """Values minus the value at the first state with the same parameters."""
     shaped = values.reshape(*values.shape[:-1], SETS, -1)
     return (shaped - shaped[..., :1]).reshape(values.shape)

@@ -36,12 +36,12 @@ AFTER = (" stands in place of ", " stands once", " stands squared", " stands on 
 
 def letters_of(lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
     """The letters, coordinates and inputs in the lines of an answer."""
-    return {x for line in lines for x in _letters(line.expr)}
+    return {x for line in lines for x in letters_in(line.expr)}
 
 
 def is_quotable(mistake: Mistake, written: set[sp.Basic]) -> bool:
     """Whether all letters that the words of a mistake say were written stand in the answer."""
-    return all(_letters(expr) <= written for expr in claimed(mistake))
+    return all(letters_in(expr) <= written for expr in claimed(mistake))
 
 
 def claimed(mistake: Mistake) -> Iterator[sp.Expr]:
@@ -57,5 +57,6 @@ def claimed(mistake: Mistake) -> Iterator[sp.Expr]:
             yield part
 
 
-def _letters(expr: sp.Expr) -> set[Any]:
+def letters_in(expr: sp.Expr) -> set[Any]:
+    """The letters, coordinates and inputs in an expression."""
     return {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x != time}

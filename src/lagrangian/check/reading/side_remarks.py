@@ -190,7 +190,7 @@ def _end(lines: Sequence[str], k: int) -> int:
     if j < len(lines) and _RULE.fullmatch(lines[j]):
         marked, j = True, j + 1
     while j < len(lines):
-        if lines[j].strip() and stated_title(lines, j, stated):
+        if lines[j].strip() and _is_end(lines, j, stated):
             break
         if stated and not marked and not lines[j - 1].strip() and accelerates_in(_block(lines, j)):
             break
@@ -199,7 +199,7 @@ def _end(lines: Sequence[str], k: int) -> int:
     return j
 
 
-def stated_title(lines: Sequence[str], j: int, stated: bool) -> bool:
+def _is_end(lines: Sequence[str], j: int, stated: bool) -> bool:
     """Whether a heading ends what stands above it: any behind an equation, a marked one anywhere."""
     marked = bool(_HEADING.match(lines[j])) or (j + 1 < len(lines) and bool(_RULE.fullmatch(lines[j + 1])))
     return marked or (_is_title(lines, j) and (stated or lines[j].rstrip().endswith(":")))
