@@ -8,7 +8,7 @@ from effort import at_most
 from lagrangian import ModelError, bounded
 from lagrangian.bounded import questions
 from lagrangian.check import hardness
-from lagrangian.check.changes.ring import SumRing
+from lagrangian.check.explain.changes.ring import SumRing
 from lagrangian.derive.algebra import algebra
 from lagrangian.model import is_hard
 from lagrangian.worksheet.directions import positive_sense

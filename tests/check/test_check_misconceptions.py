@@ -8,8 +8,8 @@ import pytest
 import built_in
 import lagrangian as lg
 from built_in import derivation as derived
-from lagrangian.check import candidates, misconceptions
-from lagrangian.check.misconceptions import MISCONCEPTIONS, Ingredients
+from lagrangian.check.explain import candidates, misconceptions
+from lagrangian.check.explain.misconceptions import MISCONCEPTIONS, Ingredients
 from size import also_in_full, cases
 
 PENDULUM_R = "m*r'' - m*r*theta'^2 + k*(r - L_0) - m*g*cos(theta) = 0"

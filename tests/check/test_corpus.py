@@ -85,7 +85,7 @@ def test_the_corpus_is_large_and_its_names_are_the_checker_s():
     counted = Counter(a["is"] for a in CORPUS)
     assert len(CORPUS) >= 300 and counted["wrong"] >= 120
     assert set(counted) == set(RIGHT) | set(WRONG)
-    folder = Path(check.__file__).parent / "misconceptions"
+    folder = Path(check.__file__).parent / "explain/misconceptions"
     names = {path.stem for path in folder.glob("*.py")} | {"sign_of_a_term", "term_forgotten"}  # of no misconception
     planted = {a["mistake"] for a in CORPUS if "mistake" in a}
     assert planted <= names and len(planted) >= 30

@@ -14,12 +14,12 @@ import pytest
 import sympy as sp
 
 from built_in import derivation
-from lagrangian.check import say
-from lagrangian.check.changes.change import Site
-from lagrangian.check.changes.letters import LetterChanges
-from lagrangian.check.changes.pool import Pool, pool_of
-from lagrangian.check.changes.ring import ONE, SumRing, plus
-from lagrangian.check.changes.slopes import AtomSlopes
+from lagrangian.check.explain import say
+from lagrangian.check.explain.changes.change import Site
+from lagrangian.check.explain.changes.letters import LetterChanges
+from lagrangian.check.explain.changes.pool import Pool, pool_of
+from lagrangian.check.explain.changes.ring import ONE, SumRing, plus
+from lagrangian.check.explain.changes.slopes import AtomSlopes
 from lagrangian.check.reference import truth_of
 from lagrangian.check.stated import left_sides, left_values
 from lagrangian.check.verb import check_answer

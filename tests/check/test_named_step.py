@@ -9,8 +9,8 @@ import pytest
 
 import lagrangian as lg
 from built_in import derivation
-from lagrangian.check import say
-from lagrangian.check.changes.pool import pool_of
+from lagrangian.check.explain import say
+from lagrangian.check.explain.changes.pool import pool_of
 from lagrangian.check.reference import truth_of
 from lagrangian.check.words import STEPS, step_title
 

@@ -12,7 +12,7 @@ import sympy as sp
 
 import lagrangian as lg
 from built_in import derivation
-from lagrangian.check.changes.pool import pool_of
+from lagrangian.check.explain.changes.pool import pool_of
 from lagrangian.check.reference import truth_of
 from lagrangian.model import time
 

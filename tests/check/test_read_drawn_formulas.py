@@ -11,7 +11,7 @@ import sympy as sp
 
 from built_in import derivation
 from lagrangian import ParseError
-from lagrangian.check.reading.layout import LayoutError, in_line
+from lagrangian.check.reading.drawn.layout import LayoutError, in_line
 
 t, M, m, l, J, g, b, F, L = sp.symbols("t M m l J g b F L")
 x, theta = sp.Function("x")(t), sp.Function("theta")(t)

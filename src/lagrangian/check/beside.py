@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check.misconceptions.small_angle import first_order, small
+from lagrangian.check.explain.misconceptions.small_angle import first_order, small
 from lagrangian.check.places import AT_REST, is_rate, only_places, place_or_approximation, rests
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of

@@ -10,31 +10,31 @@ from functools import partial
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.candidates import too_long
-from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
-from lagrangian.check.declared import declared, speeds
-from lagrangian.check.eliminated import without_forces
+from lagrangian.check.constraints.eliminated import without_forces
+from lagrangian.check.constraints.new_angles import check_in_any_angle
+from lagrangian.check.constraints.own_constraints import unfolded
+from lagrangian.check.constraints.without_constraints import without_constraints
+from lagrangian.check.coordinates.relations import relations, without_relations
+from lagrangian.check.coordinates.renamed import OwnNames, names_only
+from lagrangian.check.coordinates.stated import in_stated_coordinates
+from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
+from lagrangian.check.explain.candidates import too_long
+from lagrangian.check.explain.mistakes import mistakes
+from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
+from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
+from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import Judged, judged_lines
 from lagrangian.check.lines import filled, without_forms
-from lagrangian.check.mistakes import mistakes
-from lagrangian.check.mistakes_beside_multipliers import named_beside_multipliers
-from lagrangian.check.new_angles import check_in_any_angle
+from lagrangian.check.names.declared import declared, speeds
+from lagrangian.check.names.own_forces import with_own_forces
+from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.numbers_beside import with_numbers_beside
-from lagrangian.check.own_constraints import unfolded
-from lagrangian.check.own_forces import with_own_forces
 from lagrangian.check.reference import Reference, truth_of
-from lagrangian.check.relations import relations, without_relations
-from lagrangian.check.renamed import OwnNames, names_only
 from lagrangian.check.rounded import unrounded
-from lagrangian.check.rows_put_in import energies_on_rows, with_rows_put_in
-from lagrangian.check.special_cases import with_special_case
-from lagrangian.check.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.stated_apart import with_energies_apart
-from lagrangian.check.stated_coordinates import in_stated_coordinates
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
-from lagrangian.check.without_constraints import without_constraints
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
 

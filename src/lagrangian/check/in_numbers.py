@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian import dynamics
-from lagrangian.check.answer_on_rows import AnswerAt
-from lagrangian.check.constrained import Compared, verdict_at_states
+from lagrangian.check.constraints.answer_on_rows import AnswerAt
+from lagrangian.check.constraints.constrained import Compared, verdict_at_states
 from lagrangian.check.reading import generalized_force
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived

@@ -8,13 +8,13 @@ from dataclasses import replace
 import sympy as sp
 
 from lagrangian.check.beside import beside
-from lagrangian.check.consequences import follow_from_above
-from lagrangian.check.coordinates import ProposedChange
+from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired
-from lagrangian.check.energy_theorem import is_energy_theorem, note_on
-from lagrangian.check.numerators import multiplied
+from lagrangian.check.explain.consequences import follow_from_above
+from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
+from lagrangian.check.explain.numerators import multiplied
+from lagrangian.check.explain.row_words import findings_of, name_of
 from lagrangian.check.reference import Reference
-from lagrangian.check.row_words import findings_of, name_of
 from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference

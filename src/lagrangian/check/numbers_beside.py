@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from lagrangian.check.names.spelling import in_numbers, values_of
 from lagrangian.check.reference import Reference
-from lagrangian.check.spelling import in_numbers, values_of
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.model import time
 from lagrangian.page.formula import text

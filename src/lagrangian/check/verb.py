@@ -10,9 +10,9 @@ from typing import Any
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
-from lagrangian.check.needless import Needed, needed, unused_in_motion
+from lagrangian.check.names.needless import Needed, needed, unused_in_motion
+from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
-from lagrangian.check.unexplained import question, unexplained
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError

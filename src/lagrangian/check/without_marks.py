@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeAlias
 
-from lagrangian.check.needless import Needed
+from lagrangian.check.names.needless import Needed
 from lagrangian.check.reading import Answer
 from lagrangian.check.verdict import Status, Verdict
 from lagrangian.errors import ParseError

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.prose import moves
+from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.read.letters import key
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lagrangian.check.reading.answer import MarkedRow
-from lagrangian.check.reading.marks import readings, told_without
-from lagrangian.check.reading.rows import AnswerRow
-from lagrangian.check.reading.words import Words
+from lagrangian.check.reading.plain.rows import AnswerRow
+from lagrangian.check.reading.prose.marks import readings, told_without
+from lagrangian.check.reading.prose.words import Words
 from lagrangian.errors import ParseError
 from lagrangian.records import dataclass
 

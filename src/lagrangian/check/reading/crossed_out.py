@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from lagrangian.check.reading.latex_layout import closing
+from lagrangian.check.reading.latex.layout import closing
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _BETWEEN = re.compile(r"~~(?=[^\s~])[^~\n]{1,1000}~~|<(?P<tag>s|del|strike)>[^<>\n]{1,1000}</(?P=tag)>", re.IGNORECASE)

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 
-from lagrangian.check.reading.prose import moves
+from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.read.letters import undotted
 

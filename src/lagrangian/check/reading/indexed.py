@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from lagrangian.check.reading.rows import AnswerRow
+from lagrangian.check.reading.plain.rows import AnswerRow
 
 _INDEX = re.compile(r"_(?:\{(?P<braced>[ijkn])\}|(?P<bare>[ijkn])(?![A-Za-z0-9]))")
 _NUMBERS = r"(?:=|\\in|∈)\s*\\?\{?\s*(?P<numbers>\d(?:[\s,\d]|\\[,;]|\\[lc]?dots|…|\.{3}){0,60})\\?\}?\s*\Z"

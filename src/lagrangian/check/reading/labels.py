@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 
 from lagrangian.check.reading.markup import blank
-from lagrangian.check.reading.prose import CHANGING, LINKING
+from lagrangian.check.reading.prose.words import Words, function_of
+from lagrangian.check.reading.prose.words_or_mathematics import CHANGING, LINKING
 from lagrangian.check.reading.stated import ENERGY_NAMES
-from lagrangian.check.reading.words import Words, function_of
 from lagrangian.quantities.units import lookup
 from lagrangian.records import dataclass
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from lagrangian.check.reading.latex_tokens import SYMMETRIC
+from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.read.letters import key
 

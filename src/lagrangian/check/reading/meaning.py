@@ -14,7 +14,7 @@ from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, only_name
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
-from lagrangian.check.reading.words import RECIPROCALS
+from lagrangian.check.reading.prose.words import RECIPROCALS
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.expression import MAX_ORDER, ExpressionReader

@@ -9,19 +9,19 @@ from functools import partial
 
 from lagrangian.check.reading.answer import MarkedRow
 from lagrangian.check.reading.choices import Choices
-from lagrangian.check.reading.latex_macros import ExpandedLatex
+from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.marks import readings
 from lagrangian.check.reading.parser import Parser
-from lagrangian.check.reading.plain_tokens import with_points
-from lagrangian.check.reading.prose import LINKING, has_words, in_words
-from lagrangian.check.reading.remarks import is_remark, may_redefine
-from lagrangian.check.reading.rows import AnswerRow, missing_brackets
+from lagrangian.check.reading.plain.rows import AnswerRow, missing_brackets
+from lagrangian.check.reading.plain.spans import statements
+from lagrangian.check.reading.plain.tokens import with_points
+from lagrangian.check.reading.prose.marks import readings
+from lagrangian.check.reading.prose.remarks import is_remark, may_redefine
+from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.prose.words_or_mathematics import LINKING, has_words, in_words
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, may_be_result
-from lagrangian.check.reading.spans import statements
 from lagrangian.check.reading.unit_vectors import is_vector
-from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key

@@ -10,23 +10,22 @@ from functools import partial
 
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.arguments import dependents, with_own_functions
-from lagrangian.check.reading.changing_words import changing_words
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
-from lagrangian.check.reading.drawn_formulas import without_drawn_formulas
+from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
+from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.indexed import counted_names, without_indices
-from lagrangian.check.reading.latex import LatexParser
-from lagrangian.check.reading.latex_layout import with_open_text
-from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
-from lagrangian.check.reading.latex_rows import beside_mathematics, latex_rows
+from lagrangian.check.reading.latex.formula import LatexParser
+from lagrangian.check.reading.latex.layout import with_open_text
+from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
+from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.listed_values import without_values
 from lagrangian.check.reading.markup import (
     are_bullets,
     bullets,
@@ -37,29 +36,30 @@ from lagrangian.check.reading.markup import (
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
 from lagrangian.check.reading.parser import Parser
-from lagrangian.check.reading.plain import PlainParser
-from lagrangian.check.reading.program_code import is_session, told_commands, without_code, without_maxima
-from lagrangian.check.reading.program_functions import without_functions
-from lagrangian.check.reading.program_marks import told_comments, without_program_marks, without_terminators
-from lagrangian.check.reading.program_matrices import with_whole_matrices
-from lagrangian.check.reading.program_names import with_program_names
-from lagrangian.check.reading.programs import without_long_names, without_programs
-from lagrangian.check.reading.prose import LINKING, is_statement
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
-from lagrangian.check.reading.said_values import SaidValues, completed, misspelled, said_values
-from lagrangian.check.reading.session_lists import without_lists, without_sets
-from lagrangian.check.reading.sessions import without_prompts, without_session
-from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
-from lagrangian.check.reading.spoken_signs import with_spoken_signs
-from lagrangian.check.reading.stands_for import (
+from lagrangian.check.reading.plain.formula import PlainParser
+from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.programs.functions import without_functions
+from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
+from lagrangian.check.reading.programs.matrices import with_whole_matrices
+from lagrangian.check.reading.programs.names import with_program_names
+from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
+from lagrangian.check.reading.programs.sessions import without_prompts, without_session
+from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
+from lagrangian.check.reading.programs.spellings import without_long_names, without_programs
+from lagrangian.check.reading.prose.changing_words import changing_words
+from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
+from lagrangian.check.reading.prose.words import Words, led_names
+from lagrangian.check.reading.prose.words_or_mathematics import LINKING, is_statement
+from lagrangian.check.reading.said.listed_values import without_values
+from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
     with_stated_values,
     with_variations,
 )
-from lagrangian.check.reading.text_matrices import on_one_line
+from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
+from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.traced_text import TracedText
-from lagrangian.check.reading.words import Words, led_names
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source

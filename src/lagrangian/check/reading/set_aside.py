@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrangian.check.reading.answer import AnswerLine
 from lagrangian.check.reading.line_forms import accelerates
-from lagrangian.check.reading.remarks import is_remark
+from lagrangian.check.reading.prose.remarks import is_remark
 from lagrangian.errors import ParseError, Place
 
 MOST_TOLD = 5

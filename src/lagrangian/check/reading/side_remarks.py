@@ -14,10 +14,10 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import accumulate, islice
 
-from lagrangian.check.reading.remarks import accelerates_in
+from lagrangian.check.reading.prose.remarks import accelerates_in
+from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
-from lagrangian.check.reading.words import function_of
 from lagrangian.model import Model
 from lagrangian.read.letters import undotted
 from lagrangian.records import dataclass

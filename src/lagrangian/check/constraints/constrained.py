@@ -1,0 +1,389 @@
+"""Answers for systems with constraints: with multipliers of any sign and scale, or without multipliers.
+
+A multiplier's sign and scale are a choice: λ' = c λ with the row c' = c⁻¹ c is the same constraint. So an answer's own
+multipliers s are unknowns here. At states that satisfy the constraints, with the true accelerations, an answer is true
+if one s satisfies all of its lines; it is complete if its lines and the constraints determine the accelerations and s.
+Both are decided by numbers, at random states.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+from typing import Any, Protocol, TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
+from lagrangian.check.constraints.determined import accelerations_determined, ends_right
+from lagrangian.check.constraints.own_constraints import with_rates
+from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
+from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_in
+from lagrangian.check.names.spelling import not_there
+from lagrangian.check.reference import Reference
+from lagrangian.check.stated import judge
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.derive import Derived
+from lagrangian.model import Model, time
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+from lagrangian.records import dataclass, field
+
+Array: TypeAlias = NDArray[np.float64]
+
+STATES = 8
+"""Random states on the constraints at which an answer is looked at."""
+
+SMALL = 1e-9
+"""The relative size below which a difference is rounding."""
+
+POSITIONS = 3
+"""Positions at which an answer's multipliers are compared with those of the system."""
+
+ROUGH = 1e-6
+"""The relative size of a difference of multipliers that is more than rounding."""
+
+MOST = 10
+"""Lines among which those are sought that are true together."""
+
+
+class Answered(Protocol):
+    """The equations of an answer, evaluated at random states with the true accelerations."""
+
+    def states(self, count: int, *, given: bool) -> Iterator[Any]:
+        """Up to ``count`` states; with ``given`` the parameters keep their values."""
+        ...
+
+    def at(self, here: Any) -> AnswerAt:
+        """The answer at a state."""
+        ...
+
+    def motions(self, here: Any, count: int) -> Iterator[AnswerAt]:
+        """The answer at ``count`` other motions from the position of a state."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """What an answer is compared with: the system with the ``names`` of its equations and all names that are ``known``.
+
+    ``answer`` evaluates its lines, given its own multipliers; ``judge`` judges a line that is not an equation.
+    ``holding`` are the multipliers in named quantities.
+    """
+
+    derivation: Derived
+    names: Sequence[str]
+    known: Set[sp.Basic]
+    answer: Callable[[Sequence[AnsweredLine], Sequence[sp.Basic]], Answered]
+    judge: Callable[[Sequence[AnsweredLine], int], Finding]
+    holding: Mapping[sp.Basic, Set[sp.Basic]] = field(default_factory=dict[sp.Basic, "Set[sp.Basic]"])
+
+    @property
+    def model(self) -> Model:
+        """The system."""
+        return self.derivation.model
+
+
+def expanded(truth: Reference) -> Compared:
+    """A system whose equations are written in the coordinates."""
+    model = truth.model
+    return Compared(
+        truth.derivation,
+        [c.name for c in model.coordinates],
+        truth.names | direction_symbols(model),
+        partial(AnswerOnRows, truth),
+        partial(judge, truth),
+    )
+
+
+def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
+    """Return the verdict on an answer for a system with constraints."""
+    tried: list[Verdict] = []
+    for read in readings(truth.model, lines):
+        tried.append(_checked(truth, read.lines, hint))
+        if tried[-1].right and _as_read(truth, read):
+            return tried[-1]
+    if not tried:
+        return _checked(truth, lines, hint)
+    if opposite := next((found for found in tried if found.right), None):
+        said = text("The motion would be right if the friction had the opposite sign.")
+        return replace(opposite, status=Status.WRONG, notes=(said,))
+    return max(tried, key=lambda found: sum(finding.status.right for finding in found.findings))
+
+
+def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
+    lines = in_coordinates(truth, lines)
+    other = expanded(truth)
+    first = verdict_at_states(other, lines, hint, given=False)
+    if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
+        return first
+    second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
+    return second if second.right else first
+
+
+def in_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines with new speeds written out in rates, and a constraint that was integrated as one on rates."""
+    return [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
+
+
+def _as_read(truth: Reference, read: SizeReading) -> bool:
+    """Whether the multipliers of a right answer have the sizes that they were given."""
+    equations = [line for line in read.lines if line.kind == "equation"]
+    other = expanded(truth)
+    unknown = unknown_names(other, equations)
+    for given in (False, True):
+        places = _places(other, equations, unknown, given=given)
+        if all(
+            read.fits(dict(zip(unknown, map(float, _solved(p)), strict=True)), p.multipliers.tolist()) for p in places
+        ):
+            return True
+    return False
+
+
+def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line with the new speeds of the equations without multipliers written out in rates."""
+    minimal = truth.derivation.minimal
+    if minimal is None or not minimal.meanings:
+        return line
+    table: dict[sp.Basic, sp.Expr] = {}
+    for speed, meaning in minimal.meanings.items():
+        moving = cast("sp.Expr", sp.diff(meaning, time))
+        table |= {sp.Derivative(speed, time): moving, speed: meaning, sp.Symbol(plain(speed)): meaning}
+    expr = cast("sp.Expr", line.expr.xreplace(table))
+    return AnsweredLine(line.kind, expr, line.number, line.name, line.text)
+
+
+def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line such as v' = a θ'², with a speed of the equations without multipliers, as an equation of motion."""
+    minimal = truth.derivation.minimal
+    if minimal is None or line.kind not in ("identity", "definition"):
+        return line
+    for speed in minimal.meanings:
+        name, rate = plain(speed), cast("sp.Expr", sp.Derivative(speed, time))
+        expr = line.expr if line.expr.has(rate) else None
+        if line.kind == "definition" and line.name == name and _left(line) in (f"{name}'", rf"\dot{{{name}}}"):
+            expr = rate - line.expr
+        if expr is not None:
+            return AnsweredLine("equation", expr, line.number, line.name, line.text)
+    return line
+
+
+def _left(line: AnsweredLine) -> str:
+    """The left side as it was written."""
+    return line.text.partition("=")[0].strip(" $&")
+
+
+def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:
+    """The verdict on an answer by its values at random states; with ``given`` parameters keep their values."""
+    equations = [line for line in lines if line.kind == "equation"]
+    results = results_in(truth.model, truth.known, equations)
+    equations = [line for line in equations if line not in results.values()]
+    unknown = unknown_names(truth, equations)
+    found: dict[int, Finding] = {}
+    notes: list[Text] = []
+    status: Status | None = None
+    motion = False
+    for s, line in results.items():
+        right = _are_forces(truth, [line], [s], given=given)
+        found[id(line)] = Finding(line, Status.RIGHT if right else Status.WRONG, FORCE if right else None)
+        notes += [] if right else [text(f"'{plain(s)}' is not the force of a constraint, in no scale.")]
+    forces = [s for s in unknown if is_factor_of_forces(s, equations)]
+    if equations and (len(unknown) > len(truth.derivation.multipliers) or len(forces) < len(unknown)):
+        notes += [not_there(truth.model, s) for s in unknown]
+        found = {id(line): Finding(line, Status.WRONG) for line in equations}
+        status = Status.WRONG
+    elif equations:
+        places = list(_places(truth, equations, unknown, given=given))
+        if not places:
+            notes.append(text("No random position satisfies the constraints, so the equations could not be compared."))
+            status = Status.INCOMPLETE
+        true = _true_lines(places, len(equations)) if places else set[int]()
+        for j, line in enumerate(equations):
+            found[id(line)] = _finding(truth, line, j, places, j in true)
+        if places and len(true) == len(equations) and not _are_forces(truth, equations, unknown, given=given):
+            status = Status.WRONG
+            notes.append(_no_force(unknown))
+            held = [line for line in equations if not _names_in(truth, line).isdisjoint(unknown)]
+            found |= {id(line): Finding(line, Status.WRONG) for line in held}
+        elif places and len(true) == len(equations):
+            notes += _named(truth, unknown, places)
+            motion = (count := accelerations_determined(places)) >= len(truth.names)
+            if not motion:
+                whose = "With the constraints, your" if truth.model.constraints else "Your"
+                notes.append(
+                    text(
+                        f"{whose} equations determine {count} of {len(truth.names)} accelerations; "
+                        "more equations are needed."
+                    )
+                )
+            status = _worst([f.status for f in found.values()]) if motion else Status.INCOMPLETE
+        elif places:
+            status = Status.WRONG
+            motion = ends_right(places, [j in true for j in range(len(equations))], len(truth.names))
+            if unknown:
+                notes.append(
+                    text("The sign and the scale of a multiplier are yours to choose, but the same everywhere.")
+                )
+    findings: list[Finding] = []
+    for k, line in enumerate(lines):
+        if line.kind not in ("definition", "statement"):
+            findings.append(found[id(line)] if line.kind == "equation" else truth.judge(lines, k))
+    others = [f.status for f in findings if f.line.kind != "equation" or f.line in results.values()]
+    worst = _worst([*others, *([status] if status is not None else [])])
+    motion = motion and worst is Status.WRONG
+    return Verdict(worst, tuple(findings), notes=tuple(notes), hint=hint, motion=motion)
+
+
+def _worst(statuses: Sequence[Status]) -> Status:
+    return max(statuses, key=list(Status).index, default=Status.INCOMPLETE)
+
+
+def _names_in(truth: Compared, line: AnsweredLine) -> set[sp.Basic]:
+    """The names in a line, and the multipliers in the named quantities among them."""
+    used: set[sp.Basic] = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+    return used | {x for name in used & truth.holding.keys() for x in truth.holding[name]}
+
+
+def unknown_names(truth: Compared, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
+    """The names in an answer that the system does not have, and its multipliers."""
+    used = set[sp.Basic]().union(*(_names_in(truth, line) for line in lines))
+    return sorted(used - truth.known, key=str)
+
+
+def _places(
+    truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
+) -> Iterator[AnswerAt]:
+    """The answer at random states that satisfy the constraints, with the true accelerations."""
+    answer = truth.answer(lines, unknown)
+    for here in answer.states(STATES, given=given):
+        yield answer.at(here)
+
+
+def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:
+    """Whether the answer's multipliers are those of the system times what depends on the position alone.
+
+    A multiplier that also takes up a slip in its equation, such as a centrifugal term left out, is not: at one
+    position it changes otherwise with rates and inputs.
+    """
+    if not unknown:
+        return True
+    answer = truth.answer(lines, unknown)
+    for here in answer.states(POSITIONS, given=given):
+        found = list(answer.motions(here, len(rows_of(truth.model)) + 4))
+        if any(np.linalg.matrix_rank(p.by_multiplier, tol=1e-8) < len(unknown) for p in found):
+            return True  # a multiplier that no line determines
+        own, right = np.array([_solved(p) for p in found]), np.array([p.multipliers for p in found])
+        if len(found) <= right.shape[1] + 1 or not (np.isfinite(own).all() and np.isfinite(right).all()):
+            continue
+        rest = own - right @ np.linalg.lstsq(right, own, rcond=1e-10)[0]
+        if np.abs(rest).max() > ROUGH * np.abs(own).max():
+            return False
+    return True
+
+
+def _no_force(unknown: Sequence[sp.Basic]) -> Text:
+    """Why a multiplier with which all equations hold is still not right."""
+    names = ", ".join(f"'{plain(s)}'" for s in unknown)
+    return text(
+        f"The motion would be right, but {names} would not be the force of the constraint alone: "
+        "it would take up what is wrong in its equation."
+    )
+
+
+def consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
+    """Whether one set of multipliers satisfies these lines at every state."""
+    for place in places:
+        rows, size = list(chosen), place.size[list(chosen)]
+        B, value = place.by_multiplier[rows], place.value[rows]
+        scale = np.where(size > 0, size, 1.0)
+        B, value = B / scale[:, None], value / scale
+        left = value if not B.size else value + B @ np.linalg.lstsq(B, -value, rcond=1e-10)[0]
+        if not np.isfinite(left).all() or np.abs(left).max(initial=0.0) > SMALL:
+            return False
+    return True
+
+
+def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
+    """The largest set of lines that are true together; of equals, that with the first lines."""
+    if consistent(places, range(count)):
+        return set(range(count))
+    if count > MOST:
+        return {j for j in range(count) if consistent(places, [j])}
+    for size in range(count - 1, 0, -1):
+        for chosen in combinations(range(count), size):
+            if consistent(places, chosen):
+                return set(chosen)
+    return set()
+
+
+def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:
+    """The finding for an equation: one with multipliers, one without, or something else that holds."""
+    if not true:
+        return Finding(line, Status.WRONG)
+    if all(np.abs(p.by_acceleration[j]).max() <= SMALL * (1.0 + p.size[j]) for p in places):
+        return Finding(line, Status.RIGHT, text("true where the constraints hold"))
+    if all(_in_span(p.by_acceleration[j], p.rows) and not p.by_multiplier[j].any() for p in places):
+        return Finding(line, Status.RIGHT, text("what the constraints ask of the accelerations"))
+    if any(np.abs(p.by_multiplier[j]).max(initial=0.0) > 0 for p in places) or truth.derivation.minimal is None:
+        index, scaled = _like([p.by_acceleration[j] for p in places], [p.mass for p in places])
+        named = None if index is None else truth.names[index]
+    else:
+        index, scaled = _like([p.by_acceleration[j] @ p.along for p in places], [p.reduced for p in places])
+        named = None
+    if index is None:
+        return Finding(line, Status.SAME_MOTION, text("true whenever the right equations hold"))
+    return Finding(line, Status.EQUIVALENT if scaled else Status.RIGHT, None, named)
+
+
+def _in_span(slope: Array, rows: Array) -> bool:
+    """Whether a slope is a combination of the rows of the constraints."""
+    left = slope - rows.T @ np.linalg.lstsq(rows.T, slope, rcond=1e-10)[0]
+    return bool(np.abs(left).max() <= SMALL * np.abs(slope).max())
+
+
+def _like(slopes: Sequence[Array], rows: Sequence[Array]) -> tuple[int | None, bool]:
+    """Which row the slopes are a multiple of at every state, and whether the factor is another than ±1."""
+    for i in range(len(rows[0])):
+        factors: list[float] = []
+        for slope, matrix in zip(slopes, rows, strict=True):
+            row = matrix[i]
+            factor = float(slope @ row / (row @ row))
+            if np.abs(slope - factor * row).max() > SMALL * np.abs(slope).max():
+                break
+            factors.append(factor)
+        else:
+            return i, max(abs(abs(f) - 1.0) for f in factors) > SMALL
+    return None, False
+
+
+def _named(truth: Compared, unknown: Sequence[sp.Basic], places: Sequence[AnswerAt]) -> Iterator[Text]:
+    """What the answer's multipliers are: a number times one of the system's, or another scale."""
+    names = list(truth.derivation.multipliers.values())
+    order = [row.name for row in rows_of(truth.model)]
+    for k, s in enumerate(unknown):
+        found = [_solved(p)[k] for p in places]
+        for known in names:
+            theirs = [p.multipliers[order.index(known.name)] for p in places]
+            ratios = [x / y for x, y in zip(found, theirs, strict=True) if abs(y) > SMALL]
+            if (
+                len(ratios) > 2
+                and max(ratios) - min(ratios) < SMALL * abs(ratios[0])
+                and plain(known.symbol) != plain(s)
+            ):
+                number = sp.nsimplify(round(ratios[0], 9), rational=True)
+                yield text(f"'{plain(s)}' was read as ", cast("sp.Expr", number * known.symbol), ".")
+                break
+        else:
+            if all(plain(known.symbol) != plain(s) for known in names):
+                yield text(f"'{plain(s)}' was read as a multiplier with a scale of your own.")
+
+
+def _solved(place: AnswerAt) -> Array:
+    """The answer's multipliers at a state."""
+    return np.asarray(np.linalg.lstsq(place.by_multiplier, -place.value, rcond=1e-10)[0], float)

@@ -1,0 +1,162 @@
+"""A system with constraints in coordinates of an answer's own that satisfy these: there it has none.
+
+x = X + l sin θ and y = −l cos θ make (x − X)² + y² = l² hold. In X and θ the system is one without constraints, and the
+mistakes of its energies and equations are named as in any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.coordinates.relations import solutions
+from lagrangian.check.coordinates.stated import InStatedCoordinates
+from lagrangian.check.coordinates.tried import ProposedChange
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.coordinates import Carrier, Change
+from lagrangian.derive import derive
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.errors import ModelError
+from lagrangian.model import Coordinate, Element, time
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import text
+
+SMALL = 1e-9
+"""The size, relative to 1, below which the value of a constraint is rounding."""
+OF_OLD = ("Xi", "p", "p-rate", "slope", "left")
+"""The kinds of lines that belong to one coordinate."""
+
+
+def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
+    """The answer in its own coordinates, in which the constraints hold by themselves; None if it has no such.
+
+    The answer says what they are, x = X + l sin θ, or they are angles that step 0 proposes.
+    """
+    own = {c.symbol for c in truth.model.coordinates}
+    turned = {d.expr for line in lines for d in _second(line.expr)}
+    new = sorted((x for x in turned - own if isinstance(x, AppliedUndef)), key=str)
+    if any(row.position is None for row in rows_of(truth.model)):
+        return None
+    for table in _tables(truth, lines, new):
+        kept = [c for c in truth.model.coordinates if c.symbol not in table]
+        change = ProposedChange(table, _words(table), True)
+        moving = [line.expr for line in lines if any(d.expr in table for d in _second(line.expr))]
+        if not new and not all(_is_zero(change.put(expr)) for expr in moving):
+            continue  # equations of motion with multipliers, or with a constraint put in here and there
+        if len(kept) + len(new) != truth.n - len(rows_of(truth.model)):
+            continue
+        other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
+        if other is not None:
+            every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
+            unknown = every - other.names - own
+            return InStatedCoordinates(other, tuple(_moved(lines, change, table, unknown)), change)
+    return None
+
+
+def _tables(
+    truth: Reference, lines: Sequence[AnsweredLine], new: Sequence[sp.Expr]
+) -> Iterator[dict[sp.Expr, sp.Expr]]:
+    """What the coordinates that go are in the others: as the answer says, or as step 0 proposes."""
+    named = {c.name: c.symbol for c in truth.model.coordinates}
+    said = {named[str(x.name)]: x.expr for x in lines if x.kind == "definition" and str(x.name) in named}
+    said = {q: value for q, value in said.items() if value.has(*(new or named.values())) and not value.has(q)}
+    if said:
+        yield cast("dict[sp.Expr, sp.Expr]", said)
+    constraints = truth.derivation.constraints
+    if constraints is not None and not new:
+        yield _of_unwritten(truth, lines, {q: x for w in constraints.proposals if w.new is None for q, x in w.written})
+    if constraints is None or len(new) != 1:
+        return
+    for way in constraints.proposals:
+        if way.new is not None:
+            proposed = {q: cast("sp.Expr", value.xreplace({way.new: new[0]})) for q, value in way.written}
+            yield _of_unwritten(truth, lines, proposed)
+
+
+def _of_unwritten(
+    truth: Reference, lines: Sequence[AnsweredLine], table: dict[sp.Expr, sp.Expr]
+) -> dict[sp.Expr, sp.Expr]:
+    """A table for coordinates that no line accelerates: of X = x − l sin θ, x = X + l sin θ if X″ is written."""
+    moved = {d.expr for line in lines for d in _second(line.expr)}
+    found: dict[sp.Expr, sp.Expr] = {}
+    for q, value in table.items():
+        others = [c.symbol for c in truth.model.coordinates if value.has(c.symbol) and c.symbol not in moved]
+        solved = solutions(value - q, others[0]) if q in moved and others else []
+        found |= {others[0]: solved[0]} if solved else {q: value}
+    return found
+
+
+def _second(expr: sp.Expr) -> list[Any]:
+    """The second derivatives in an expression."""
+    return [d for d in expr.atoms(sp.Derivative) if d.derivative_count > 1]
+
+
+def _reference(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    """The reference in these coordinates, made once; None if the constraints do not hold in them."""
+    key = tuple(table.items())
+    known = truth.others
+    if key not in known:
+        known[key] = _made(truth, table, coordinates)
+    return known[key]
+
+
+def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    model = truth.model
+    whole: dict[Any, sp.Expr] = {c.symbol: table.get(c.symbol, c.symbol) for c in model.coordinates}
+    try:
+        found = _Free(model, Change(model.coordinates, tuple(coordinates), whole), model.name).built().model()
+        other = Reference(derive(found), truth.values)
+    except ModelError:
+        return None
+    rows = [cast("sp.Expr", truth.expand(cast("sp.Expr", r.position)).xreplace(table)) for r in rows_of(model)]
+    values = CompiledExpressions(rows).at(other.states)
+    return other if np.isfinite(values).all() and np.abs(values).max() <= SMALL else None
+
+
+class _Free(Carrier):
+    """Carries a model over without its constraints and settings of runs."""
+
+    def elements(self, element: Element) -> Iterator[Element]:
+        """The element in the new coordinates, nothing for a constraint."""
+        if element.ledger != "λ":
+            yield from super().elements(element)
+
+    def settle(self) -> None:
+        """Nothing: no run starts here."""
+
+
+def _moved(
+    lines: Sequence[AnsweredLine], change: ProposedChange, table: dict[sp.Expr, sp.Expr], unknown: set[Any]
+) -> Iterator[AnsweredLine]:
+    """The lines with the coordinates that go written out; what says nothing then, or has a multiplier, is none."""
+    gone = {str(cast("AppliedUndef", q).func) for q in table}
+    for line in lines:
+        if line.kind == "statement" or (line.kind == "definition" and line.name in gone):
+            continue
+        slopes = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
+        names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+        if slopes or names & unknown or (line.kind in OF_OLD and line.name in gone):
+            if line.kind != "definition":
+                yield replace(line, kind="statement")
+            continue
+        moved = replace(line, expr=change.put(line.expr))
+        holds = line.kind in ("equation", "identity") and _is_zero(moved.expr)
+        yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
+
+
+def _is_zero(expr: sp.Expr) -> bool:
+    """Whether an expression is 0 when it is written out."""
+    return sp.expand_trig(expr).expand() == 0
+
+
+def _words(table: dict[sp.Expr, sp.Expr]) -> Any:
+    parts: list[Any] = []
+    for q, value in table.items():
+        parts += [q, " = ", value, ", "]
+    return text("with ", *parts[:-1])

@@ -1,0 +1,1 @@
+"""Answers in other coordinates than the system's."""

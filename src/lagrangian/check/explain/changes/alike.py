@@ -1,0 +1,96 @@
+"""Sites of several elements of one kind that go together: bodies of the same mass, the two strands of a belt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.check.explain.changes.change import Site, Words
+from lagrangian.check.explain.changes.ring import Sum, plus
+from lagrangian.model import Element
+
+MOST_SHARES = 5
+"""A force that adds to more equations is not left out of all but one."""
+
+
+def bodies(
+    listed: Sequence[Any], kinetic: Mapping[Any, Sum], weights: Mapping[Any, tuple[Element, Sum]]
+) -> Iterator[Site]:
+    """Several bodies of the same mass together, if there are others."""
+    groups: dict[Any, list[Any]] = {}
+    for b in listed:
+        groups.setdefault(b.mass, []).append(b)
+    for group in groups.values():
+        if 1 < len(group) < len(listed):
+            names = _names(group)
+            words: Words = (f"the kinetic energy of {names}",)
+            T = plus(*[kinetic[b] for b in group])
+            yield Site(words=words, brief=words, step=2, element=group[0], T=T, surcharge=0.1, sign_cost=0.9)
+            V = plus(*[weights[b][1] for b in group if b in weights])
+            words = (f"the weights of {names}",)
+            yield Site(words=words, brief=words, step=3, element=group[0], V=V, surcharge=0.1)
+
+
+def springs(energies: Mapping[Element, Sum]) -> Iterator[Site]:
+    """Springs of the same energy together, if there are others."""
+    for group in _of_one_energy(energies):
+        words = (f"the energies of {_names(group)}",)
+        V = plus(*[energies[e] for e in group])
+        yield Site(words=words, brief=words, step=3, element=group[0], V=V, surcharge=0.1)
+
+
+def in_rows(
+    energies: Mapping[Element, Sum], rows: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]
+) -> Iterator[Site]:
+    """What springs of the same energy add to one equation."""
+    for group in _of_one_energy(energies):
+        for i, coordinate in enumerate(q):
+            if x := plus(*[rows[e].get(i, {}) for e in group]):
+                words: Words = (f"what {_names(group)} add to the equation of ", coordinate)
+                yield Site(words=words, brief=words, step=5, element=group[0], coordinate=i, rows={i: x}, surcharge=0.4)
+
+
+def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) -> Iterator[Site]:
+    """What all forces, torques and dampers add to one equation, if there are several."""
+    for i, coordinate in enumerate(q):
+        held = [e for e, x in shares.items() if x.get(i)]
+        if len(held) > 1:
+            names = _names(held) if len(held) == 2 else "all forces"
+            words: Words = (f"what {names} add to the equation of ", coordinate)
+            Xi = {i: plus(*[shares[e][i] for e in held])}
+            yield Site(words=words, brief=words, step=6, element=held[0], coordinate=i, Xi=Xi, surcharge=0.15)
+
+
+def all_but_one(element: Element, shares: Mapping[int, Sum], q: Sequence[sp.Expr]) -> Iterator[Site]:
+    """What a force adds to all equations but one: its reaction, if both of its ends move with several coordinates."""
+    if not 2 < len(shares) <= MOST_SHARES:
+        return
+    for one in shares:
+        Xi = {i: x for i, x in shares.items() if i != one}
+        listed = [x for i in Xi for x in (q[i], ", ")][:-1]
+        listed[-2] = " and "
+        words: Words = (f"what {element.title} adds to the equations of ", *listed)
+        yield Site(words=words, brief=words, step=6, element=element, Xi=Xi, surcharge=0.1)
+
+
+def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[Any, Sum]) -> Iterator[Site]:
+    """The terms with products of different rates in the kinetic energy of a body, and in its ½mv² alone."""
+    for b, whole in kinetic.items():
+        for energy, what in ((whole, "the kinetic energy"), (translations[b], "½mv²")):
+            mixed = {m: c for m, c in energy.items() if sum(a in rates for a, _ in m) > 1}
+            if 1 < len(mixed) < len(energy) and (what != "½mv²" or energy != whole):
+                words: Words = (f"the products of different rates in {what} of {b.title}",)
+                yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
+
+
+def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:
+    groups: dict[frozenset[Any], list[Element]] = {}
+    for element, V in energies.items():
+        groups.setdefault(frozenset(V.items()), []).append(element)
+    return [group for group in groups.values() if 1 < len(group) < len(energies)]
+
+
+def _names(group: list[Any]) -> str:
+    return " and ".join(x.title for x in group)

@@ -1,0 +1,326 @@
+"""Changes of the geometry: a piece of a position, a rate in a velocity, an angular velocity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from itertools import combinations
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.changes.change import LocalChange, Site, Words, made
+from lagrangian.check.explain.changes.pieces import (
+    along_turning_axes,
+    instead_of_angle,
+    instead_of_piece,
+    instead_of_segment,
+    segment,
+)
+from lagrangian.check.explain.changes.sites import Sites
+from lagrangian.check.explain.misconceptions.base import half_square
+from lagrangian.check.explain.misconceptions.base import put as replaced
+from lagrangian.model import Gravity
+from lagrangian.page.formula import Name
+
+AXES = "xyz"
+MOST_PIECES = 16
+"""A position with more pieces is not changed piece by piece."""
+MOST_ALIKE = 2
+"""The largest number of letters that are tried in the place of another in one piece."""
+
+
+class GeometryChanges:
+    """All changes of positions, velocities and angular velocities of a system."""
+
+    def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol]) -> None:
+        self.sites = sites
+        self.s = sites.of
+        self.lengths = list(lengths)
+
+    def changes(self) -> Iterator[LocalChange]:
+        """All of them; those whose sums would be too long are left out."""
+        for b in self.s.bodies:
+            yield from self._positions(b)
+            yield from self._velocities(b)
+            yield from self._turning(b)
+        yield from self._rates_everywhere()
+
+    # -- bodies -------------------------------------------------------------------------------------------------------
+
+    def _positions(self, b: Any) -> Iterator[LocalChange]:
+        """A piece of the position left out, with the wrong sign, sine for cosine, without its number."""
+        position = [bounded.expand(x) for x in self.s.position(b)]
+        pieces = [(c, p) for c, x in enumerate(position) for p in sp.Add.make_args(x) if self.s.moves(p)]
+        if not 0 < len(pieces) <= MOST_PIECES:
+            return
+        for c, p in pieces:
+            along: Words = (f" along {AXES[c]}",) if len(position) > 1 else ()
+            words: Words = (f"the position of {b.title}", *along)
+            brief: Words = (f"the position of {b.title}",)
+            first = 0.01 if any(k == c for k, _ in pieces[1:]) and (c, p) == pieces[0] else 0.0  # x − y: the sign of y
+            for instead, kind, cost in instead_of_piece(p):
+                moved = list(position)
+                moved[c] = cast("sp.Expr", position[c] - p + instead)
+                yield from self._moved(b, moved, kind, cost + first, words, brief, p, instead)
+            for old, new in self._other_letters(p):
+                moved = list(position)
+                moved[c] = cast("sp.Expr", position[c] - p + replaced(p, {old: new}))
+                yield from self._moved(b, moved, "letter", 2.1, words, brief, old, new)
+        groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
+        for c, p in pieces:
+            groups.setdefault(segment(p), []).append((c, p))
+        for key, group in groups.items():
+            words = (f"the position of {b.title}",)
+            every = [*instead_of_segment(key, [p for _, p in group])]
+            if len(position) == 2 and len(group) == 2:
+                (c, x), (_, y) = group
+                across = [(-y, x), (y, -x)] if c == 0 else [(y, -x), (-y, x)]
+                every += [([*pair], "segment_direction", 1.95, key, None) for pair in across]
+            every += instead_of_angle([p for _, p in group], self._turning_angles)
+            for instead, kind, cost, right, written in every:
+                moved = list(position)
+                for (c, p), other in zip(group, instead, strict=True):
+                    moved[c] = cast("sp.Expr", moved[c] - p + other)
+                yield from self._moved(b, moved, kind, cost, words, words, right, written)
+
+    def _other_letters(self, piece: sp.Expr) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
+        """The lengths of a piece, each with a length of the same first letter."""
+        for p in [p for p in self.lengths if piece.has(p)]:
+            alike = [x for x in self.lengths if x != p and x.name[0].lower() == p.name[0].lower()]
+            yield from ((p, x) for x in alike[:MOST_ALIKE])
+
+    @cached_property
+    def _turning_angles(self) -> list[sp.Expr]:
+        """The coordinates by which the positions of bodies turn."""
+        turned = [a for b in self.s.bodies for x in self.s.position(b) for a in self.s.angles(x)]
+        return [q for q in self.s.q if any(a.has(q) for a in turned)]
+
+    def _moved(
+        self,
+        b: Any,
+        position: list[sp.Expr],
+        kind: str,
+        cost: float,
+        words: Words,
+        brief: Words,
+        right: Any,
+        written: Any,
+    ) -> Iterator[LocalChange]:
+        """The change of the speed alone, and of the speed and the height."""
+        velocity = tuple(self.s.rate(x) for x in position)
+        T = self.sites.difference(half_square(self.s.expand(b.mass), velocity), self.s.translation(b))
+        V = self._lifted(b, position)
+        if T is None:
+            return
+        site = Site(words=words, brief=brief, step=2, element=b)
+        if V:
+            yield made(kind, cost, site, {"T": T, "V": V}, right, written)
+            yield made(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
+        if T:
+            yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, right, written)
+
+    def _lifted(self, b: Any, position: list[sp.Expr]) -> Any:
+        """What a moved position adds to m g h."""
+        total: sp.Expr = sp.S.Zero
+        for element in self.sites.model.elements:
+            if isinstance(element, Gravity):
+                moved = [x - y for x, y in zip(position, self.s.position(b), strict=True)]
+                h = -sum((n * x for n, x in zip(element.direction, moved, strict=True)), sp.S.Zero)
+                total = total + self.s.expand(b.mass * element.g * h)
+        return self.sites.ring.moving(self.sites.sum(total))
+
+    def _velocities(self, b: Any) -> Iterator[LocalChange]:
+        """A rate left out or with the wrong sign in one component; speeds added as numbers."""
+        velocity = [bounded.expand(x) for x in self.s.velocity(b)]
+        own = self.s.translation(b)
+        mass = self.s.expand(b.mass)
+        brief: Words = (f"the velocity of {b.title}",)
+        for c, x in enumerate(velocity):
+            rates = [v for v in self.s.v if x.has(v)]
+            for v in rates:
+                part = x - replaced(x, {v: sp.S.Zero})
+                new = own + mass / 2 * part**2
+                yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, part)
+                words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
+                sign = 1.61 if len(rates) > 1 and v == rates[0] else 1.6  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
+                for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", sign)):
+                    changed = list(velocity)
+                    changed[c] = cast("sp.Expr", x + number * part)
+                    yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
+        yield from self._carried(b, velocity, own, mass)
+        rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
+        for v in rates if len(rates) > 1 else ():
+            gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
+            yield from self._kinetic(b, half_square(mass, gone), own, "rate_sign", 1.7, brief, brief, v)
+        if 2 <= len(rates) <= 3:
+            yield from self._as_numbers(b, velocity, rates, own, mass, brief)
+
+    def _carried(self, b: Any, velocity: list[sp.Expr], own: sp.Expr, mass: sp.Expr) -> Iterator[LocalChange]:
+        """A part of a velocity that no rate brings, such as Ω x in axes that turn, left out or with the wrong sign."""
+        turned = along_turning_axes(self.s.position(b), velocity, self.s.q)
+        words: Words = (f"the velocity of {b.title}", " along axes that turn" if turned else "")
+        of = [self.sites.ring.expr(self.sites.sum(x)) for x in turned] or velocity
+        parts = [(c, p) for c, x in enumerate(of) for p in sp.Add.make_args(x) if p != 0 and not p.has(*self.s.v)]
+        for c, part in parts if len(parts) <= MOST_PIECES else ():
+            for number, kind, cost in ((-1, "velocity_part_left_out", 1.55), (-2, "velocity_part_sign", 1.65)):
+                changed = tuple(cast("sp.Expr", x + number * part) if k == c else x for k, x in enumerate(of))
+                yield from self._kinetic(b, half_square(mass, changed), own, kind, cost, words, words[:1], part)
+
+    def _as_numbers(
+        self, b: Any, velocity: list[sp.Expr], rates: list[Any], own: sp.Expr, mass: sp.Expr, brief: Words
+    ) -> Iterator[LocalChange]:
+        """½ m (Σ ± |∂v/∂ξ̇| ξ̇)²: the speeds added as numbers instead of as vectors; on one line they are numbers."""
+        if sum(x.has(*rates) for x in velocity) < 2:
+            return
+        speeds: list[sp.Expr] = []
+        for v in rates:
+            square = self.sites.sum(sp.Add(*[bounded.diff(x, v) ** 2 for x in velocity]))
+            if not square:
+                return
+            speeds.append(cast("sp.Expr", sp.powdenest(sp.sqrt(self.sites.ring.expr(square)), force=True)))
+        for signs in ((1, 1, 1), (1, -1, 1), (1, 1, -1), (1, -1, -1)):
+            if len(rates) == 2 and signs[2] < 0:
+                continue
+            total = sp.Add(*[g * s * v for g, s, v in zip(signs, speeds, rates, strict=False)])
+            cost = 1.3 if signs == (1, 1, 1) else 1.6
+            yield from self._kinetic(b, mass / 2 * total**2, own, "speeds_as_numbers", cost, brief, brief, None, total)
+
+    def _rates_everywhere(self) -> Iterator[LocalChange]:
+        """A rate taken as absolute or relative: ξ̇_i ± ξ̇_j in place of ξ̇_i, in one body or in all of T*."""
+        for v in self.s.v:
+            coupled = (
+                [b for b in self.s.bodies if any(x.has(v) and x.has(*others) for x in self.s.velocity(b))]
+                if (others := [w for w in self.s.v if w != v])
+                else []
+            )
+            if len(coupled) < 2:
+                continue
+            words: Words = (Name("T*"),)
+            turned = replaced(self.s.T, {v: -v})
+            yield from self._kinetic(None, turned, self.s.T, "rate_sign", 1.2, words, words, v)
+        for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
+            for sign in (1, -1):
+                table = {v: v + sign * w}
+                for b in self.s.bodies:
+                    old = self.s.kinetic(b)
+                    if old.has(v):
+                        words = (f"the kinetic energy of {b.title}",)
+                        right, written = self._quoted([b], v, w, sign)
+                        yield from self._kinetic(
+                            b, replaced(old, table), old, "rate", 1.6, words, words, right, written
+                        )
+                if self.s.T.has(v):
+                    words = (Name("T*"),)
+                    right, written = self._quoted(self.s.bodies, v, w, sign)
+                    yield from self._kinetic(
+                        None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, right, written
+                    )
+
+    def _quoted(self, bodies: Sequence[Any], v: Any, w: Any, sign: int) -> tuple[sp.Expr, sp.Expr]:
+        """What belongs there and what stands there where ξ̇_i + g ξ̇_j is put in place of ξ̇_i, with g = ±1.
+
+        In a·(ξ̇_i − g ξ̇_j) that leaves a·ξ̇_i: ż stands where ẋ − ż belongs. Where it does so in every speed and every
+        angular velocity that holds ξ̇_i, these are quoted; otherwise ξ̇_i and what was put in its place.
+        """
+        speeds = [x for b in bodies for x in (*self.s.velocity(b), *self.s.omega(b)) if x.has(v)]
+        if not speeds or any(bounded.expand(bounded.diff(x, w) + sign * bounded.diff(x, v)) != 0 for x in speeds):
+            return v, v + sign * w
+        backwards = all(bounded.diff(x, v).could_extract_minus_sign() for x in speeds)
+        return (sign * w - v if backwards else v - sign * w), v
+
+    def _turning(self, b: Any) -> Iterator[LocalChange]:
+        """Another angular velocity; m L² in place of J; an inertia where there is none."""
+        omega = self.s.omega(b)
+        words: Words = (f"the angular velocity of {b.title}",)
+        mass = self.s.expand(b.mass)
+        rates = list(self.s.v)
+        if omega and len([w for w in omega if w != 0]) == 1 and b.axes is not None:
+            own = self.s.rotation(b)
+            [right] = [w for w in omega if w != 0]
+            rates += [right] if right not in rates else []
+            for instead, cost in self._other_rates(right):
+                turned = tuple(instead if w != 0 else w for w in omega)
+                yield from self._kinetic(
+                    b, self.s.rotating(b, turned), own, "omega", cost, words, words, right, instead
+                )
+            for length in self.lengths:
+                yield from self._inertias(b, own, right, mass * length**2)
+        for length in self.lengths:
+            for v in rates:
+                extra = mass * length**2 * v**2 / 2
+                where: Words = (f"the kinetic energy of {b.title}",)
+                T = self.sites.difference(extra, sp.S.Zero)
+                if T:
+                    site = Site(words=where, brief=where, step=2, element=b, T=T)
+                    yield LocalChange(
+                        kind="inertia_added",
+                        cost=2.5,
+                        site=site,
+                        effect=site,
+                        free=True,
+                        positive=True,
+                        right=mass * length**2,
+                        written=v,
+                    )
+
+    def _inertias(self, b: Any, own: sp.Expr, omega: sp.Expr, full: sp.Expr) -> Iterator[LocalChange]:
+        names = {
+            sp.Integer(1): 1.9,
+            sp.Rational(1, 2): 2.0,
+            sp.Rational(2, 5): 2.2,
+            sp.Rational(1, 3): 2.0,
+            sp.Rational(1, 12): 2.0,
+            sp.Rational(1, 4): 2.3,
+            sp.Rational(2, 3): 2.4,
+            sp.Rational(4, 3): 2.4,
+            sp.Rational(1, 6): 2.4,
+            sp.Rational(1, 24): 2.4,
+            sp.Rational(1, 48): 2.4,
+        }
+        words: Words = (f"the moment of inertia of {b.title}",)
+        for number, cost in names.items():
+            yield from self._kinetic(
+                b, number * full * omega**2 / 2, own, "inertia_form", cost, words, words, None, number * full
+            )
+
+    def _other_rates(self, right: sp.Expr) -> list[tuple[sp.Expr, float]]:
+        """Other angular velocities: the right one and a rate too much, likelier than any other."""
+        v = self.s.v
+        found: list[sp.Expr] = [*v, *(x for a, b in combinations(v, 2) for x in (a + b, a - b))]
+        for r in self.lengths[:4]:
+            found += [x / r for x in v]
+        ratios = [a / b for a in self.lengths[:4] for b in self.lengths[:4] if a != b]
+        found += [r * x for r in ratios for x in v]
+        found += [replaced(right, {x: sp.S.Zero}) for x in v]
+        by = [bounded.diff(right, x) for x in v if right.has(x)]
+        more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
+        rolled = [right + g * x / r for r in self.lengths[:4] for x in v if not right.has(x) for g in (1, -1)]
+        turned = [replaced(right, {x: -x}) for x in v if len(by) > 1 and right.has(x)]
+        listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7), **dict.fromkeys(turned, 1.5)}
+        listed |= {**dict.fromkeys(more, 1.5), **dict.fromkeys(v, 1.45)}
+        return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
+
+    # -- what they have in common -------------------------------------------------------------------------------------
+
+    def _kinetic(
+        self,
+        b: Any,
+        new: sp.Expr,
+        old: sp.Expr,
+        kind: str,
+        cost: float,
+        words: Words,
+        brief: Words,
+        right: Any,
+        written: Any = None,
+    ) -> Iterator[LocalChange]:
+        T = self.sites.difference(new, old)
+        if T:
+            yield made(kind, cost, Site(words=words, brief=brief, step=2, element=b), {"T": T}, right, written)
+
+
+def _in(site: Site, what: str, step: int) -> Site:
+    words: Words = (f"the {what} of {site.element.title}" if site.element is not None else what,)
+    return Site(words=words, brief=words, step=step, element=site.element)

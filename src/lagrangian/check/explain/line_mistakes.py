@@ -1,0 +1,197 @@
+"""The mistakes that lead to one line of T*, V, L, D or a Ξ, and what other lines say for or against them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.align import LARGEST, alignments
+from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.own_terms import LINES, own_term
+from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
+from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
+from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+from lagrangian.model import Element, Force, Torque
+
+ENERGIES = ("T", "V", "L", "Xi")
+DERIVED = ("p-rate", "slope", "left")
+"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, and the first less the second."""
+MOST_TOLD = 24
+"""The largest number of explanations of a line that are put into words."""
+MOST_TOGETHER = 10
+"""The largest number of explanations of each of two lines that are tried together."""
+ELSEWHERE = 0.8
+"""What it costs more to take a mistake of another step for one that shows in a derivative of an energy."""
+UNNATURAL = 8.0
+"""An explanation that costs more may be true, but is no help."""
+
+
+def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tuple[list[Explanation], list[Mistake]]:
+    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own.
+
+    ``lines`` are all lines of the answer.
+    """
+    truth, i = pool.truth, index_of(pool.truth, line.name)
+    if line.kind == "D":
+        rest = line.expr - dissipation(truth)
+        values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+        seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
+        found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
+        if seen and not (found and found[0].cost <= EXOTIC):
+            of_dampers: Vectors = pool.kept(("vectors", "D"), lambda: Vectors(pool, pool.Xi))
+            found += of_dampers.pairs(values)
+        return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
+    if line.kind in DERIVED and i is not None:
+        return _of_derivative(pool, line, i), []
+    if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
+        return [], []
+    right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
+    if right is None:
+        assert i is not None
+        undamped = without_dampers(truth, line, i, lines)
+        right = truth.Xi[i] if undamped is None else undamped
+    values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
+    if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
+        return [], []
+    whole = values
+    change = _changes(pool, line.kind, i)
+    values = without_constant(values) if line.kind in ("V", "L") else values
+    if np.abs(values).max() <= 1e-12:
+        return [], []
+    found = singles(pool, [change], values)
+    if found and found[0].cost <= EXOTIC:
+        return found, []
+    vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
+    found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
+    own = own_term(pool, line.expr, whole, line.kind, i)
+    if own is not None and (not found or own.cost < found[0].cost):
+        return [], [own.mistake(truth)]
+    return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def of_forces(pool: Pool, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[Explanation]:
+    """The mistakes, or pairs, that lead to all wrong Ξ at once, where several are wrong: a force in the wrong one."""
+    truth, rests = pool.truth, dict[int, Array]()
+    for line in wrong:
+        i = index_of(truth, line.name)
+        if line.kind == "Xi" and i is not None:
+            undamped = without_dampers(truth, line, i, lines)
+            right = truth.Xi[i] if undamped is None else undamped
+            rests[i] = CompiledExpressions([line.expr - right]).at(truth.states)[0]
+    rest = np.array(list(rests.values()))
+    if len(rests) < 2 or not np.isfinite(rest).all() or np.abs(rest).max() > LARGEST:
+        return []
+    if np.abs(rest).max(axis=1).min() <= 1e-12:
+        return []
+    if found := [e for e in singles(pool, [pool.Xi[:, i] for i in rests], rest) if e.cost <= EXOTIC]:
+        return found
+    rows = tuple(rests)
+    vectors: Vectors = pool.kept(("vectors", "Xi", rows), lambda: Vectors(pool, pool.Xi[:, list(rows)]))
+    return [e for e in vectors.pairs(rest) if e.cost <= UNNATURAL]
+
+
+def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
+    """The likely mistakes of one equation alone that lead to its d/dt ∂L/∂ξ̇, to its ∂L/∂ξ or to both."""
+    right = right_value(pool.truth, line, i)
+    sign = -1 if line.kind == "slope" else 1
+    values = CompiledExpressions([sign * (line.expr - right)]).at(pool.truth.states) if right is not None else None
+    if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return []
+    found = [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
+    own = [e if _step(e.told[0].mistake) == LINES["equation"] else replace(e, cost=e.cost + ELSEWHERE) for e in found]
+    return sorted(own, key=lambda e: e.cost)
+
+
+def _step(possible: Possible) -> int | None:
+    """The step in which a possible mistake is made."""
+    if possible.change is not None:
+        return possible.change.site.step
+    return possible.wrong.step if possible.wrong is not None else None
+
+
+def _of_whole_damper(possible: Possible) -> bool:
+    """Whether a mistake can be made in D, which has no ends, no reactions and no equation: ½ b (rate)² of a damper."""
+    if possible.wrong is not None:
+        v = possible.wrong.variant
+        return v.coordinate is None and "D" in v.stated
+    return possible.change is not None and possible.change.site.coordinate is None
+
+
+def _changes(pool: Pool, kind: str, i: int | None) -> Array:
+    """What every possible mistake adds to a line."""
+    if kind == "Xi":
+        return pool.Xi[:, i]
+    if kind == "T":
+        return pool.T
+    return pool.kept(("line", kind), lambda: without_constant(pool.V if kind == "V" else pool.L))
+
+
+def without_constant(values: Array) -> Array:
+    """Values minus the value at the first state with the same parameters."""
+    shaped = values.reshape(*values.shape[:-1], SETS, -1)
+    return (shaped - shaped[..., :1]).reshape(values.shape)
+
+
+def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[AnsweredLine]) -> list[list[Explanation]]:
+    """The explanations of lines from which equations follow: those that lead to these equations as well, if any do.
+
+    A letter may be wrong in V alone or everywhere; only the equations below tell.
+    """
+    if not groups or not all(groups) or len(groups) > 2 or not equations:
+        return groups
+    exprs, P = stated(pool, equations)
+    found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
+    few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
+    chosen: list[dict[int, Explanation]] = [{} for _ in groups]
+    for together in product(*few):
+        told = {(id(t.mistake), t.times): t for e in together for t in e.told}  # one may explain several lines
+        if any(reproduces(pool, list(told.values()), a) for a in found):
+            for kept, e in zip(chosen, together, strict=True):
+                kept.setdefault(id(e), e)
+    return [[*kept.values()] for kept in chosen] if all(chosen) else groups
+
+
+def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> set[int]:
+    """The possible mistakes that would be visible in a line that is right, by their identity.
+
+    A Ξ without the dampers, which other ``lines`` hold, says nothing of these and of the springs beside them.
+    """
+    found: set[int] = set()
+    driven = {id(p) for p in pool.all if isinstance(_element(p), Force | Torque)}
+    for line in right:
+        i = index_of(pool.truth, line.name)
+        if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
+            shown = _shown(pool, line.kind, i)
+            undamped = line.kind == "Xi" and without_dampers(pool.truth, line, i, lines) is not None
+            found |= shown & driven if undamped else shown
+    return found
+
+
+def _element(possible: Possible) -> Element | None:
+    """The element that a possible mistake concerns."""
+    if possible.change is not None:
+        return possible.change.site.element
+    return possible.wrong.variant.element if possible.wrong is not None else None
+
+
+def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
+    """The possible mistakes that would be visible in a line, by their identity."""
+
+    def shown() -> set[int]:
+        visible = np.abs(_changes(pool, kind, i)).max(axis=1) > 1e-9
+        return {id(pool.all[k]) for k in np.flatnonzero(visible)}
+
+    return pool.kept(("shown", kind, i), shown)
+
+
+def stated(pool: Pool, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
+    """The equations that have a value and say something, left minus right, with their values."""
+    exprs = [line.expr for line in lines]
+    P = CompiledExpressions(exprs).at(pool.truth.states)
+    says = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1, initial=0.0) > 1e-12)
+    return [e for e, s in zip(exprs, says, strict=True) if s], P[says]

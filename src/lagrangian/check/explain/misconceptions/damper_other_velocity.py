@@ -1,0 +1,99 @@
+"""A damper is given the velocity of another point, or that against the fixed axes, in place of its own rate."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
+from lagrangian.model import Body, Damper
+from lagrangian.page.formula import text
+
+STEP = 6
+WHY = text("A damper feels how fast its own two ends move apart, not how fast the body that it is fixed to moves.")
+MOST_RATES = 12
+"""The largest number of velocities that are tried for every damper."""
+SHORT = 10
+"""The largest number of operations of a rate that a sentence holds."""
+LONGEST = 30
+"""The largest number of operations of a velocity that somebody may write down."""
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """For every linear damper: a component of a body's velocity, its whole velocity, or ∂T*/∂ξ̇ divided by its inertia.
+
+    Dampers with the same letter are changed together as well, each with its own ∂T*/∂ξ̇.
+    """
+    together: dict[sp.Expr, list[tuple[Damper, dict[int, sp.Expr], sp.Expr]]] = {}
+    for element in s.acting:
+        if not isinstance(element, Damper) or element.b is None:
+            continue
+        rate, b = s.expand(element.rate(s.model)), s.expand(element.b)
+        for other in _rates(s, rate):
+            change = _changed(s, element, b * other**2 / 2)
+            right = ("; it is ", rate) if bounded.size(rate) <= SHORT else ()
+            what = text(f"The velocity of {element.title} is taken as ", other, *right, ".")
+            if change:
+                yield Variant(what=what, Xi=change, element=element)
+                if rate in s.v and other == _absolute(s, s.v.index(rate)):
+                    together.setdefault(b, []).append((element, change, other))
+        for body in s.bodies:
+            square = _squared(s, body)
+            change = _changed(s, element, b * square / 2) if square is not None else {}
+            if change:
+                what = text(f"The velocity of {element.title} is taken as the whole velocity of {body.title}.")
+                yield Variant(what=what, Xi=change, element=element, doubt=1)
+    for alike in together.values():
+        if len(alike) > 1:
+            yield _of_several(alike)
+
+
+def _of_several(alike: list[tuple[Damper, dict[int, sp.Expr], sp.Expr]]) -> Variant:
+    """The same mistake in all dampers with one letter."""
+    whole: dict[int, sp.Expr] = {}
+    for _, change, _ in alike:
+        for i, x in change.items():
+            whole[i] = whole.get(i, sp.S.Zero) + x
+    names = " and ".join(e.title for e, _, _ in alike)
+    told = [x for k, (_, _, other) in enumerate(alike) for x in ((", ", other) if k else (other,))]
+    what = text(f"The velocities of {names} are taken against the fixed axes: ", *told, ".")
+    return Variant(what=what, Xi=whole)
+
+
+def _rates(s: Ingredients, rate: sp.Expr) -> list[sp.Expr]:
+    """The velocities that are taken for a rate."""
+    found = [x for body in s.bodies for x in s.velocity(body)]
+    if rate in s.v:
+        found.append(_absolute(s, s.v.index(rate)))
+    usable = [x for x in dict.fromkeys(found) if x not in (0, rate, -rate) and bounded.size(x) <= LONGEST]
+    return [x for x in usable if any(x.has(v) for v in s.v)][:MOST_RATES]
+
+
+def _absolute(s: Ingredients, i: int) -> sp.Expr:
+    """∂T*/∂ξ̇ divided by ∂²T*/∂ξ̇²: in rotating axes the component of the absolute velocity."""
+
+    def made() -> sp.Expr:
+        p = s.momenta[i]
+        inertia = bounded.diff(p, s.v[i])
+        return bounded.expand(bounded.cancel(p / inertia)) if inertia != 0 else sp.S.Zero
+
+    return s.kept(("absolute", i), made)
+
+
+def _squared(s: Ingredients, body: Body) -> sp.Expr | None:
+    """The square of a body's whole velocity, found once for all dampers; None if nobody writes it down."""
+
+    def made() -> sp.Expr | None:
+        squares = sp.Add(*[x**2 for x in s.velocity(body)])
+        return squares if bounded.size(squares) <= LONGEST else None
+
+    return s.kept(("squared", body), made)
+
+
+def _changed(s: Ingredients, element: Damper, dissipation: sp.Expr) -> dict[int, sp.Expr]:
+    """What −∂D/∂ξ̇ differs from the contributions of a damper."""
+    shares = s.shares(element)
+    change = {i: bounded.expand(-bounded.diff(dissipation, v) - shares.get(i, 0)) for i, v in enumerate(s.v)}
+    return {i: x for i, x in change.items() if x != 0}

@@ -1,0 +1,45 @@
+"""The force of a damper between two bodies is computed from the rate of only one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.misconceptions.base import NO_D, Ingredients, Variant, put
+from lagrangian.model import Damper
+from lagrangian.page.formula import text
+
+STEP = 6
+WHY = text("The force of a damper is b times the rate of its own deflection: the difference of the rates of its ends.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """For every linear damper: a force from one rate on both ends, the sum of the rates, or the rate of another
+    coordinate."""
+    for element in s.acting:
+        if not isinstance(element, Damper) or element.b is None:
+            continue
+        rate, b, shares = s.expand(element.rate(s.model)), s.expand(element.b), s.shares(element)
+        held = [v for v in s.v if rate.has(v)]
+        others = [put(rate, {w: sp.S.Zero for w in held if w != v}) for v in held if len(held) > 1]
+        others += [put(rate, {v: -v}) for v in held if len(held) > 1]
+        others += [put(rate, {v: w}) for v in held for w in s.v if w not in held]
+        others += [put(rate, {v: v + sign * w}) for v in held for w in s.v if w not in held for sign in (-1, 1)]
+        for other in dict.fromkeys(others):
+            what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, ".")
+            change = {i: -b * other * bounded.diff(rate, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
+            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
+            yield from _in_one(s, element, other, change)
+            full = {i: -b * other * bounded.diff(other, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
+            yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
+
+
+def _in_one(s: Ingredients, element: Damper, other: sp.Expr, change: dict[int, sp.Expr]) -> Iterator[Variant]:
+    """The same in one equation only, if the damper acts in several."""
+    felt = [i for i, x in change.items() if x != 0]
+    rate, where = s.expand(element.rate(s.model)), " in the equation of "
+    for i in felt if len(felt) > 1 else ():
+        what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, where, s.q[i], ".")
+        yield Variant(what=what, Xi={i: change[i]}, element=element, coordinate=i)

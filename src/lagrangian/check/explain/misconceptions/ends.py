@@ -1,0 +1,21 @@
+"""The two ends of a pair of forces, as in the box rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.explain.misconceptions.base import Ingredients
+from lagrangian.derive.ends import find_ends
+from lagrangian.model import Action, Element
+
+
+def both_ends(s: Ingredients, element: Element) -> Iterator[tuple[Action, Action]]:
+    """Yield (one end, the other) and the reverse, if an element acts on two things that move."""
+    ends = [a for a in find_ends(s.model, element) if a.rate != 0]
+    groups: dict[object, list[Action]] = {}
+    for end in ends:
+        groups.setdefault(end.on, []).append(end)
+    if len(groups) == 2 and all(len(g) == 1 for g in groups.values()):
+        (a,), (b,) = groups.values()
+        yield a, b
+        yield b, a

@@ -1,0 +1,22 @@
+"""A rigid body is treated as a point: ½Jω² is forgotten."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import text
+
+STEP = 2
+WHY = text("Track the velocity of the centre of mass as well as the angular velocity: a body that turns has ½Jω².")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Drop the rotation of every rigid body, and of all of them."""
+    every = [(body, s.rotation(body)) for body in s.bodies if s.rotation(body) != 0]
+    for body, energy in every:
+        yield Variant(what=text(f"½Jω² of {body.title} is missing."), T=-energy, element=body)
+    if len(every) > 1:
+        yield Variant(what=text("½Jω² is missing for every body."), T=-sp.Add(*[e for _, e in every]))

@@ -1,0 +1,365 @@
+"""Chooses the mistakes to report: those that explain the first wrong line and as many other lines as possible."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.align import Alignment, alignments
+from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
+from lagrangian.check.explain.changes.pool import Pool, pool_of
+from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
+from lagrangian.check.explain.line_mistakes import (
+    MOST_TOLD,
+    UNNATURAL,
+    contradicted,
+    followed,
+    of_forces,
+    of_line,
+    stated,
+)
+from lagrangian.check.explain.numerators import by_numerators, said_of
+from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
+from lagrangian.check.explain.quoted import is_quotable, letters_of
+from lagrangian.check.explain.reduced import of_reduced
+from lagrangian.check.explain.search import (
+    EXOTIC,
+    Explanation,
+    Told,
+    by_rows,
+    first_explained,
+)
+from lagrangian.check.explain.second_choices import distinct
+from lagrangian.check.explain.sheets import sheets
+from lagrangian.check.explain.slips import below_right_equations, of_slip
+from lagrangian.check.explain.solved import denominator, solved_from_wrong
+from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
+from lagrangian.check.explain.undivided import undivided
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.records import dataclass
+
+SPARED = 1.0
+"""What an explanation gains for every other wrong line that it explains as well."""
+BEYOND = 0.3
+"""What a mistake costs more that would change another equation, too, in which it was not seen."""
+LIKELY = 2.4
+"""A mistake that costs less is likelier than coordinates that nobody spoke of."""
+FAR = 3.6
+"""A mistake that costs more is far-fetched: it explains the answer, but what differs is said first."""
+FAR_TOGETHER = 2.6
+"""The same for several mistakes, a mistake."""
+
+SHOWN = 1e-9
+"""The size from which on a mistake is seen in an energy or a force."""
+
+
+@dataclass(frozen=True)
+class NamedMistakes:
+    """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
+
+    ``certain``: a single likely mistake explains everything. ``sure``: none of them is far-fetched. ``left`` are the
+    wrong equations that they leave open; the first wrong line is explained, or they are not ``sure``.
+    """
+
+    told: tuple[Mistake, ...] = ()
+    others: tuple[Mistake, ...] = ()
+    certain: bool = False
+    sure: bool = True
+    left: tuple[AnsweredLine, ...] = ()
+
+
+def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
+    """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
+
+    A mistake that would be visible in a line that is right is not considered.
+    """
+    wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
+    if not wrong or not np.isfinite(truth.W).all():
+        return NamedMistakes()
+    pool = pool_of(truth)
+    against = contradicted(pool, [f.line for f in findings if f.status.right], lines)
+    groups: list[list[Explanation]] = []
+    own: list[Mistake] = []
+    left: list[AnsweredLine] = []
+    bodies = BodiesSaid(truth, lines)
+    quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
+    forces = of_forces(pool, wrong, lines)
+    for line in wrong:
+        if line.kind == "Xi" and forces:
+            groups += [forces] if forces not in groups else []
+        elif line.kind != "equation":
+            found, more = of_line(pool, line, lines)
+            if said := bodies.of_line(line):
+                found = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
+                found = found if found and found[0].cost <= EXOTIC else []
+                more = [] if found else [p.mistake for p in said]
+            groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
+            own += more
+            left += [] if found or more else [line]
+    powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
+    groups += [of_energy_theorem(pool, line.expr) for line in powers]
+    of_equation = [f for f in findings if f.line.kind == "equation" and not any(f.line is x for x in powers)]
+    groups = followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
+    combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
+    if any(w.kind == "equation" for w in wrong):
+        against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
+    of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
+    rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
+    below = below_right_equations(truth, findings)
+    for sheet in sheets(truth, [f for f in of_equation if id(f.line) not in below]):
+        right = [rows[id(line)] for line in sheet if id(line) in rows]
+        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
+    for found, more in _without_partial(of_sheets):
+        groups.append(found)
+        own += more
+    for line in (f.line for f in of_equation if id(f.line) in below and any(f.line is w for w in wrong)):
+        slip = of_slip(pool, line)
+        own += slip
+        left += [] if slip else [line]
+    groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
+    named = _named(pool, groups) if groups else NamedMistakes()
+    told = (*named.told, *_once(own, named.told))
+    open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
+    certain, sure = named.certain and not own and not left, named.sure and not open_first
+    rows_left = tuple(line for line in left if line.kind == "equation")
+    return replace(named, told=told, certain=certain, left=rows_left, sure=sure)
+
+
+def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
+    """Whether a wrong line may have been meant otherwise: a Ξ that is told elsewhere, or what was not read."""
+    line = finding.line
+    if any(str(x.func).startswith("⟨") for x in line.expr.atoms(AppliedUndef)):
+        return True
+    same = [f for f in findings if f.line.kind == line.kind == "Xi" and f.line.name == line.name]
+    return any(f.status.right for f in same) or finding in same[1:]
+
+
+def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
+    """Whether the words of an explanation quote only what was written."""
+    return all(is_quotable(in_words(truth, t, explanation.under), written) for t in explanation.told)
+
+
+def _without_partial(
+    told: Sequence[tuple[list[Explanation], list[Mistake]]],
+) -> Sequence[tuple[list[Explanation], list[Mistake]]]:
+    """The explanations of several sets of equations, without those that need more mistakes than another.
+
+    What lacks several things beside an equation that has one mistake is a part of it, such as d/dt ∂T*/∂ξ̇ alone, unless
+    that mistake is one of them.
+    """
+    counts = [len(found[0].told) if found else len(more) for found, more in told]
+    fewest = min(counts, default=0)
+    first = {
+        id(found[0].told[0].mistake) for (found, _), count in zip(told, counts, strict=True) if found and count == 1
+    }
+    return [
+        (found, more)
+        for (found, more), count in zip(told, counts, strict=True)
+        if count == fewest or fewest > 1 or (found and first & {id(t.mistake) for t in found[0].told})
+    ]
+
+
+def _of_sheet(
+    pool: Pool,
+    sheet: Sequence[AnsweredLine],
+    wrong: Sequence[AnsweredLine],
+    combined: set[int],
+    against: set[int],
+    right: Sequence[str],
+    left: list[AnsweredLine],
+) -> Iterator[tuple[list[Explanation], list[Mistake]]]:
+    """The explanations of one set of equations together or, where there is none, of each wrong one on its own.
+
+    ``right`` are the coordinates whose equations are right: a mistake that would show there was not made. Wrong
+    equations that nothing explains are added to ``left``.
+    """
+    own = [line for line in sheet if any(line is w for w in wrong)]
+    if not own:
+        return
+    rows = [line for line in sheet if id(line) not in combined]
+    found, more = _of_equations(pool, rows, sheet, against)
+    if found or more:
+        yield found, more
+        return
+    felt = against | _felt_in(pool, right)
+    for line in own if len(sheet) > 1 else ():
+        found, more = _of_equations(pool, [line], [line], felt)
+        found = _of_rows_alone(pool, found)
+        if found or more:
+            yield found, more
+        else:
+            left.append(line)
+    left += own if len(sheet) == 1 else []
+
+
+def _felt_in(pool: Pool, coordinates: Sequence[str]) -> set[int]:
+    """The possible mistakes that would change the equations of some coordinates, by their identity."""
+    rows = [i for i, c in enumerate(pool.truth.model.coordinates) if c.name in coordinates]
+    return {id(pool.all[k]) for i in rows for k in np.flatnonzero(pool.felt[:, i])}
+
+
+def _of_rows_alone(pool: Pool, found: Sequence[Explanation]) -> list[Explanation]:
+    """Explanations of one equation alone, those of which nothing is known to be wrong in the others less likely."""
+    more = [e.cost + BEYOND * any(pool.felt[pool.places[id(t.mistake)]].sum() > 1 for t in e.told) for e in found]
+    return [replace(e, cost=cost) for cost, e in sorted(zip(more, found, strict=True), key=lambda x: x[0])]
+
+
+def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
+    """The explanations that no right line speaks against."""
+    return [e for e in found if not any(id(t.mistake) in against for t in e.told)]
+
+
+def _changing(pool: Pool, exprs: Sequence[sp.Expr]) -> set[int]:
+    """The possible mistakes that would change sums of right equations, by their identity."""
+    truth = pool.truth
+    found: set[int] = set()
+    W = truth.W.reshape(truth.n, -1, truth.states.motions).transpose(1, 2, 0)
+    for p in CompiledExpressions(exprs).at(truth.states) if exprs else ():
+        blocks = p.reshape(len(W), -1)
+        if not np.isfinite(blocks).all():
+            continue
+        factors = np.array([np.linalg.lstsq(w, b, rcond=None)[0] for w, b in zip(W, blocks, strict=True)])
+        if np.abs(np.einsum("bmi,bi->bm", W, factors) - blocks).max() > 1e-7 * np.abs(blocks).max():
+            continue
+        changed = np.einsum("cis,si->cs", pool.W, np.repeat(factors, truth.states.motions, axis=0))
+        found.update(id(pool.all[k]) for k in np.flatnonzero(np.abs(changed).max(axis=1) > 1e-7 * np.abs(p).max()))
+    return found
+
+
+def _of_equations(
+    pool: Pool, equations: Sequence[AnsweredLine], every: Sequence[AnsweredLine], against: set[int]
+) -> tuple[list[Explanation], list[Mistake]]:
+    """The explanations of all equations together; if there is none, the terms of their own that are wrong.
+
+    ``every`` are all equations of the answer, with those that are sums of right ones; ``against`` are the mistakes that
+    a right line speaks against.
+    """
+    exprs, P = stated(pool, equations)
+    found = alignments(pool.truth, exprs, P)
+    if any(np.abs(a.rest).max() <= 1e-9 for a in found):
+        return [], []  # what is wrong is too small to be seen in doubles
+    explained = _likely(first_explained(pool, found), against) or _likely(by_rows(pool, found), against)
+    cost = explained[0].cost if explained else np.inf
+    forgotten = undivided(pool, found)
+    if forgotten is not None and forgotten.cost < cost:
+        return [], [forgotten.mistake(pool.truth)]
+    if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
+        return explained, []
+    solved, Q = stated(pool, every)
+    more = _likely(solved_from_wrong(pool, solved, Q), against)
+    if more and more[0].cost < cost:
+        explained, cost = more, more[0].cost
+    if (numerators := by_numerators(pool, solved)) and sum(x.cost + 1 for _, x in numerators) - 1 < cost:
+        return [], [_of_numerator(pool.truth, expr, x) for expr, x in numerators]
+    own = own_terms(pool, exprs, P, found)
+    if own is not None and sum(t.cost for t in own) + len(own) - 1 < cost:
+        return [], [t.mistake(pool.truth) for t in own]
+    explained = [e for e in explained if e.cost <= UNNATURAL]
+    if not explained and (under := denominator(pool.truth, solved, Q)) is not None:
+        return [], [under]
+    return (explained, []) if explained else _of_reduced(pool, exprs)
+
+
+def _of_reduced(pool: Pool, exprs: Sequence[sp.Expr]) -> tuple[list[Explanation], list[Mistake]]:
+    """The explanations of an equation from which a multiplier was eliminated."""
+    forces = [m.symbol for m in pool.truth.derivation.multipliers.values()]
+    if not forces or len(exprs) != 1 or exprs[0].has(*forces):
+        return [], []
+    found, slip = of_reduced(pool, exprs[0])
+    return found, [slip] if slip is not None else []
+
+
+def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm) -> Mistake:
+    """A slip in what a row was solved for, in words."""
+    if isinstance(found, OwnTerm):
+        return said_of(truth, found.mistake(truth), expr)
+    return said_of(truth, in_words(truth, found.told[0], None), expr)
+
+
+def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes:
+    """One mistake that explains every group, otherwise the best for each group in turn."""
+
+    def key(t: Told) -> tuple[float, ...]:
+        return pool.key(t.mistake, float(t.times))
+
+    held = [{key(t) for e in g for t in e.told} for g in groups]
+
+    def reach(e: Explanation) -> float:
+        """The cost of an explanation, less what it spares in the other groups."""
+        shared = sum(key(e.told[0]) in h for h in held) - 1 if len(e.told) == 1 else 0
+        return e.cost - SPARED * shared
+
+    chosen: list[tuple[Told, Alignment | None]] = []
+    others: list[Explanation] = []
+    for group in groups:
+        known = {key(t) for t, _ in chosen}
+        if any(len(e.told) == 1 and key(e.told[0]) in known for e in group):
+            continue
+        holding = [e for e in group if known & {key(t) for t in e.told}]
+        best = min(
+            holding or group, key=lambda e: (sum(key(t) not in known for t in e.told) if holding else 0, reach(e))
+        )
+        if not chosen:
+            others = [e for e in group if e is not best and len(e.told) == len(best.told) == 1]
+            others = [e for e in others if reach(e) < reach(best) + SPARED]
+        new = [t for t in best.told if key(t) not in known]
+        chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
+    chosen = _joined(pool, chosen)
+    every = [in_words(pool.truth, t, a) for t, a in chosen]
+    every[0], others = of_either(pool.truth, every[0], chosen[0], others)
+    told = _once(moved_elsewhere(pool, chosen, every), ())
+    listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]
+    ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
+    own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open
+    elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
+    more = distinct(_once([*elsewhere, *listed], told), told)
+    single = len(chosen) == 1 and (chosen[0][0].mistake.wrong is not None or chosen[0][0].cost <= LIKELY)
+    costs = [t.cost for t, _ in chosen]
+    far = max(costs) > FAR or (len(costs) > 1 and sum(costs) > FAR_TOGETHER * len(costs))
+    return NamedMistakes(told, more[:5], single, not far)
+
+
+def _joined(pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]]) -> list[tuple[Told, Alignment | None]]:
+    """The chosen mistakes, the same one at two places as one: in the springs and in the dampers, everywhere."""
+    left = list(chosen)
+    of_lines = [(t, under) for t, under in chosen if under is None]  # an equation may be the right one times −1
+    for (a, under), (b, _) in combinations(of_lines, 2):
+        one, two = a.mistake.change, b.mistake.change
+        if one is None or two is None or (one.kind, a.times) != (two.kind, b.times) or one.written != two.written:
+            continue
+        if (whole := pool.together(a.mistake, b.mistake)) is not None and (a, under) in left:
+            left[left.index((a, under))] = (replace(a, mistake=whole), under)
+            left = [x for x in left if x[0] is not b]
+    return left
+
+
+def _is_part(pool: Pool, told: Told, of: Told) -> bool:
+    """Whether a mistake is what another one is in T*, in V or in Ξ: of a spring and a damper, the damper alone."""
+    k, j = pool.places[id(told.mistake)], pool.places[id(of.mistake)]
+    felt = False
+    for values in (pool.T, pool.V, pool.Xi):
+        own, whole = float(told.times) * values[k], float(of.times) * values[j]
+        if not np.abs(own).max() > SHOWN:
+            continue
+        if np.abs(own - whole).max() > SHOWN * np.abs(whole).max():
+            return False
+        felt = True
+    return felt and not (pool.felt[k] & ~pool.felt[j]).any()
+
+
+def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
+    """Every mistake once, without those that are already reported."""
+    said = {str(m.what) for m in told}
+    kept: list[Mistake] = []
+    for m in mistakes:
+        if str(m.what) not in said:
+            said.add(str(m.what))
+            kept.append(m)
+    return tuple(kept)

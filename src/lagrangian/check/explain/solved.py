@@ -1,0 +1,102 @@
+"""Explains rows that are solved for one acceleration each, where the mass matrix or the determinant is wrong.
+
+Rows P that are solved from wrong rows W + ΔW are A(W + ΔW) with a matrix A that depends on the place. So W + ΔW is in
+the span of P at every place: with the projection N that removes this span, N ΔW = −N W, which is linear in ΔW.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.align import CONSTANT, LARGEST, solved
+from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.search import EXOTIC, Explanation, Vectors, simple_number, singles
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import Mistake
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import Text, text
+
+WHY = text("With M ξ̈ = h, ξ̈ = adj(M) h / det M: every acceleration has the same denominator, det M.")
+
+
+def solved_from_wrong(pool: Pool, exprs: Sequence[sp.Expr], P: Array) -> list[Explanation]:
+    """The mistakes, or pairs of them, with which the rows were set up before they were solved, the likeliest first."""
+    truth = pool.truth
+    if not solved(truth, exprs) or solved(truth, truth.rows):  # M is diagonal: rows are only scaled
+        return []
+    blocks = P.reshape(truth.n, -1, truth.states.motions).transpose(1, 2, 0)  # (places, motions, n)
+    size = np.linalg.norm(blocks, axis=1, keepdims=True)
+    if not np.isfinite(blocks).all() or size.min() == 0:
+        return []
+    basis, corner = np.linalg.qr(blocks / size)
+    if np.abs(np.diagonal(corner, axis1=1, axis2=2)).min() < 1e-8:
+        return []
+
+    def projected(rows: Array) -> Array:
+        """N · rows, for rows (…, S)."""
+        shaped = rows.reshape(*rows.shape[:-1], *blocks.shape[:2])
+        inside = np.einsum("...bm,bmk->...bk", shaped, basis)
+        return (shaped - np.einsum("...bk,bmk->...bm", inside, basis)).reshape(rows.shape)
+
+    rest, effects = -projected(truth.W), projected(pool.W)
+    if np.abs(rest).max() <= 1e-9 * np.abs(truth.W).max():
+        return []
+    effects[np.abs(effects).max(axis=(1, 2)) <= 1e-9 * (1 + np.abs(pool.W).max(axis=(1, 2)))] = 0.0
+    found = [e for e in singles(pool, [effects[:, i] for i in range(truth.n)], rest) if _solvable(pool, e)]
+    if found and found[0].cost <= EXOTIC:
+        return found
+    pairs = [e for e in Vectors(pool, effects).pairs(rest) if _solvable(pool, e)]
+    return sorted([*found, *pairs], key=lambda e: e.cost)
+
+
+def _solvable(pool: Pool, explanation: Explanation) -> bool:
+    """Whether the rows with the mistakes are still independent: without that they could not have been solved."""
+    truth = pool.truth
+    rows = truth.W + sum(float(t.times) * pool.W[pool.places[id(t.mistake)]] for t in explanation.told)
+    blocks = rows.reshape(truth.n, -1, truth.states.motions).transpose(1, 0, 2)
+    size = np.linalg.norm(blocks, axis=2, keepdims=True)
+    gone = size.min() <= 1e-9 * np.abs(truth.W).max()
+    return bool(not gone and np.linalg.svd(blocks / size, compute_uv=False).min() > 1e-6)
+
+
+def denominator(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> Mistake | None:
+    """The mistake if the accelerations are the true ones, times a factor that depends on the place alone."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    if truth.n < 2 or not exprs or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+        return None
+    own = [next(i for i, a in enumerate(accelerations) if e.has(a)) for e in exprs]
+    slopes = CompiledExpressions(exprs).slopes(accelerations).at(truth.states)
+    slopes = slopes.reshape(len(exprs), truth.n, -1)
+    ratios: dict[int, Array] = {}
+    for j, i in enumerate(own):
+        with np.errstate(all="ignore"):
+            written = truth.states.of(accelerations[i]) - P[j] / slopes[j, i]
+            ratio = written / truth.accelerations[accelerations[i]]
+        blocks = ratio.reshape(-1, truth.states.motions)
+        if not np.isfinite(ratio).all() or np.abs(ratio).max() > LARGEST:
+            return None
+        if (np.abs(blocks - blocks[:, :1]) > CONSTANT * np.abs(blocks[:, :1])).any():
+            return None
+        ratios[i] = ratio
+    wrong = [i for i, r in ratios.items() if np.abs(r - 1).max() > CONSTANT]
+    if len(set(own)) < len(exprs) or not wrong:
+        return None
+    common = len(wrong) == truth.n and all(np.allclose(r, ratios[wrong[0]], rtol=CONSTANT) for r in ratios.values())
+    name = truth.model.coordinates[wrong[0]].name if len(wrong) == 1 else None
+    symbols = [x for i in wrong for x in (cast("sp.Expr", accelerations[i]), ", ")][:-1]
+    brief = text("A denominator of a solved equation is not right.")
+    return Mistake("denominator", _words(symbols, ratios[wrong[0]], common=common), WHY, 5, None, name, brief)
+
+
+def _words(symbols: Sequence[sp.Expr | str], ratio: Array, *, common: bool) -> Text:
+    number = simple_number(float(ratio[0])) if np.ptp(ratio) <= CONSTANT * np.abs(ratio).max() else None
+    if number is not None:
+        times = sp.Rational(number.numerator, number.denominator)
+        return text("What is solved for ", *symbols, " is ", times, " times what it should be.")
+    if common:
+        return text("The numerators are right; the common denominator, the determinant of the mass matrix, is not.")
+    return text("The numerator of ", *symbols, " is right; the denominator is not.")

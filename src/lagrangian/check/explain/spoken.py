@@ -1,0 +1,81 @@
+"""Explanations in words: of one mistake, of two that lead to the same answer, and of a force that stands elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lagrangian.check.align import Alignment
+from lagrangian.check.explain import say
+from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.search import Explanation, Told
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import Mistake
+from lagrangian.page.formula import text
+
+ALIKE = 0.05
+"""The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
+AS_LIKELY = 1.1
+"""The same for a wrong number in ½Jω² and for another moment of inertia, J = m r², that is made of mass and length."""
+NUMBERS = ("half_forgotten", "half_in_kinetic_energy", "wrong_number", "counted_twice", "part")
+"""The names of mistakes that only change the number of an energy."""
+
+
+def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
+    """A possible mistake in words."""
+    possible: Possible = told.mistake
+    if possible.wrong is not None:
+        return possible.wrong.mistake(truth)
+    assert possible.change is not None
+    row = possible.change.site.coordinate
+    factor = under.factor(truth, row) if under is not None and row is not None else None
+    return say.mistake(possible.change, told.times, truth.model, factor)
+
+
+def of_either(
+    truth: Reference, mistake: Mistake, chosen: tuple[Told, Alignment | None], others: Sequence[Explanation]
+) -> tuple[Mistake, list[Explanation]]:
+    """The mistake in either of two bodies, or springs, … if both lead to the same answer; the others that are left.
+
+    So it is with a number in front of ½Jω² and the moment of inertia of another shape.
+    """
+    told, under = chosen
+    ledgers = {e.title: e.ledger for e in truth.model.elements}
+    own = ledgers.get(mistake.element or "")
+    for e in others:
+        change = e.told[0].mistake.change
+        shape = mistake.name in NUMBERS and change is not None and change.kind == "inertia_form"
+        if own is None or e.under is not under or e.told[0].cost > told.cost + (AS_LIKELY if shape else ALIKE):
+            continue
+        rival = in_words(truth, e.told[0], e.under)
+        elsewhere = rival.name == mistake.name and rival.element != mistake.element
+        if (elsewhere and ledgers.get(rival.element or "") == own) or (shape and rival.element == mistake.element):
+            what = text("Either this: ", *mistake.what.parts, " Or this: ", *rival.what.parts)
+            element = f"{mistake.element} or {rival.element}" if elsewhere else mistake.element
+            brief = None
+            if mistake.brief is not None and rival.brief is not None:
+                brief = text("Either this: ", *mistake.brief.parts, " Or this: ", *rival.brief.parts)
+            either = replace(mistake, what=what, brief=brief, element=element)
+            return either, [x for x in others if x is not e]
+    return mistake, list(others)
+
+
+def moved_elsewhere(
+    pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]], mistakes: Sequence[Mistake]
+) -> list[Mistake]:
+    """The mistakes, where one says of an element that it is missing and another that it stands where it should not.
+
+    It is missing in one equation then, and not in the answer; that is said behind where it stands.
+    """
+    coordinates = pool.truth.model.coordinates
+    found = list(mistakes)
+    for (told, _), m in zip(chosen, mistakes, strict=True):
+        other = next((x for x in found if x is not m and m.element is not None and x.element == m.element), None)
+        rows = np.flatnonzero(pool.felt[pool.places[id(told.mistake)]])
+        if m.name != "element_forgotten" or other is None or other.name == m.name or len(rows) != 1 or m not in found:
+            continue
+        where = text(*other.what.parts, " In the equation of ", coordinates[int(rows[0])].symbol, " it is missing.")
+        found = [replace(x, what=where) if x is other else x for x in found if x is not m]
+    return found

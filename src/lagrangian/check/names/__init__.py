@@ -1,0 +1,1 @@
+"""What the names of an answer mean that the system does not have."""

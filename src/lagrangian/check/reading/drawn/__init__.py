@@ -1,0 +1,1 @@
+"""Formulas and matrices drawn over several lines."""

@@ -1,0 +1,166 @@
+r"""Reads fractions in LaTeX, and derivatives that are written as fractions: d/dt, d²x/dt², ∂L/∂ẋ."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import replace
+
+from lark import Tree
+
+from lagrangian.check.reading.latex.symbols import LatexSymbols
+from lagrangian.check.reading.nodes import inside, leaf, node
+from lagrangian.check.reading.parser import AnswerToken
+
+_ENERGIES = frozenset("TVLDℒ")
+CLOSING = {"(": ")", "[": "]", "{": "}"}
+"""Opening brackets, with their closing brackets."""
+
+
+class LatexFractions(LatexSymbols):
+    """The part of the parser that reads fractions."""
+
+    @abstractmethod
+    def _symbol(self) -> Tree:
+        """Read a name with its subscript, dots, primes and powers."""
+
+    @abstractmethod
+    def _argument(self) -> Tree:
+        """Read a group in braces, or one token."""
+
+    @abstractmethod
+    def _closed(self, closing: str) -> Tree:
+        """Read a bracket up to its closing bracket."""
+
+    def _frac(self, token: AnswerToken) -> Tree:
+        """Read a fraction, which may be a derivative: d/dt, d²x/dt² and ∂L/∂ẋ."""
+        top, bottom = self._parts()
+        order = _differential_of_time(bottom)
+        if order and _begins_with_d(top):
+            return self._rate_fraction(token, top, order)
+        if top and bottom and self._is_partial(top, bottom):
+            return self._partial_fraction(token)
+        over, under = self._part(), self._part()
+        return node("product", token.start, over, leaf("OPERATOR", "/", token.start), under)
+
+    def _part(self) -> Tree:
+        """Read one argument of a fraction: a group, or one token, or one digit of a number."""
+        if self.next.kind == "number" and len(self.next.text) > 1:
+            whole = self.next
+            first = replace(whole, text=whole.text[0], end=whole.start + 1)
+            self.tokens[self.i : self.i + 1] = [first, replace(whole, text=whole.text[1:], start=whole.start + 1)]
+        return self._argument()
+
+    def _parts(self) -> tuple[list[AnswerToken], list[AnswerToken]]:
+        """The tokens of numerator and denominator, without consuming them."""
+        found: list[list[AnswerToken]] = []
+        at = self.i
+        for _ in range(2):
+            if self.tokens[at].kind != "{":
+                found.append(self.tokens[at : at + 1])
+                at = min(at + 1, len(self.tokens) - 1)
+                continue
+            depth, end = 0, at
+            while self.tokens[end].kind != "end":
+                depth += (self.tokens[end].kind == "{") - (self.tokens[end].kind == "}")
+                if not depth:
+                    break
+                end += 1
+            found.append(self.tokens[at + 1 : end])
+            at = min(end + 1, len(self.tokens) - 1)
+        return found[0], found[1]
+
+    def _skip_part(self) -> None:
+        depth = 0
+        while True:
+            kind = self.take().kind
+            depth += (kind == "{") - (kind == "}")
+            if depth <= 0 or kind == "end":
+                return
+
+    def _rate_fraction(self, token: AnswerToken, top: list[AnswerToken], order: int) -> Tree:
+        inner = [x for x in top[1:] if x.kind not in ("{", "}")]
+        rest = inner[2:] if inner and inner[0].kind == "^" else inner
+        if len(top[0].text) == 1 and (len(top) == 1 or (top[1].kind == "^" and not rest)):
+            self._skip_part()
+            self._skip_part()
+            return node("rate", token.start, self._differentiated(), order)
+        if not self.accept("{"):
+            raise self.stopped(True)
+        if len(top[0].text) > 1:
+            self._cut(1)
+        self.take()
+        if self.accept("^"):
+            self._argument()
+        self.deeper(token.start)
+        inner = self.sum()
+        self.opened.pop()
+        if not self.accept("}"):
+            raise self.stopped(False)
+        self._skip_part()
+        return node("rate", token.start, inner, order)
+
+    def _differentiated(self) -> Tree:
+        """Read what d/dt applies to: a bracket, a function written with its time, or all factors that follow."""
+        if self.next.kind in ("(", "[", "{"):
+            return self._closed(CLOSING[self.next.kind])
+        self.deeper(self.next.start)
+        at = self.i
+        made = self.operand()
+        if [x.text for x in self.tokens[self.i - 3 : self.i]] != ["(", "t", ")"]:
+            self.i = at
+            made = self.product()
+        self.opened.pop()
+        return made
+
+    def _is_partial(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
+        """Whether a fraction is ∂L/∂ẋ, or dL/dẋ of an energy."""
+        if top[0].kind == bottom[0].kind == "partial":
+            return True
+        over, under = ("".join(x.text for x in part if x.kind not in "{}") for part in (top, bottom))
+        return over[:1] == under[:1] == "d" and over[1:] in _ENERGIES and len(under) > 1 and not self.known(over)
+
+    def _partial_fraction(self, token: AnswerToken) -> Tree:
+        energy = self._after_d()
+        by = self._after_d()
+        return node("partial", token.start, leaf("NAME", _energy(energy), token.start), by)
+
+    def _after_d(self) -> Tree:
+        """The symbol after ∂ or d in one part of a fraction."""
+        if not self.accept("{"):
+            raise self.stopped(True)
+        if self.next.kind == "letters" and len(self.next.text) > 1:
+            self._cut(1)
+        self.take()
+        made = self._symbol_in_brackets()
+        if not self.accept("}"):
+            raise self.stopped(False)
+        return made
+
+    def _symbol_in_brackets(self) -> Tree:
+        if self.next.kind in ("(", "{"):
+            return inside(self._closed(CLOSING[self.next.kind]))
+        return self._symbol()
+
+    def _partial_inline(self, token: AnswerToken) -> Tree:
+        """Read ∂L/∂ẋ written on one line."""
+        energy = self._symbol()
+        if not (self.accept("over") and self.accept("partial")):
+            raise self.source.error(
+                "a partial derivative is a fraction", token.start, fix="write \\frac{\\partial L}{\\partial \\dot x}"
+            )
+        by = self._symbol_in_brackets()
+        return node("partial", token.start, leaf("NAME", _energy(energy), token.start), by)
+
+
+def _energy(tree: Tree) -> str:
+    return str(inside(tree).children[0])
+
+
+def _begins_with_d(part: list[AnswerToken]) -> bool:
+    return bool(part) and part[0].kind in ("letters", "upright") and part[0].text.startswith("d")
+
+
+def _differential_of_time(part: list[AnswerToken]) -> int:
+    """1 for dt, 2 for dt², 0 for anything else."""
+    text = "".join(x.text for x in part if x.kind not in ("{", "}"))
+    return {"dt": 1, "dt^2": 2, "dt²": 2}.get(text, 0)

@@ -1,0 +1,289 @@
+"""Splits LaTeX into statements: finds mathematics among words, opens environments, joins rows that continue."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from lagrangian.check.reading.latex.layout import closing, without_braces, without_units
+from lagrangian.check.reading.latex.tokens import SYMMETRIC
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, incomplete, plain_words
+
+_COMMENT = re.compile(r"(?<!\\)%.*")
+_DISPLAYS = [
+    "equation",
+    "align",
+    "gather",
+    "multline",
+    "eqnarray",
+    "flalign",
+    "alignat",
+    "displaymath",
+    "math",
+    "dmath",
+]
+_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
+_CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
+_WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
+_WRAPPER = re.compile(
+    rf"(?:\\left\s*(?:\\\{{|\\lbrace|\.|\[)\s*)?\\begin\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?"
+    rf"|\\end\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\s*\\right\s*(?:\.|\\\}}|\\rbrace|\]))?"
+)
+_SYSTEM = re.compile(
+    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
+    r"(?P<rows>(?:(?!\\begin|\\end)[^=])*=(?:(?!\\begin\{(?P=kind)\}).)*?)\\end\{(?P=kind)\}"
+    r"(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    re.DOTALL,
+)
+_NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
+_UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
+_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath)\s*\{")
+_WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
+_SHORT = re.compile(r"\w{1,20}\Z")
+_LINKS = frozenset(
+    ["and", "where", "with", "so", "then", "for", "or", "hence", "thus", "therefore", "gives", "if", "when", "let"]
+)
+_LISTS = re.compile(r"\\(?:operatorname|mathrm)\{(?:atan2|min|max)\}|\\(?:min|max)(?![A-Za-z])|atan2")
+_SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
+_MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
+_SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
+_NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
+_LETTER_BEFORE = re.compile(
+    rf"{_SPACE}(?:(?:[^\W\d_]{{2,12}}\.?\s+){{0,2}}(?:\d{{1,3}}[a-z]?|[a-h]|[ivx]{{1,4}})\s?\)[.:]?|\((?:i{{2,3}}|i?v|vi{{1,3}})\))"
+    rf"(?={_SPACE}[^\s=+*/^])(?=.*=)",
+    re.DOTALL,
+)
+"""A letter or a number with a bracket that nothing opens, perhaps after a word, and Roman numbers: ad a), (ii)."""
+_PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
+_NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
+_GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
+_ARROWS = (
+    r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
+    r"|leadsto|Leftarrow|because|land)(?![A-Za-z])|[⇒⟹⇔⟺→⟶∴]|<?=>"
+)
+_ARROW = re.compile(rf"{_SPACE}(?:{_ARROWS})")
+_EQUALS = re.compile(r"\\(?:coloneqq|triangleq|equiv|stackrel\{!\}\{=\}|eqdef)(?![A-Za-z])|:=")
+_INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
+_STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
+_BLANK = re.compile(r"\n[ \t]*+\n")
+_MINUS = re.compile(rf"{_SPACE}[-−–]")
+_CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
+
+
+_FORMULA = re.compile(
+    r"\s*+\\(?:begin\{[bpvB]?matrix\}|left(?![A-Za-z])|d?dot(?![A-Za-z])|[dt]?frac(?![A-Za-z]))|\s*+[\d(+-]*+\w*+\\d?dot(?![A-Za-z])"
+)
+"""How an equation in LaTeX begins that has no delimiters."""
+
+
+def latex_rows(text: str) -> list[AnswerRow]:
+    """Return the statements of an answer in LaTeX; words around the mathematics are ignored."""
+    text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
+    text = _EQUALS.sub(lambda m: "=".ljust(len(m.group())), text)
+    found = list(_mathematics(text))
+    if not found:
+        return _statements(text, 0, lines=True)
+    rows: list[AnswerRow] = []
+    found = sorted([*found, *_bare(text, found)])
+    for start, inside in [x for x in found if "=" in x[1]] or found:
+        if len(rows) > MAX_STATEMENTS:
+            break
+        rows += _statements(inside, start, lines=False)
+    return rows
+
+
+def _bare(text: str, found: Sequence[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+    """The lines that are equations in LaTeX without delimiters, beside mathematics that has some."""
+    inside = [(start, start + len(piece)) for start, piece in found]
+    at = 0
+    for line in text.split("\n"):
+        end = at + len(line)
+        alone = "$" not in line and all(end <= a or b <= at for a, b in inside)
+        if alone and _FORMULA.match(line) and "=" in line:
+            yield at, line
+        at = end + 1
+
+
+def beside_mathematics(text: str) -> str:
+    """Return a text with mathematics between delimiters in which only those lines are left that contain neither
+    mathematics nor commands; everything else is blank."""
+    text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
+    kept: list[str] = []
+    at = 0  # up to which the text is kept or blank
+    for start, inside in _mathematics(text):
+        if start + len(inside) < at:
+            continue
+        first, last = text.rfind("\n", at, start) + 1, text.find("\n", start + len(inside))
+        last = last if last >= 0 else len(text)
+        kept += [text[at : max(at, first)], re.sub(r"[^\n]", " ", text[max(at, first) : last])]
+        at = last
+    if not at:
+        return ""
+    lines = "".join([*kept, text[at:]]).split("\n")
+    return "\n".join(" " * len(line) if "\\" in line or "$" in line else line for line in lines)
+
+
+def _mathematics(text: str) -> Iterator[tuple[int, str]]:
+    """The pieces of mathematics between delimiters, with the place where each begins."""
+    at, missing = 0, set[str]()
+    while (match := _OPENING.search(text, at)) is not None:
+        closing = _CLOSING.get(match.group(), f"\\end{{{match['kind']}}}")
+        end = -1 if closing in missing else text.find(closing, match.end())
+        if end < 0:
+            missing.add(closing)
+            at = match.end()
+        else:
+            yield match.end(), text[match.end() : end]
+            at = end + len(closing)
+
+
+def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
+    """The statements of one piece of mathematics; ``lines``: the end of a line may end a statement."""
+    text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
+    for form in (_WRAPPER, _NOTE, _UPRIGHT_NUMBER):
+        text = form.sub(lambda m: " " * len(m.group()), text)
+    text = without_units(without_braces(_with_points(_without_words(_unboxed(text)))))
+    rows: list[AnswerRow] = []
+    end = 0
+    for at, piece, hard in _cut(text, lines):
+        kept = _labels(piece)
+        if not _content(kept):
+            continue
+        if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
+            gap = at + start - previous.start - len(previous.text)
+            rows[-1] = AnswerRow(previous.start, previous.text + " " * gap + kept)
+        elif "\\" in kept or not plain_words(kept):
+            rows.append(AnswerRow(at + start, kept))
+        end = at + len(piece)
+    return [part for row in rows for part in _parts(_tidy(row))]
+
+
+def _with_points(text: str) -> str:
+    """Replace decimal commas by points, except between the arguments of a function."""
+    return re.sub(r"(?<=\d),(?=\d)", ".", text) if not _LISTS.search(text) else text
+
+
+def _without_words(text: str) -> str:
+    """Replace words by a mark and spaces, except a short word that may be a name."""
+    at = 0
+    while (match := _WORDS.search(text, at)) is not None:
+        end = closing(text, match.end())
+        words = text[match.end() : end - 1].strip()
+        symmetric = words.lower().rstrip(".") in _SYMMETRIC
+        if symmetric or not _SHORT.match(words) or words.lower() in _LINKS:
+            text = blank(text, match.start(), end)
+            text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
+        at = end
+    return text
+
+
+def _unboxed(text: str) -> str:
+    r"""Blank out every ``\boxed{`` and its closing brace."""
+    if "\\boxed" not in text and "\\fbox" not in text and "\\ensuremath" not in text:
+        return text
+    letters, boxes = list(text), list[bool]()
+    for match in re.finditer(rf"{_BOXED.pattern}|\\[{{}}]|[{{}}]", text):
+        mark = match.group()
+        if mark.endswith("{") and mark != "\\{":
+            boxes.append(len(mark) > 1)
+        if len(mark) > 2 or (mark == "}" and boxes and boxes.pop()):
+            letters[match.start() : match.end()] = " " * len(mark)
+    return "".join(letters)
+
+
+def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
+    """The pieces between row separators outside braces and matrices, and whether each follows an explicit separator."""
+    cuts: list[tuple[int, int, bool]] = [(0, 0, True)]
+    depth = matrices = 0
+    for match in _MARK.finditer(text):
+        mark = match.group()
+        if mark in ("{", "}"):
+            depth += 1 if mark == "{" else -1
+        elif match[1] or match[2]:
+            matrices += 1 if match[1] else -1
+        elif depth <= 0 and matrices <= 0 and (mark.startswith("\\\\") or (lines and mark == "\n")):
+            cuts.append((match.start(), match.end(), mark != "\n"))
+    cuts.append((len(text), len(text), True))
+    return [(a[1], text[a[1] : b[0]], a[2]) for a, b in pairwise(cuts)]
+
+
+def _labels(piece: str) -> str:
+    """Blank out arrows, and numbers of equations before and after a statement."""
+    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _ARROW):
+        if match := form.match(piece):
+            piece = blank(piece, 0, match.end())
+    end = _content_end(piece)
+    if (number := _NUMBER.search(piece[max(0, end - 12) : end])) is not None:
+        start = end - len(number.group())
+        if _GAP.search(piece[max(0, start - 12) : start]):
+            piece = blank(piece, start, len(piece))
+    return piece
+
+
+def _content_end(piece: str) -> int:
+    """The position where only spacing, alignment marks and words follow."""
+    return max((m.end() for m in _PIECE.finditer(piece) if m["content"] is not None), default=0)
+
+
+def _content(piece: str) -> bool:
+    """Whether there is anything but spacing and punctuation."""
+    return any(m["content"] not in (None, ".", ",", ";") for m in _PIECE.finditer(piece))
+
+
+def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None) -> bool:
+    """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
+    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
+        return True
+    return apart is None and bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
+
+
+def _tidy(row: AnswerRow) -> AnswerRow:
+    text = _outer(row.text)
+    end = _content_end(text)
+    while end and text[end - 1] in ".,;":
+        end -= 2 if text[end - 2 : end - 1] == "\\" else 1
+        end = _content_end(text[:end])
+    return AnswerRow(row.start, text[:end])
+
+
+def _outer(text: str) -> str:
+    r"""Blank out the & that align rows, but not those inside matrices; one between equations side by side,
+    a &= b & c &= d, becomes a mark."""
+    matrices, places = 0, list[int]()
+    for match in re.finditer(r"\\begin|\\end|&", text):
+        if match.group() != "&":
+            matrices += 1 if match.group() == "\\begin" else -1
+        elif matrices <= 0 and text[match.start() - 1 : match.start()] != "\\":
+            places.append(match.start())
+    letters = list(text)
+    for at in places:
+        letters[at] = " "
+    between = places[1::2]
+    pairs = [text[a:b] for a, b in pairwise([0, *between, len(text)])]
+    if between and all("=" in pair and not _STARTS.match(pair) for pair in pairs):
+        for at in between:
+            letters[at] = "\x00"
+    return "".join(letters)
+
+
+def _parts(row: AnswerRow) -> list[AnswerRow]:
+    """Split a row at commas, wide spaces and words outside brackets, if every piece is a statement."""
+    if any("\x00" in side and not _content(side) for side in row.text.split("=")):
+        return []  # one side consists of words: a remark
+    depth, cuts = 0, [(0, 0)]
+    for match in re.finditer(rf"[(\[{{}}\])]|\\begin|\\end|{_CUT.pattern}", row.text):
+        mark = match.group()
+        if mark in "([{" or mark == "\\begin":
+            depth += 1
+        elif mark in ")]}" or mark == "\\end":
+            depth -= 1
+        elif depth <= 0:
+            cuts.append((match.start(), match.end()))
+    cuts.append((len(row.text), len(row.text)))
+    pieces = [(a[1], row.text[a[1] : b[0]]) for a, b in pairwise(cuts)]
+    pieces = [(at, piece) for at, piece in pieces if _content(piece)]
+    if all("=" in piece for _, piece in pieces):
+        return [AnswerRow(row.start + at, piece) for at, piece in pieces]
+    return [AnswerRow(row.start, row.text.replace("\x00", " "))]

@@ -1,0 +1,139 @@
+"""Reads derivatives in plain text: primes, dx/dt, d(…)/dt, diff(x, t, 2), Derivative(x(t), (t, 2)), D[x[t], {t, 2}]."""
+
+from __future__ import annotations
+
+from lark import Tree
+
+from lagrangian.check.reading.nodes import Node, column, inside, name, node, only_name
+from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.plain.conditions import PlainConditions
+from lagrangian.check.reading.plain.tokens import TOKEN
+
+ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3, '"': 2}
+"""How often each mark differentiates."""
+
+DIFFERENTIATE = frozenset(["diff", "Derivative", "D", "Diff"])
+"""The functions of programs that differentiate."""
+
+DOTS = {"dot": 1, "ddot": 2, "der": 1}
+"""Functions that stand for dots."""
+
+CLOSING = {"(": ")", "[": "]"}
+"""Opening brackets, with their closing brackets."""
+
+
+class PlainDerivatives(PlainConditions):
+    """The part of the parser that reads derivatives."""
+
+    def _moves(self, called: str) -> bool:
+        """Whether a name changes with time."""
+        raise NotImplementedError
+
+    def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
+        order = sum(ORDERS[c] for c in primes.text)
+        inner = inside(made)
+        if inner.data == "name" and inner.children[1] is None:
+            token: Node = inner.children[0]
+            return name(token, token.start_pos, order)
+        return node("rate", primes.start, made, order)
+
+    def _bracket(self) -> Tree:
+        closing = CLOSING[self.next.kind]
+        start = self.take().start
+        self.deeper(start)
+        listed = [self.sum()]
+        while self.accept(","):  # (x, y) is a column
+            listed.append(self.sum())
+        if not self.accept(closing):
+            raise self.stopped(False)
+        self.opened.pop()
+        return listed[0] if len(listed) == 1 else column(start, listed)
+
+    def _fraction_rate(self) -> Tree:
+        token = self.take()
+        found = TOKEN.match(self.source.text, token.start)
+        assert found is not None
+        group, order = ("of1", 1) if token.kind == "rate" else ("of2", 2)
+        written = found[group].rstrip("'’′″‴\"")
+        order += sum(ORDERS[c] for c in found[group][len(written) :])
+        return name(written, found.start(group), order)
+
+    def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
+        """Read d(…)/dt or d²(…)/dt²; None if no bracket or no /dt follows."""
+        at = self.i
+        twice = self._two()
+        inner = self._bracket() if self.next.kind == "(" else None
+        if inner is not None and self.next.kind == "over" and self.ahead().text == "dt":
+            self.take()
+            self.take()
+            if not twice or self._two():
+                return node("rate", token.start, inner, 2 if twice else 1)
+        self.i = at
+        return None
+
+    def _two(self) -> bool:
+        """Whether ² or ^2 is next; if so, consume it."""
+        if self.next.text == "²" or (self.next.kind == "power" and self.ahead().text == "2"):
+            self.i += 1 if self.next.text == "²" else 2
+            return True
+        return False
+
+    def _differentiated(self, token: AnswerToken) -> Tree:
+        """Read diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)), D[x[t], {t, 2}] or diff(L, x')."""
+        closing = CLOSING[self.next.kind]
+        start = self.take().start
+        self.deeper(start)
+        made = self.sum()
+        order = 0
+        while self.accept(","):
+            if self.next.kind == "number" and not order and made.data != "partial":  # diff(x, 2)
+                order = self._order()
+                continue
+            tuple_open = self.accept("(", "{")
+            by = self.sum()
+            which = only_name(by)
+            if which == ("t", 0):
+                order += 1
+                if self.next.kind == "," and self.ahead().kind == "number":
+                    self.take()
+                    order += self._order() - 1
+            elif which is not None:
+                made = node("partial", token.start, self._energy(made, token), by)
+            else:
+                raise self.source.error(
+                    "a derivative must be with respect to t or to one name",
+                    by.meta.start_pos,
+                    fix="write diff(x1, t, 2) or x1''",
+                )
+            if tuple_open and not self.accept(")", "}"):
+                raise self.stopped(False)
+        if not self.accept(closing):
+            raise self.stopped(False)
+        self.opened.pop()
+        named = only_name(made)
+        called = token.text in ("diff", "Derivative") and named is not None and not named[1]
+        if not order and called and named is not None and self._moves(str(named[0])):
+            order = 1  # diff(x) can only mean the rate
+        if not order and made.data != "partial":
+            raise self.source.error(
+                f"{token.text} needs a variable to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
+            )
+        return node("rate", token.start, made, order) if order else made
+
+    def _order(self) -> int:
+        token = self.take()
+        if token.text not in ("1", "2"):
+            raise self.source.error(
+                "derivatives go up to the second", token.start, fix="write x1'' for an acceleration"
+            )
+        return int(token.text)
+
+    def _energy(self, made: Tree, token: AnswerToken) -> Node:
+        which = only_name(made)
+        if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
+            raise self.source.error(
+                "only T, V, L and D can be differentiated by a coordinate or its rate",
+                token.start,
+                fix="write ∂L/∂x1' or diff(L, x1')",
+            )
+        return which[0]

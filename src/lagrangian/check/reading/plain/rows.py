@@ -1,0 +1,353 @@
+"""Splits an answer in plain text into statements: continued lines, comments, and numbers or labels around them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import pairwise
+
+from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_dashes, without_units
+from lagrangian.check.reading.markup import blank, opened_list
+from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.prose.conditions import without_conditions
+from lagrangian.check.reading.prose.remarks import is_remark
+from lagrangian.check.reading.prose.sketches import without_sketches
+from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.prose.words_or_mathematics import (
+    LINKING,
+    is_level,
+    is_prose,
+    is_sentence,
+    moves,
+    says_nothing,
+    stated_remarks,
+    without_headings,
+    without_lead,
+    without_remarks,
+    without_tail,
+)
+from lagrangian.model.names import FUNCTIONS
+from lagrangian.records import dataclass
+
+MAX_STATEMENTS = 500
+"""The largest number of statements in one answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerRow:
+    """A statement: ``text`` begins at ``start`` of the answer; comments and labels in it are blanked out."""
+
+    start: int
+    text: str
+
+
+MAX_LIST = 60
+"""The most lines of a list of equations in braces."""
+
+LONGEST_LABEL = 140
+"""The most characters of a label in front of an equation, with its number."""
+
+LONGEST_FORMULA = 400
+"""The most characters of a formula with a word behind it that says what a name in it means."""
+
+_CLOSED = {"(": ")", "[": "]"}
+_COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
+_STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
+_OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
+_STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
+_OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
+_LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
+_MINUS_START = re.compile(r"\s*[-−–]")
+_STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
+_DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
+_LEFT_OUT = re.compile(r"=\s*(?:\.\.\.|…)\s*\Z")
+"""A side that is left out: p = ∂L/∂x' = …"""
+_PLUS_END = re.compile(r"\+\s*\Z")
+_PLUS_START = re.compile(r"\s*\+")
+_GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
+
+_SUM_ALONE = re.compile(
+    r"\s*[↑→↓←↻↺⟲⟳⤵]?\s*(?:∑|Σ|\\sum(?![A-Za-z]))[\s_{}\\]*[^\W\d]?[\w{}\\]{0,16}(?:\^[\w{}]{1,4}|\(\w{1,4}\))?\s*"
+)
+_SUM = re.compile(r"∑|\\sum(?![A-Za-z])")
+_SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
+_ARROWS = "<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
+_LINKED = (
+    "and|or|where|with|so|thus|hence|therefore|implies|then|i\\.e\\."
+    "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
+)
+_WITH = "con|com|met|med|dove|donde|onde|waarbij"
+"""How other languages link statements, in words that may be names of the system or products of these."""
+_LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit|(?P<foreign>{_WITH}))(?=[\s,:])"
+_MEANING = re.compile(r"(?:with|where|wobei|mit|avec|où|soit|con|com|met|med|dove|donde|onde|waarbij)\b")
+_NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
+_RATES = re.compile(
+    r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
+)
+"""A rate behind its name, where the name of another follows: xd = x' xdd = x''."""
+_NEXT = (
+    r"(?<=[\w)\]'’′²³\u0307\u0308])[ \t]{2,}"
+    r"(?=(?:[∂d][^\W\d_]/[∂d])?[^\W\d_](?:\w|[\u0307\u0308]){0,8}['′*]?[ \t]*=(?!=))"
+)
+_COLUMN = r"(?P<column>(?<=[\w)\]'’′²³\u0307\u0308])(?:[ ]{3,}|[ ]?\t[ \t]*)(?=[\w(∂\[]))"
+"""A gap between two columns of a line."""
+_COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
+_STOP = (
+    r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
+    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
+    r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
+)
+_EQUALS = re.compile(r"(?<![=<>:!])=(?![=>])")
+_BETWEEN = re.compile(
+    rf"[(\[{{}}\])\n]|{_NEXT}|{_COLUMN}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
+)
+
+
+def plain_rows(text: str, words: Words) -> list[AnswerRow]:
+    """Return the statements of an answer in plain text; headings and remarks are ignored."""
+    text = without_headings(_STARRED.sub("T* ", without_sketches(text, words)))
+    text = without_conditions(text, words)
+    text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
+    text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
+    numbers = numbering(text, words)
+    labelled = partial(is_label, words=words, numbers=numbers)
+    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text, labelled, words)
+    text = "\n".join(
+        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
+    )
+    rows: list[AnswerRow] = []
+    offset = 0
+    open_row: AnswerRow | None = None
+    for line in re.split(r"(?<=\n)", text):
+        bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
+        if not bare.strip():
+            open_row = open_row if line.strip() else None  # a line with only a comment ends nothing
+        elif open_row is not None and (_continues(open_row.text, bare) or _GOES_ON.match(bare)):
+            goes_on = _GOES_ON.match(bare)
+            bare = blank(bare, *goes_on.span()) if goes_on is not None else bare
+            head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
+            if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
+                head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"
+            gap = offset - open_row.start - len(head)
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, numbers))
+        elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
+            rows.append(AnswerRow(offset, behind(stripped, numbers)))
+            open_row = None if is_sentence(stripped, words) else rows[-1]
+        offset += len(line)
+    split = [
+        piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",", words=words)
+    ]
+    split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
+    found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
+    if len(found) > 1:
+        told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
+        found, split = [row for row, _ in told], [own for _, own in told]
+    levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
+    stated = [row for row, level in zip(found, levels, strict=True) if not level and not is_prose(row.text, words)]
+    return stated or found[:1]
+
+
+def _whole_lists(text: str) -> Iterator[str]:
+    """The lines of a text; those of one list in braces, {a == b,↵ c == d}, together."""
+    waiting: list[str] = []
+    for line in text.split("\n"):
+        if waiting or (line.lstrip()[:1] == "{" and line.count("{") > line.count("}")):
+            waiting.append(line)
+        whole = "\n".join(waiting)
+        if not waiting:
+            yield line
+        elif not line.strip() or len(waiting) > MAX_LIST:
+            yield from waiting
+            waiting = []
+        elif whole.count("{") <= whole.count("}"):
+            yield whole
+            waiting = []
+    yield from waiting
+
+
+def _bare(text: str, words: Words) -> str:
+    """A statement without the words in front of it and behind it."""
+    bare = without_lead(text, words)
+    if "=" not in text and bare != text and not moves(bare):
+        return text  # I divided the second by m*l^2
+    return without_tail(bare, words, led=bare != text and "=" in text)
+
+
+def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:
+    """Whether one side of a row consisted of words, which a note tells: N is the contact force = lambda."""
+    empty = row.text.lstrip().startswith("=") and not own.text.lstrip().startswith("=")
+    if empty:
+        names.notes.setdefault(f"'{' '.join(own.text.split())}' was not judged: one side consists of words.")
+    return empty
+
+
+def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
+    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d, s'' with s = …
+
+    ``labelled`` says whether what stands before a colon is a label.
+    """
+    depth = 0
+    letters = list(text)
+    for match in _BETWEEN.finditer(text):
+        mark = match.group()
+        if mark in "([{":
+            depth += 1
+        elif mark in ")]}":
+            depth -= 1
+        elif mark == "\n":
+            depth = depth if depth > 0 else 0
+        elif depth <= 0 and match["arrow"] and is_mark(text[text.rfind("\n", 0, match.start()) + 1 : match.start()]):
+            continue
+        elif depth <= 0 and match["colon"]:
+            if _states(text, match.start()) and not _labelled(text, match.start(), labelled):
+                letters[match.start()] = ";"
+        elif depth <= 0 and match["stop"]:
+            if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
+                letters[match.start("stop")] = ";"
+        elif match["column"]:
+            if depth <= 0 and _beside(text, match.start(), match.end()):
+                letters[match.end() - 1] = ";"
+        elif match["foreign"] and (words.known(mark) or words.is_product(mark)):
+            continue
+        elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end()) or _is_meant(text, match)):
+            at = match.start()
+            letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
+    return "".join(letters)
+
+
+def _labelled(text: str, at: int, labelled: Callable[[str], bool]) -> bool:
+    """Whether what stands before a colon on its line is a label."""
+    first = text.rfind("\n", max(0, at - LONGEST_LABEL), at) + 1
+    return (first > 0 or at < LONGEST_LABEL) and labelled(text[first : at + 1])
+
+
+def _states(text: str, at: int) -> bool:
+    """Whether a colon stands between two statements, ∑F = m x'': F - k x = m x'', or behind more than a label."""
+    first, last = text.rfind("\n", 0, at) + 1, text.find("\n", at)
+    before = re.split("[,;]", text[max(first, at - 400) : at])[-1]
+    return text.find("=", at, last if last >= 0 else len(text)) >= 0 and bool(re.search(r"[=\[\]*^/'′]", before))
+
+
+def _both(text: str, start: int, end: int) -> bool:
+    """Whether there is an equals sign on the same line before and after a place."""
+    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+    return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
+
+
+def _beside(text: str, start: int, end: int) -> bool:
+    """Whether statements stand on both sides of a gap: p = m x'      dp/dt = m x'' is no product."""
+    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+    left = re.split(r"[;\t]| {3}", text[first:start].rstrip())[-1]
+    right = re.split(r"[;\t]| {3}", text[end : last if last >= 0 else len(text)])[0]
+    return _EQUALS.search(left) is not None and _EQUALS.search(right) is not None
+
+
+def _is_meant(text: str, match: re.Match[str]) -> bool:
+    """Whether a word says what a name means in the formula in front of it, which has no equals sign: a'' with a = …"""
+    if _MEANING.fullmatch(match.group()) is None or _NAME_NEXT.match(text, match.end()) is None:
+        return False
+    above = re.split("[:;\n]", text[max(0, match.start() - LONGEST_FORMULA) : match.start()])[-1]
+    return "=" not in above and moves(above)
+
+
+def plain_words(line: str) -> bool:
+    """Whether a line consists of words, without anything found in an expression or equation."""
+    words = re.findall(r"[^\W\d_₀-₉]{2,}", line)
+    return len(words) >= 2 and not _STATEMENT_SIGN.search(line) and not FUNCTIONS & set(words)
+
+
+def _remark(part: str) -> bool:
+    """Whether a part of a line consists of words: "with the stretch s,"."""
+    words = re.findall(r"[^\W\d_]+", part)
+    return "=" not in part and any(w.lower() in LINKING for w in words) and not FUNCTIONS & set(words)
+
+
+def _continues(above: str, line: str) -> bool:
+    if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
+        return False
+    if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
+        return True
+    if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
+        return False
+    return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+
+
+def _begins(above: str, line: str) -> bool:
+    """Whether a program printed an equation of motion without its = 0, which is no part of what is above it."""
+    return "=" not in line and is_remark(above) and not is_remark(line)
+
+
+def _ends_open(above: str, line: str) -> bool:
+    """Whether an equation only lacks a bracket at its end, because the next line is another equation."""
+    if "=" not in above or "=" not in line or _OPEN_END.search(above) or _OPEN_START.match(line):
+        return False
+    return len(missing_brackets(above)) == 1 and not missing_brackets(line)
+
+
+def missing_brackets(text: str) -> str:
+    """The brackets that are missing at the end of a statement, or "?" for one that is closed wrongly or nowhere on its
+    side."""
+    stack: list[str] = []
+    for c in text:
+        if c in _CLOSED:
+            stack.append(_CLOSED[c])
+        elif (c in ")]" and (not stack or stack.pop() != c)) or (c == "=" and stack):
+            return "?"
+    return "".join(reversed(stack))
+
+
+def incomplete(text: str) -> bool:
+    """Whether the statement must continue: it ends with an operator, or a bracket is open."""
+    return (
+        bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
+    )
+
+
+def without_sums(row: AnswerRow, names: Names) -> AnswerRow:
+    """A row without the side that only says what is added up, ∑M = J φ'' = …; empty, which a note tells, if there is no
+    other equation. A capital sigma before a name is this sign, too, unless the system has one."""
+    form = _SUM
+    if "Σ" in row.text and not names.scope.meanings("Σ")[0]:
+        form = re.compile(rf"{_SUM.pattern}|{_SIGMA.pattern}")
+    if not form.search(row.text):
+        return row
+    sides = row.text.split("=")
+    kept = [side for side in sides if not form.search(side)]
+    text = row.text
+    for k, side in enumerate(sides):
+        adds = form.search(side) is not None
+        if adds:
+            start = sum(len(x) + 1 for x in sides[:k])
+            text = blank(text, max(0, start - (k == len(sides) - 1)), min(len(text), start + len(side) + 1))
+        if adds and (len(kept) < 2 or not _SUM_ALONE.fullmatch(side)):
+            told = row.text if len(kept) < 2 else side
+            names.notes.setdefault(f"'{' '.join(told.split())}' was not judged: nothing says what ∑ adds up.")
+    return AnswerRow(row.start, text if len(kept) > 1 else "")
+
+
+def _stated(part: str) -> bool:
+    """Whether a part of a row is a statement of its own."""
+    return "=" in part or bool(re.match(r"\s*Eq\w*\s*[(\[]", part))
+
+
+def pieces(row: AnswerRow, separators: str, *, always: bool = False, words: Words | None = None) -> list[AnswerRow]:
+    """Split a row at separators outside brackets; unless ``always``, only if every piece contains an = or, with the
+    ``words`` of the answer, consists of words."""
+    cuts, depth = [-1], 0
+    for i, c in enumerate(row.text):
+        depth += (c in "([{") - (c in ")]}")
+        if depth == 0 and c in separators and not (row.text[i + 1 : i + 2].isdigit() and row.text[i - 1].isdigit()):
+            cuts.append(i)
+    cuts.append(len(row.text))
+    parts = [(a + 1, row.text[a + 1 : b]) for a, b in pairwise(cuts)]
+    if any(_stated(part) for _, part in parts):
+        said = partial(says_nothing, words=words) if words is not None else _remark
+        parts = [(at, part) for at, part in parts if not _remark(part) and not said(part)]
+    if (
+        len(parts) > 1
+        and not always
+        and sum(_stated(part) for _, part in parts) < sum(bool(part.strip()) for _, part in parts)
+    ):
+        return [row]
+    return [AnswerRow(row.start + at, part) for at, part in parts if part.strip()]

@@ -1,0 +1,202 @@
+"""The tokens of a statement in plain text: numbers with their units and commas, words split into names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from fractions import Fraction
+
+from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.prose.words import Words, function_of
+from lagrangian.quantities.source import Source
+from lagrangian.quantities.units import lookup
+
+_LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
+_MARK = r"[\u0307\u0308\u20db\u20dc]"
+_NAME = rf"{_LETTER}{_MARK}*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]{_MARK}*)*"
+_TWO = r"\s*(?:(?:\^|\*\*)\s*2|²|2)"
+_PRIME = r"['’′″‴\"]"
+_KINDS = [
+    ("space", r"\s+"),
+    ("ddt2", rf"d{_TWO}\s*/\s*\(?\s*dt{_TWO}\s*\)?(?!\w)"),
+    ("ddt", r"d\s*/\s*dt(?!\w)"),
+    ("rate2", rf"d{_TWO}\s*(?P<of2>{_NAME})\s*/\s*dt{_TWO}(?!\w)"),
+    ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
+    (
+        "partial",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:[TVLDℒ](?!\w)|(?<=d)[^\W\d]\w{{0,3}})))\*?\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+    ),
+    ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
+    ("fraction", r"[¼½¾⅐-⅞]"),
+    ("star", r"T[₀-₉]*\*(?:[₀-₉]+|_\w+)?(?=\s*(?:[-+−–=),;]|\Z))"),
+    ("name", _NAME),
+    ("primes", rf"{_PRIME}+"),
+    ("raised", r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
+    ("power", r"\.?\^|\.?\*\*"),
+    ("times", r"\.?[*×·⋅∙•]"),
+    ("over", r"\.?[/÷∕]"),
+    ("plus", r"\+"),
+    ("minus", r"[-−–]"),
+    ("relation", r"<=|>=|!=|<|>|≤|≥|≠"),
+    ("=", r"==?"),
+    ("sym", "\x01"),
+    ("root", r"√"),
+    ("bracket", r"[()\[\]{},;]"),
+    ("other", r"."),
+]
+TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for kind, form in _KINDS), re.DOTALL)
+"""The regular expression of one token, with the groups of_1, of_2, what, by and dots."""
+
+_ONE = re.compile(
+    r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_⁰¹²³⁴-⁹]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
+)
+_DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
+_WORD = re.compile(_NAME)
+_ENERGIES = frozenset("TVLDℒ")
+_JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
+_GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
+_VALUE = re.compile(
+    rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
+)
+_RAISED = str.maketrans("¹²³⁴⁻⁺", "1234-+")
+_LISTS = frozenset(["atan2", "min", "max", "diff", "Derivative", "D", "Eq", "piecewise", "Matrix", "Piecewise"])
+_COMMA = re.compile(r"(?<=\d),(?=\d)")
+_TIME = lookup("s").dimension  # type: ignore[union-attr]
+
+
+def tokenize(source: Source, words: Words) -> list[AnswerToken]:
+    """Return the tokens of a statement; words that are products become several."""
+    text = source.text
+    tokens: list[AnswerToken] = []
+    at = 0
+    value = (given := _VALUE.fullmatch(text)) is not None and not _goes_on(given["behind"], words)
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        assert match is not None
+        at = match.end()
+        kind = "=" if match.lastgroup == "eq" else str(match.lastgroup)
+        if kind == "space":
+            continue
+        if kind == "star":  # the kinetic co-energy T*, not a product
+            tokens.append(AnswerToken("name", match.group().replace("*", ""), match.start(), at))
+        elif kind == "partial" and not _is_partial(match, words):
+            match = _WORD.match(text, match.start())
+            assert match is not None
+            at = match.end()
+            tokens += _names(match.group(), source, match.start(), words)
+        elif kind == "root":
+            tokens.append(AnswerToken("name", "sqrt", match.start(), at))
+        elif kind == "number":
+            tokens.append(AnswerToken(kind, match.group(), match.start(), at))
+            at = _with_unit(tokens, text, at, words, value)
+        elif kind == "name":
+            tokens += _names(match.group(), source, match.start(), words)
+        else:
+            tokens.append(AnswerToken(match.group() if kind == "bracket" else kind, match.group(), match.start(), at))
+    tokens.append(AnswerToken("end", "", len(text), len(text)))
+    return tokens
+
+
+def _is_partial(match: re.Match[str], words: Words) -> bool:
+    """Whether an energy, or another quantity of the answer's own, is differentiated by what moves: dR/dx', df/dx."""
+    if match["round"] or match["what"] in _ENERGIES:
+        return True
+    quotient = any(words.is_name(f"d{match[x]}") for x in ("what", "by"))
+    return not quotient and words.is_own(match["what"]) and words.names.changes(match["by"])
+
+
+def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
+    """The tokens of a word: one, or one for each of its parts."""
+    end = start + len(word)
+    called = bool(re.match(r"\s*[\w(\[^²³√]|\s*\*\*", source.text[end : end + 8]))
+    at = start
+    for part in words.parts(word, source, start, called=called):
+        kind = "number" if part.isdigit() else "name"
+        yield AnswerToken(kind, part, at, at + len(part))
+        at += len(part)
+
+
+# -- numbers ----------------------------------------------------------------------------------------------------------
+
+
+def with_points(text: str) -> str:
+    """Return a statement with decimal commas as points: 0,5 is 0.5 outside matrices and lists of arguments."""
+    if not _COMMA.search(text):
+        return text
+    open_brackets: list[bool] = []
+    letters = list(text)
+    for match in re.finditer(r"(\w*)\s*([(\[])|[)\]]|(?<=\d),(?=\d)", text):
+        mark = match.group()
+        if match[2]:
+            open_brackets.append(match[2] == "[" or match[1] in _LISTS)
+        elif mark in ")]":
+            if open_brackets:
+                open_brackets.pop()
+        elif not any(open_brackets):
+            letters[match.start()] = "."
+    return "".join(letters)
+
+
+def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, value: bool) -> int:
+    """Convert the number that was just read if a unit follows that is no product of names; return where to go on.
+
+    In a ``value``, m = 2 kg, what follows the number is always a unit.
+    """
+    number = tokens[-1]
+    if (degrees := _DEGREES.match(text, at)) is not None and not words.is_name("deg"):
+        more = [("times", "*"), ("name", "pi"), ("over", "/"), ("number", "180")]
+        tokens += [AnswerToken(kind, written, number.end, degrees.end()) for kind, written in more]
+        return degrees.end()
+    factor, end = _unit(text, at, words, value or words.units)
+    if factor is None and not words.units:
+        words.doubtful = words.doubtful or _unit(text, at, words, True)[0] is not None
+    made = _decimal(Fraction(number.text) * factor) if factor is not None else None
+    if made is None:
+        return at
+    tokens[-1] = replace(number, text=made)
+    if not value or factor != 1:
+        words.names.notes.setdefault(f"{text[number.start : end]} was read as {made}.")
+    return end
+
+
+def _goes_on(behind: str, words: Words) -> bool:
+    """Whether what follows a number is no unit alone: a function or a name that moves stands in it, 2 F l cos θ."""
+    return any(function_of(x) is not None or words.names.changes(x) for x in re.findall(r"[^\W\d_]\w*", behind))
+
+
+def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None, int]:
+    """How many SI units the unit at a place is, and where it ends; None if it consists of names of the system.
+
+    A name of the system is part of a unit after /, N and kg only, 9.81 m/s^2, 3 N m, unless it is ``sure`` that units
+    follow numbers. No term of an equation is a time: 2h are no hours.
+    """
+    factor, end, below, foreign, before = Fraction(1), at, False, False, ""
+    times = True
+    while (match := _ONE.match(text, end)) is not None and text[match.end() : match.end() + 1] not in _GOES_ON:
+        unit, name = lookup(match["unit"]), match["unit"]
+        own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
+        below = below or "/" in match["by"]
+        if unit is None or unit.factor == 0 or (before == "" and match["by"].strip()):
+            break
+        if before and own and "/" not in match["by"] and before not in _JOINED and not sure:
+            break
+        if sure and before and match["by"].strip() == "*" and match["by"] != "*":
+            break
+        power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
+        factor *= unit.factor ** (-power if below else power)
+        times = times and not below and unit.dimension == _TIME
+        foreign, before, end = foreign or sure or not own, name, match.end()
+    return (factor, end) if foreign and (sure or not times) else (None, at)
+
+
+def _decimal(value: Fraction) -> str | None:
+    """A fraction as a decimal number, if it is one."""
+    digits = 0
+    scaled = value
+    while scaled.denominator != 1 and digits < 30:
+        scaled, digits = scaled * 10, digits + 1
+    if scaled.denominator != 1 or abs(scaled.numerator) > 10**40:
+        return None
+    whole = str(scaled.numerator).rjust(digits + 1, "0")
+    return whole if not digits else f"{whole[:-digits]}.{whole[-digits:]}"

@@ -1,0 +1,1 @@
+"""What programs type and print."""

@@ -1,0 +1,144 @@
+"""Takes off what programs set around equations: comments in brackets, prompts, names of lists, fields of parameters.
+
+(* ks is k_s *)  /* ks is k_s */  # ks is k_s                 a comment of Mathematica, Maple or C
+(%o7) m*x'' = F                 m*x'' = F                     a line of Maxima
+>> EL = simplify(…)             EL = m*x'' + …                a command of MATLAB and the result that it shows
+EL =⏎⏎ m*x'' + …
+sys = {a == b,⏎ c == d}         {a == b,⏎ c == d}             a list of equations
+p.m*p.g                         m*g                           the fields of a structure
+S.dds =⏎⏎ (F - …)/m              dds = (F - …)/m               a solution
+v.'*v                           v^T*v                         a column that is transposed
+A = diag([m J]);                A = diag(m, J)                a diagonal
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from lagrangian.check.reading.programs.matrices import with_equations_in_comments, with_shown_matrices
+from lagrangian.check.reading.programs.sessions import carries
+from lagrangian.check.reading.traced_text import Edit, TracedText
+
+_NAME = r"[^\W\d]\w{0,23}+"
+MOST, LONGEST = 200, 2_000
+"""The most marks of one kind that are looked at, and the most characters of a comment in brackets."""
+
+_COMMENT = re.compile(
+    rf"\(\*(?!\))(?P<said>(?:(?!\*\)|\(\*).){{1,{LONGEST}}}?)\*\)|/\*(?P<slashed>(?:(?!\*/|/\*).){{1,{LONGEST}}}?)\*/",
+    re.DOTALL,
+)
+_TERMINATED = re.compile(r"\$(?=[ \t]*$)", re.MULTILINE)
+_PAIRED = re.compile(r"\$[^\n]*\$|\$(?![ \t]*$)|\\[A-Za-z]|^[ \t]*\$", re.MULTILINE)
+"""How statements end in Maxima, and what dollar signs of LaTeX have about them."""
+_LABELLED = re.compile(r"^[ \t]*+\(%[io]\d{1,4}\)", re.MULTILINE)
+"""How Maxima numbers what is typed and what it answers."""
+_LIST = re.compile(rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
+_COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)
+_SHOWN = re.compile(
+    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
+)
+_SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))", re.MULTILINE)
+"""The structure of a solution: S.dds = …"""
+_NUMBERED = re.compile(
+    r"^[ \t>]*+(?:eq|Eq|EQ|equation|ode|de|gl|EL|EOM|eom)[a-z]{0,9}[\[(]\d{1,2}[\])][ \t]*+:?=[ \t]*+(?=[^\n=]*=|Eq\()",
+    re.MULTILINE,
+)
+"""An entry of a list of equations: eq[1] := a = b."""
+_ANSWERED = re.compile(
+    rf"^[ \t]*+>>[ \t]*+(?:[a-z]{{4,16}}\()?(?:{_NAME}\.)?(?P<name>{_NAME})\)?[ \t]*+\n\s{{0,9}}ans[ \t]*+=(?=\s)",
+    re.MULTILINE,
+)
+"""What MATLAB answers to the name of a quantity: simplify(S.xdd) ⏎ ans = …"""
+_TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
+_DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
+_WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
+_FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
+
+
+def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text without these marks; ``taken`` says whether a name belongs to the system."""
+    written = written.edited(_comments(written.text)).sub(_LABELLED, lambda m: "")
+    written = written.sub(_NUMBERED, lambda m: "").sub(_ANSWERED, lambda m: f"{m['name']} =")
+    written = written.sub(_SOLUTION, lambda m: "").sub(_TRANSPOSED, lambda m: "^T")
+    written = with_shown_matrices(written)
+    shown = {m["name"] for m in _SHOWN.finditer(written.text)}
+    if shown and ">>" in written.text:
+        written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
+    written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
+    written = written.edited(_list_names(written.text))
+    written = written.edited(_diagonals(written.text))
+    written = with_equations_in_comments(written, taken)
+    return written.edited(_fields(written.text, taken))
+
+
+def told_comments(text: str) -> Iterator[str]:
+    """What to say about comments and headings that hold an equation of motion."""
+    for match in islice(_WHOLE_LINE_COMMENT.finditer(text), MOST):
+        if "=" in match["said"] and len(match["said"]) < LONGEST and carries(match["said"]):
+            yield f"'{' '.join(match.group().split())}' was not judged: it is a comment."
+
+
+def without_terminators(written: TracedText) -> TracedText:
+    """Return an answer in which the statements of Maxima do not end with dollar signs."""
+    if "$" not in written.text or _PAIRED.search(written.text):
+        return written
+    return written.sub(_TERMINATED, lambda m: ";")
+
+
+def _comments(text: str) -> Iterator[Edit]:
+    """The marks of comments that end with their line, in the place of those in brackets; nothing where one is inside a
+    line."""
+    for match in islice(_COMMENT.finditer(text), MOST):
+        first, end = text.rfind("\n", 0, match.start()) + 1, text.find("\n", match.end())
+        above, below = text[first : match.start()].strip(), text[match.end() : end if end >= 0 else len(text)].strip()
+        if above and below:
+            yield *match.span(), " "
+            continue
+        yield match.start(), match.start() + 2, "\n# " if above else "# "
+        inside = match.span("said" if match["said"] is not None else "slashed")
+        yield from ((k, k + 1, "\n# ") for k in range(*inside) if text[k] == "\n")
+        yield match.end() - 2, match.end(), "\n" if below else " "
+
+
+def _diagonals(text: str) -> Iterator[Edit]:
+    """The entries alone, with commas, of a diagonal that is given as a list: diag([a b]) as diag(a, b)."""
+    for match in _DIAGONAL.finditer(text):
+        listed = match["entries"]
+        by = "," if "," in listed else ";" if ";" in listed else None
+        entries = [x.strip() for x in listed.split(by)]
+        if all(x and x[-1] not in "+-*/" and x.strip("+-*/") for x in entries):
+            yield *match.span(), f"diag({', '.join(entries)})"
+
+
+def _list_names(text: str) -> Iterator[Edit]:
+    """Nothing in the place of the name of a list whose entries are equations."""
+    for match in islice(_LIST.finditer(text), MOST):
+        depth = 0
+        for at in range(match.end(), min(len(text), match.end() + 2 * LONGEST)):
+            depth += (text[at] in "([{") - (text[at] in ")]}")
+            if depth == 0:
+                inside = text[match.end() : at]
+                if "==" in inside or re.search(r"\bEq\(", inside) or _are_equations(inside):
+                    yield *match.span(), ""
+                break
+
+
+def _are_equations(listed: str) -> bool:
+    """Whether all entries of a list have an equals sign."""
+    depth, entries = 0, [""]
+    for c in listed:
+        depth += (c in "([{") - (c in ")]}")
+        entries = [*entries, ""] if c == "," and not depth else [*entries[:-1], entries[-1] + c]
+    return all("=" in x for x in entries)
+
+
+def _fields(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
+    """The names of fields alone, p.m as m, where every field of the structure is a name of the system."""
+    found: dict[str, list[re.Match[str]]] = {}
+    for match in _FIELD.finditer(text):
+        found.setdefault(match["of"], []).append(match)
+    for of, fields in found.items():
+        if not taken(of) and all(taken(m["name"]) for m in fields):
+            yield from ((m.start(), m.start("name"), "") for m in fields)

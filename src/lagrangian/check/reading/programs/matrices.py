@@ -1,0 +1,221 @@
+"""Reads the matrices of programs: how they are typed and printed, and comments that say how they belong together.
+
+M = [a, 0; ...⏎ 0, b]              M = [a, 0;  0, b]            a statement of MATLAB that goes on
+np.array([[a, 0],⏎ [0, b]])        np.array([[a, 0],  [0, b]])
+qdd = np.linalg.solve(M, f)        M*qdd = f                    also inv(M) @ f and M.LUsolve(f)
+M =⏎⏎ [a, 0]⏎ [0, b]               M = [a, 0; 0, b]             what MATLAB prints
+h =⏎⏎  b*dx⏎   k*x                 h = [b*dx; k*x]
+% q = [x; y], M(q)*qdd + h = f     q = [x; y]; M*qdd + h = f    an equation that only a comment states
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from lagrangian.check.reading.names import COLUMNS, spelled_rates
+from lagrangian.check.reading.programs.sessions import MOST, closes
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import Edit, TracedText
+
+_NAME = r"[^\W\d]\w{0,23}+"
+_WORD = r"[^\W\d]\w*"
+_CALL = r"(?:\w{1,8}\.)?(?:array|asarray|Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix)\("
+_ARRAY = re.compile(rf"(?<![\w.\\{{]){_CALL}(?=\s*+\[)")
+_MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
+_MARK = re.compile(r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)")
+_FACTOR = r"[^\W\d]\w{0,23}+|\([^()\n=]{1,200}\)"
+_SOLVED = re.compile(
+    rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}})[ \t]*+=[ \t]*+(?:"
+    rf"(?:(?:\w{{1,6}}\.){{0,3}}solve\([ \t]*+|(?=\w{{1,24}}\.LUsolve))(?P<of>{_NAME})(?:[ \t]*+,|\.LUsolve\()"
+    r"[ \t]*+(?P<by>(?:[^()\n=;,]|\([^()\n=;]{0,80}\)){1,200})\)"
+    rf"|(?:(?:\w{{1,6}}\.){{0,3}}inv\([ \t]*+(?P<inverse>{_NAME})[ \t]*+\)|(?P<own>{_NAME})\.inv\(\))"
+    rf"[ \t]*+[@*][ \t]*+(?P<factor>{_FACTOR})"
+    r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
+    re.MULTILINE,
+)
+_SHOWN = re.compile(rf"[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+\Z")
+_BRACKETED = re.compile(r"[ \t]*+(?P<open>\[)[^\[\]=]*+(?P<close>\])[ \t]*+\Z")
+_ENTRY = re.compile(r"[ \t]++(?![+*/^)]|-[ \t])[^\[\]{}=%#>;]*[^\s\[\]{}=%#>;+*/^(-][ \t]*+\Z")
+_COMMENT = re.compile(r"(?P<prompt>^[ \t]*+>>[ \t]*+)?(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)", re.MULTILINE)
+_CUT = re.compile(
+    r"[()\[\]]|(?P<cut>[,;.](?=\s|$)|:(?!=)|\b(?:with|where|and|so|mit|wobei|und)\b"
+    r"|(?<=[^\s=+*/-])[ \t]{2,}(?![=+*/-]))"
+)
+_ARGUMENTS = re.compile(r"(?<!\w)(?P<of>[^\W\d]\w{0,23})\((?P<by>[\w ,'’′]{1,40})\)")
+_COLUMN = re.compile(rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+[\[(](?P<entries>[\w ,;]{{3,200}})[\])](?:\.?['’]|\^T|ᵀ)?")
+LONGEST = 400
+"""The most characters of a comment that states an equation."""
+
+
+def with_whole_matrices(written: TracedText) -> TracedText:
+    """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
+    written = written.edited(_continued(written.text))
+    written = written.edited(_arrays(written.text))
+    given = set(_MATRIX.findall(written.text))
+    return written.sub(_SOLVED, lambda m: _product(m, given)) if given else written
+
+
+def with_shown_matrices(written: TracedText) -> TracedText:
+    """Return an answer in which a matrix that MATLAB prints, or a column, stands on one line with brackets."""
+    found = list(_shown(written.text))
+    names = {name for name, _ in found}
+    written = written.edited(edit for _, edits in found for edit in edits)
+    if not names:
+        return written
+    command = re.compile(rf"^[ \t]*+>>[ \t]*+(?:{'|'.join(names)})[ \t]*+;?[ \t]*+(?=%|$)", re.MULTILINE)
+    return written.sub(command, lambda m: "")
+
+
+def with_equations_in_comments(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which equations of matrices that only comments state are statements, and the column of
+    coordinates in them; ``taken`` says whether a name belongs to the system."""
+    text = written.text
+    code = _COMMENT.sub(" ", text)
+    counts = Counter(re.findall(_WORD, code))
+    given = set(_MATRIX.findall(code))
+    unused = {name for name in given if counts[name] == 1}
+    return written.edited(_stated(text, code, given, unused, taken)) if given else written
+
+
+def _continued(text: str) -> Iterator[Edit]:
+    """Blanks for the marks with which a line of a matrix goes on below."""
+    depth = 0
+    for match in _MARK.finditer(text):
+        mark = match.group()
+        if match["more"]:
+            if depth:
+                yield *match.span(), " "
+        else:
+            depth = depth + 1 if mark == "[" else max(0, depth - 1) if mark == "]" else 0
+
+
+def _arrays(text: str) -> Iterator[Edit]:
+    """Blanks for the ends of lines inside the call that makes a matrix."""
+    last = 0
+    for match in islice(_ARRAY.finditer(text), MOST):
+        if match.start() >= last and (end := closes(text, match.end() - 1)) > 0:
+            last = end
+            yield from ((k, k + 1, " ") for k in range(match.end(), end) if text[k] == "\n")
+
+
+def _product(match: re.Match[str], given: set[str]) -> str:
+    """The product that equals what is solved for; the text as it is if the matrix is not given."""
+    of = match["of"] or match["inverse"] or match["own"]
+    return f"{of}*{match['left']} = {match['by'] or match['factor']}" if of in given else match.group()
+
+
+def _shown(text: str) -> Iterator[tuple[str, list[Edit]]]:
+    """The names and the edits of matrices in lines of their own below a name and an equals sign."""
+    lines = text.split("\n")
+    places = [0]
+    for line in lines:
+        places.append(places[-1] + len(line) + 1)
+    for i, line in enumerate(lines):
+        named = _SHOWN.match(line) if len(line) <= LONGEST else None
+        first = next((k for k in range(i + 1, min(i + 4, len(lines))) if lines[k].strip()), i + 1)
+        if named is None or first == i + 1:
+            continue
+        for form in (_BRACKETED, _ENTRY):
+            rows = list(_rows(lines, first, form))
+            if form is _ENTRY and (len(rows) < 2 or any(not _balanced(m.group()) for m in rows)):
+                continue
+            last = first + len(rows)
+            if rows and (last == len(lines) or not lines[last].strip()):
+                yield named["name"], list(_joined(places, i, first, rows))
+                break
+
+
+def _rows(lines: list[str], first: int, form: re.Pattern[str]) -> Iterator[re.Match[str]]:
+    for line in lines[first : first + MOST]:
+        match = form.match(line) if line.strip() and len(line) <= 4 * LONGEST else None
+        if match is None:
+            return
+        yield match
+
+
+def _joined(places: list[int], named: int, first: int, rows: list[re.Match[str]]) -> Iterator[Edit]:
+    """The edits that put rows below each other into one pair of brackets."""
+    at = places[named + 1] - 1
+    for k, row in enumerate(rows):
+        bracketed = "open" in row.re.groupindex
+        begin, end = row.span("open")[1] if bracketed else 0, row.start("close") if bracketed else len(row.group())
+        yield at, places[first + k] + begin, "; " if k else " ["
+        at = places[first + k] + end
+    yield at, places[first + len(rows)] - 1, "]"
+
+
+def _balanced(text: str) -> bool:
+    """Whether round brackets are closed in a text where they are opened."""
+    depth = 0
+    for c in text:
+        depth += (c == "(") - (c == ")")
+        if depth < 0:
+            return False
+    return depth == 0
+
+
+def _stated(text: str, code: str, given: set[str], unused: set[str], taken: Callable[[str], bool]) -> Iterator[Edit]:
+    """The edits that state what comments say about matrices; the rest of a comment stays one."""
+    comments = [m for m in islice(_COMMENT.finditer(text), MOST) if len(m["said"]) <= LONGEST]
+    columns: dict[str, str] = {}
+    for comment in comments:
+        for piece in _pieces(comment["said"]):
+            if (column := _COLUMN.fullmatch(piece)) is not None and _is_column(column, code, taken):
+                columns.setdefault(column["name"], piece)
+    for comment in comments:
+        stated, rest = list[str](), list[str]()
+        for piece in _pieces(comment["said"]):
+            said = _equation(piece, given, unused, {*columns, *COLUMNS}, taken)
+            column = next((name for name, listed in columns.items() if listed == piece), None)
+            if column is not None:
+                entries = re.findall(_WORD, columns.pop(column).partition("=")[2].removesuffix("^T"))
+                stated.insert(0, f"{column} = [{'; '.join(entries)}]")
+            elif said:
+                stated.append(said)
+            else:
+                rest.append(piece)
+        if stated:
+            behind = text[text.rfind("\n", 0, comment.start()) + 1 : comment.start()].strip()
+            kept = f"\n{comment['mark']} {', '.join(rest)}" if rest else ""
+            yield *comment.span(), f"{'; ' if behind else ''}{'; '.join(stated)}{kept}"
+
+
+def _pieces(said: str) -> Iterator[str]:
+    """The parts of a comment between commas, colons, wide gaps and linking words outside brackets."""
+    depth = start = 0
+    for match in _CUT.finditer(said):
+        if match["cut"] is None:
+            depth += 1 if match.group() in "([" else -1
+        elif depth <= 0:
+            yield said[start : match.start()].strip()
+            start = match.end()
+    yield said[start:].strip()
+
+
+def _is_column(column: re.Match[str], code: str, taken: Callable[[str], bool]) -> bool:
+    """Whether a comment says which coordinates a column holds."""
+    entries, name = re.findall(_WORD, column["entries"]), column["name"]
+    assigned = re.search(rf"(?<!\w){name}[ \t]*=(?!=)", code) is not None
+    return len(entries) > 1 and all(map(taken, entries)) and not taken(name) and not assigned
+
+
+def _equation(piece: str, given: set[str], unused: set[str], columns: set[str], taken: Callable[[str], bool]) -> str:
+    """The equation of matrices that a part of a comment states, without arguments; nothing if it states none."""
+    said = _SOLVED.sub(lambda m: _product(m, given), piece.replace("==", "="))
+    said = _ARGUMENTS.sub(lambda m: m["of"] if m["of"] in given else m.group(), said)
+    words = re.findall(_WORD, said)
+    if said.count("=") != 1 or not unused & set(words) or len(words) < 2:
+        return ""
+    called = re.findall(rf"({_WORD})\(", said)
+    rates = [w for w in words if any(stem in columns for _, stem in spelled_rates(w))]
+    known = {w for w in words if w in given or w in columns or taken(w) or function_of(w) is not None}
+    known |= {w for w in words if any(stem in columns or taken(stem) for _, stem in spelled_rates(w))}
+    if not known.issuperset(words) or any(function_of(x) is None for x in called):
+        return ""
+    left, _, right = said.partition("=")
+    if left.strip() in given:
+        return f"{right.strip()} = {left.strip()}" if rates or "'" in right or "[" in right else ""
+    return said

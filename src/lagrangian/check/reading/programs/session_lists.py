@@ -1,0 +1,110 @@
+"""Reads lists of programs whose entries are equations: expressions that are zero, and solutions.
+
+eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0
+Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
+{x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
+\\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX, also with [ ]
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import islice, pairwise
+
+from lagrangian.check.reading.programs.sessions import MOST, carries, closes, is_acceleration, pieces
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+
+_NAME = r"[^\W\d]\w{0,39}+"
+_LIST = re.compile(
+    rf"(?:(?P<name>{_NAME})[ \t]*+=(?!=)[ \t]*+)?"
+    r"(?P<call>(?:(?:\w{1,8}\.)?(?:Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix|array)\(\s*+)?)"
+    r"(?P<open>[\[{(])"
+)
+_SETS = (re.compile(r"(?P<opens>\\left\s?\\\{)|\\right\s?\\\}"), re.compile(r"(?P<opens>\\left\s?\[)|\\right\s?\]"))
+_MAPS = re.compile(r"(?:->|:)(?!=)")
+
+
+def without_lists(written: TracedText) -> TracedText:
+    """Return an answer in plain text in which such lists are equations, one a line."""
+    text, edits = written.text, list[Edit]()
+    for piece in pieces(text):
+        edits += _edits(text, piece.start, piece.end)
+    return written.edited(apart(edits))
+
+
+def without_sets(written: TracedText) -> TracedText:
+    """Return an answer in LaTeX in which sets of equations are equations, one a line."""
+    text, edits = written.text, list[Edit]()
+    for start, opened, closed, end in (x for form in _SETS for x in _pairs(text, form)):
+        spans = _entries(text, opened, closed)
+        if len(spans) > 1 and all("=" in text[a:b] for a, b in spans) and "\\begin" not in text[opened:closed]:
+            edits += _listed(text, start, end, spans, "")
+    return written.edited(apart(sorted(edits)))
+
+
+def _pairs(text: str, form: re.Pattern[str]) -> Iterator[tuple[int, int, int, int]]:
+    """The places of the outermost brackets of a kind: where each begins, its inside, and where it ends."""
+    stack: list[re.Match[str]] = []
+    for match in islice(form.finditer(text), MOST):
+        if match["opens"]:
+            stack.append(match)
+        elif stack:
+            first = stack.pop()
+            if not stack:
+                yield first.start(), first.end(), match.start(), match.end()
+
+
+def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
+    """The edits of one statement, if it is such a list."""
+    match = _LIST.match(text, start, end)
+    if match is None:
+        return
+    close = closes(text, match.end() - 1)
+    if close < 0 or text[close + 1 : end].strip(" \t\n;,.") != (")" if match["call"] else ""):
+        return
+    name = match["name"]
+    if name is not None and len(re.findall(rf"(?<!\w){name}(?!\w)", text)) > 1:
+        return
+    spans = list(_inner(text, _entries(text, match.end(), close)))
+    written = [text[a:b] for a, b in spans]
+    if match["open"] != "{" and len(spans) > (0 if match["call"] else 1):
+        if any("=" in x or "Eq(" in x for x in written) or not any(map(carries, written)):
+            return
+        yield from _listed(text, start, end, spans, " = 0")
+    elif match["open"] == "{":
+        maps = [_MAPS.search(x) for x in written]
+        if all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
+            yield from _listed(text, start, end, spans, "")
+            yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
+
+
+def _listed(text: str, start: int, end: int, spans: Sequence[tuple[int, int]], behind: str) -> Iterator[Edit]:
+    """The edits that leave the entries of a list, each on a line, with what is put behind them."""
+    cuts = [start, *(x for span in spans for x in span), end]
+    for k, (a, b) in enumerate(zip(cuts[::2], cuts[1::2], strict=True)):
+        yield a, b, f"{behind if k else ''}\n" if k < len(spans) else behind
+    for a, b in spans:
+        yield from ((k, k + 1, " ") for k in range(a, b) if text[k] == "\n")
+
+
+def _entries(text: str, start: int, end: int) -> list[tuple[int, int]]:
+    """The places of the entries of a list, without blanks around them; an empty one at its end is none."""
+    depth, cuts = 0, [start - 1]
+    for at in range(start, end):
+        depth += (text[at] in "([{") - (text[at] in ")]}")
+        if depth == 0 and text[at] in ",;":
+            cuts.append(at)
+    cuts.append(end)
+    bare = [(a + 1, text[a + 1 : b]) for a, b in pairwise(cuts)]
+    found = [(a + len(x) - len(x.lstrip()), a + len(x.rstrip())) for a, x in bare if x.strip()]
+    return found
+
+
+def _inner(text: str, spans: Sequence[tuple[int, int]]) -> Iterator[tuple[int, int]]:
+    """The places of entries without brackets of their own around them: rows with one entry, lists in a list."""
+    for a, b in spans:
+        if text[a] in "[{" and closes(text, a) == b - 1:
+            yield from _entries(text, a + 1, b - 1)
+        else:
+            yield a, b

@@ -1,0 +1,51 @@
+"""Sets aside what holds only under a condition: x is cyclic if F = 0 and b = 0; for J = 0 we get l θ'' + g sin θ = 0.
+
+The condition says nothing of the system. An equation in the same sentence is one of a special case, a remark.
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.prose.words import Words
+
+_NAME = r"[^\W\d]\w{0,15}+['’′]{0,2}"
+_RELATION = (
+    rf"{_NAME}[ \t]*(?:=|≈|≪|≫|<<|>>|<|>|≤|≥|→|≡|≠|!=|->)[ \t]*"
+    rf"[-−]?(?:\d[\w./]{{0,8}}|{_NAME}|π(?:/2)?|∞)(?![\w(*/^+²])"
+)
+_LINK = r"[ \t]*(?:,|and|or|und|oder|et)[ \t]+"
+CONDITION = re.compile(
+    r"(?<!\w)(?:if|when|whenever|for|unless|(?:provided|assuming)(?:[ \t]that)?|wenn|falls|für|bei|sofern|si|pour)"
+    rf"[ \t]+(?:[^\W\d_]{{2,12}}[ \t]+){{0,2}}?(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
+    r"(?=[ \t]*(?:$|[,.;:)]|[^\W\d_]{2}))",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""A condition, whose values are numbers or names."""
+_CASE = re.compile(
+    rf"^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?[ \t]*(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
+    r"[ \t]*(?:⇒|⟹|=+>|→|-+>)",
+    re.MULTILINE,
+)
+"""A special case, from which an arrow leads to what it would mean: check: m2 = m3 ⇒ y'' = 0."""
+_SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
+_COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
+_SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
+
+
+def without_conditions(text: str, words: Words) -> str:
+    """Return an answer in plain text with conditions blanked out."""
+    found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
+    found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
+    for match in found:
+        text = blank(text, *match.span())
+    return text
+
+
+def _is_case(said: str, words: Words) -> bool:
+    """Whether constants of the system are set equal to each other, or to 0."""
+    constants = {p.name for p in words.names.model.parameters}
+    pairs = [(m["left"], m["right"]) for m in _SAID.finditer(said)]
+    named = [words.names.scope.meanings(x)[0] for pair in pairs for x in pair if x != "0"]
+    return bool(named) and all(found and found[0] in constants for found in named)

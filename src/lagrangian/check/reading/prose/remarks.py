@@ -1,0 +1,48 @@
+"""Tells lines that cannot be read and that complete equations beside them do not need from those that must be read.
+
+used sin(2 theta) = 2 sin cos                        an identity in short
+phi'' = (tau - ...)/J, in full:                      what is written out below
+(d = d/dt, dd = second derivative)                   how rates are spelled
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.prose.words import Words
+
+_COMMAND = re.compile(r"\\(?:text|mathrm|textrm|mbox|textit|textbf)\s*(?=\{)|\\([A-Za-z]+)")
+_DOTS = re.compile(r"\.\.\.|…|⋯|\\[lc]?dots")
+_ACCELERATES = re.compile(
+    r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|\\ddot|ddot|(?<=\w)dd\b|\bD\(\s*\w+\s*,\s*\w+\s*,\s*\w|[∂d]\s?(?:\^\{?2|²|2)|"
+    r"\b[Dd]iff\w{0,9}\([^\n]{0,60}2|\bDerivative\b"
+)
+_TWICE = r"(?:\^?2|²)?"
+_OPERATOR = re.compile(
+    r"[\s(]*+(?:dd?ot|d{1,2}|['’′]{1,2}|[\"″˙¨])\s*+:?\s?=\s*+\(?\s?"
+    rf"d\s?{_TWICE}\s?/\s?\(?dt\s?{_TWICE}[\s).;,]*+"
+)
+"""How derivatives are spelled: dot = d/dt, '' = d²/dt²."""
+_NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?![=>])")
+"""A name alone in front of an equals sign."""
+
+
+def is_remark(text: str) -> bool:
+    """Whether complete equations can do without a part of a line that cannot be read.
+
+    No equation of motion is a remark, unless dots stand in it for what it leaves out. A name of the answer's own that
+    only a remark explains stays unknown.
+    """
+    if _OPERATOR.fullmatch(text) is not None:
+        return True
+    return _ACCELERATES.search(text) is None or _DOTS.search(text) is not None
+
+
+def accelerates_in(text: str) -> bool:
+    """Whether a second derivative, in any spelling, stands in a text."""
+    return _ACCELERATES.search(text.replace('\\"', "")) is not None
+
+
+def may_redefine(text: str, words: Words) -> bool:
+    """Whether a part of a line may say what a name of the system means, so that equations are not wrong for sure."""
+    return any(words.names.scope.meanings(x)[0] for x in _NAMED.findall(_COMMAND.sub(" ", text)))

@@ -1,0 +1,232 @@
+"""Splits words into known names: mgLsin is m g L sin. If a word can be split in two ways, the reader asks.
+
+A word is split only if it is no name itself. Longer names are preferred: no part of a name is split again.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from functools import cache
+from unicodedata import normalize
+
+from lagrangian.check.reading.names import COLUMNS, Names, spelled_rates
+from lagrangian.check.reading.prose.splits import LONGEST, splits
+from lagrangian.errors import did_you_mean
+from lagrangian.model.names import FUNCTIONS
+from lagrangian.quantities.source import Source
+from lagrangian.read.functions import ALIASES
+from lagrangian.read.letters import DOTS, SPELLED, key, undotted
+
+RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
+"""Functions of answers that are 1 over another."""
+
+SPELLINGS = {
+    **dict.fromkeys(["sen", "sén", "seno", "sinus"], "sin"),
+    **dict.fromkeys(["coseno", "cosinus", "kosinus"], "cos"),
+    **dict.fromkeys(["tang", "tangens", "tangente"], "tan"),
+    **dict.fromkeys(["ctg", "cotg", "ctan", "cotan"], "cot"),
+    **dict.fromkeys(["asen", "arcsen", "arcoseno"], "asin"),
+    **dict.fromkeys(["arctg", "atg", "arctang"], "atan"),
+    "senh": "sinh",
+    "tgh": "tanh",
+    **dict.fromkeys(["raiz", "raíz", "wurzel"], "sqrt"),
+}
+"""How other languages write functions."""
+
+MAX_WORDS = 500
+"""The largest number of words in one answer that are tried to be split."""
+
+MAX_TOLD = 6
+"""The largest number of split words that a note lists."""
+
+_WHOLE = frozenset(
+    ["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "diag", "Eq", "piecewise", "ddot", "dot"]
+)
+_NUMBER = re.compile(r"\d+")
+_GREEK_LETTER = re.compile(r"(?![δΔ])[Α-ω][₀-₉]?")
+"""A Greek letter, which is no word with the Latin letters beside it."""
+_INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
+"""A letter with an index, which is a name and no word: N_r; e_r is a unit vector."""
+
+_LED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d]\w{1,23})['’′″]{1,2}[ \t]*+=(?![=>])", re.MULTILINE)
+
+_COMPONENT = re.compile(r"[A-Z][xyz]")
+
+
+def led_names(text: str) -> frozenset[str]:
+    """The names whose rates stand alone on a left side, xS'' = x'' - …: of letters of the answer's own, they are no
+    products."""
+    return frozenset(key(m[1]) for m in _LED.finditer(text))
+
+
+def function_of(word: str) -> str | None:
+    """The function that a word means, in any case and under the names of other programs: Sin, arctan, tg; or None."""
+    if word in FUNCTIONS or word in RECIPROCALS:
+        return word
+    for form in (word, word.lower(), word.lower().replace("_", "")):
+        other = SPELLINGS.get(form) or ALIASES.get(form, form)
+        if other in FUNCTIONS or other in RECIPROCALS:
+            return other
+    return None
+
+
+def _is_moving_product(word: str) -> bool:
+    """Whether dots stand in the middle of a word, so that it is no name but a product: m₁ẍ₁."""
+    return bool(DOTS.keys() & set(normalize("NFD", undotted(word)[0])))
+
+
+_SPELLED = frozenset(SPELLED.values())
+
+
+class Words:
+    """What the words of one answer may mean, before its statements are read.
+
+    ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
+    with primes or next to an operator, which are names; ``primed`` are those that never stand without primes, and
+    ``led`` those whose rates stand alone on a left side.
+    """
+
+    def __init__(
+        self,
+        names: Names,
+        own: Iterable[str],
+        alone: Iterable[str],
+        used: Iterable[str],
+        primed: Iterable[str] = (),
+        led: frozenset[str] = frozenset(),
+    ) -> None:
+        self.names = names
+        self._counts = Counter(key(x) for x in alone)
+        self._own = {key(x) for x in own if function_of(x) is None and not _is_moving_product(x)}
+        self._alone = self._counts.keys()
+        self._used = {key(x) for x in used if function_of(x) is None}
+        self._primed = frozenset(primed)
+        self._led = led
+        self._split: dict[str, str] = {}
+        self._products: dict[str, bool] = {}
+        self.flipped = False
+        """Whether the denominators that can be read in two ways are read in the less likely one."""
+        self.asked = False
+        """Whether there was such a denominator."""
+        self.units = False
+        """Whether letters after a number are a unit even if they are names of the system."""
+        self.doubtful = False
+        """Whether there were such letters."""
+        self.summed = False
+        """Whether cosθ1-θ2, written without gaps, is read as cos(θ1 - θ2)."""
+        self.summed_asked = False
+        """Whether there was such an argument."""
+
+    def known(self, word: str) -> bool:
+        """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
+        if self.names.known(word) or key(undotted(word)[0]) in self._own:
+            return True
+        if word[:1] == "d" and (undotted(word)[1] or word in self._primed) and self.is_name("d"):
+            return False  # dφ̇ and dphi' are d φ̇, where d is a damper
+        return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
+
+    def is_name(self, word: str) -> bool:
+        """Whether the system or the answer has this name; energies do not count."""
+        return bool(self.names.scope.meanings(word)[0]) or key(undotted(word)[0]) in self._own
+
+    def is_own(self, word: str) -> bool:
+        """Whether the answer defines this name, and the system does not have it."""
+        return key(word) in self._own and not self.names.scope.meanings(word)[0]
+
+    def readable(self, word: str) -> bool:
+        """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
+        be a spelled Greek one."""
+        bare = re.sub(r"[\W\d_]", "", undotted(word)[0])
+        if word in ("dot", "ddot", "diff", "Derivative") or _INDEXED.fullmatch(word):
+            return True
+        named = self.known(word) or function_of(word) is not None or key(word) in self._used
+        named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
+        named = named or self._is_component(word)
+        return named or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+
+    def _is_component(self, word: str) -> bool:
+        """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
+        if _COMPONENT.fullmatch(word) is None or self.is_name(word[0]):
+            return False
+        return any(key(word[0] + axis) in self._alone for axis in "xyz" if axis != word[1])
+
+    def alone(self, word: str) -> bool:
+        """Whether a word occurs in the answer elsewhere than after a number."""
+        return key(word) in self._alone
+
+    def count(self, word: str) -> int:
+        """How often a word occurs in the answer."""
+        return self._counts[key(word)]
+
+    def is_product(self, word: str) -> bool:
+        """Whether a word can be split into names of the system."""
+        if word not in self._products:
+            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS
+            self._products[word] = few and bool(self._splits(word, called=False, extra=False))
+        return self._products[word]
+
+    def is_function(self, word: str) -> bool:
+        """Whether a word is a function and no name."""
+        return function_of(word) is not None and not self.is_name(word)
+
+    def calls(self, word: str) -> bool:
+        """Whether a word before a bracket is a function, perhaps misspelled, and not a factor."""
+        if self.known(word):
+            return False
+        return self.is_function(word) or (len(word) > 2 and did_you_mean(word.lower(), FUNCTIONS) is not None)
+
+    def parts(self, word: str, source: Source, start: int, *, called: bool) -> list[str]:
+        """The names of which a word consists, the word itself if it is a name or cannot be split.
+
+        ``called``: a bracket or an argument follows, so that the last part may be a function. Raises an error that
+        names both readings if there are two.
+        """
+        if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
+            return [word]
+        whole = key(word) in self._led or (self._is_component(word) and not self.is_name(word[1]))
+        for extra in (False,) if whole else (False, True):
+            found = self._splits(word, called, extra)
+            if len(found) > 1:
+                one, other = ("*".join(x) for x in found[:2])
+                what = f"'{word}' can mean {one} or {other}"
+                raise source.error(what, start, fix="write the product that you mean with its *", code="E402")
+            if found:
+                self._split.setdefault(word, " ".join(found[0]))
+                return found[0]
+        return [word]
+
+    def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
+        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π."""
+
+        @cache
+        def fits(part: str, last: bool, after: bool) -> bool:
+            if function_of(part) is not None and part not in ("t", "pi"):
+                return not last or called
+            if after and _NUMBER.fullmatch(part):
+                return not last
+            return self._is_part(part, extra, word)
+
+        return splits(word, fits, lambda part: function_of(part) is not None)
+
+    def _is_part(self, part: str, extra: bool, word: str) -> bool:
+        if part[0] in "_0123456789" or part.endswith("_"):
+            return False
+        if self.names.scope.meanings(part)[0] or key(undotted(part)[0]) in self._own:
+            return True
+        if any(self.names.changes(stem) and len(part) - len(stem) > 2 for _, stem in spelled_rates(part)):
+            return True
+        if not extra or part in ("t", "pi"):
+            return extra
+        if _GREEK_LETTER.fullmatch(part):
+            return True  # 2λx
+        alone = key(part) in self._alone or key(undotted(part)[0]) in self._alone
+        return alone and key(part) != key(word) and not self.is_product(part)
+
+    def notes(self) -> Iterator[str]:
+        """How words were split, in one sentence."""
+        if self._split:
+            told = [f"{word} as {parts}" for word, parts in list(self._split.items())[:MAX_TOLD]]
+            more = ", …" if len(self._split) > MAX_TOLD else ""
+            yield f"Products without signs were read: {', '.join(told)}{more}."

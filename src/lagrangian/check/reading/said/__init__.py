@@ -1,0 +1,1 @@
+"""What sentences and lists say about letters."""

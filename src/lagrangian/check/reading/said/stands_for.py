@@ -1,0 +1,205 @@
+"""Reads what an answer says beside its mathematics about the letters that it uses for coordinates.
+
+% q1 = phi, q2 = s             q1 = phi, q2 = s           a comment of a program
+$\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
+I use u for x and w for x'.     I ; u = x; w = x'.        another
+with μ the reduced mass m M/(m + M), …    ; μ = m M/(m + M); …      a name, what it is, and its value
+w: speed of the drum (phi')               ; w = phi';       a rate
+The cart's speed v is x'.                 … ; v = x';.      another
+Denote J + m l^2 by A.                    ; A = J + m l^2;.
+(a1, a2: accelerations of the carts)      (; a1 = x1''; a2 = x2'')
+States: x (cart), v = x'.                 v = x';
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+
+from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.read.letters import SPELLED, key
+
+_NAME = r"[^\W\d]\w{0,15}+"
+_PAIR = rf"{_NAME}[ \t]*+=[ \t]*+{_NAME}"
+_PAIRS = rf"{_PAIR}(?:[ \t]*+(?:,|;|and|und|et)[ \t]*+{_PAIR})*+"
+_COMMENT = re.compile(
+    rf"(?P<mark>(?<!\\)[#%]|//)[ \t]*+(?P<said>{_PAIRS})[ \t]*+[.;]?[ \t]*+$",
+    re.MULTILINE,
+)
+_EACH = re.compile(rf"({_NAME})[ \t]*+=[ \t]*+({_NAME})")
+_SENTENCE = re.compile(
+    rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{_NAME})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
+    rf"[ \t]++(?:the[ \t]|your[ \t]|den[ \t]|das[ \t])?(?P<open>\$?)(?P<own>\\?{_NAME})(?P=open)(?![\w(^'′$\\])"
+)
+
+
+_TERM = rf"{_NAME}(?:\([^()\n]{{1,40}}\))?['’′]{{0,2}}(?:\^\d)?"
+_VALUE = rf"{_TERM}(?:[ \t]?[-+*/·][ \t]?{_TERM}){{0,8}}"
+_WHAT = r"(?:(?:the|a|an|den|die|das)[ \t](?:[^\W\d_]{3,20}[ \t]){1,3})?"
+_ONE = rf"{_NAME}[ \t]++(?:for|für)[ \t]++{_WHAT}{_VALUE}"
+_USED = re.compile(
+    rf"(?<![\w\\])(?:use|used|using|write|wrote|writing|call|schreibe|nehme|verwende|benutze)[ \t]++"
+    rf"(?P<said>{_ONE}(?:[ \t]*+(?:,[ \t]++(?:and|und)|,|and|und)\s++{_ONE})*+)(?![\w(^'′])"
+)
+_FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++{_WHAT}({_VALUE})")
+
+
+def with_stated_letters(
+    written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool], *, latex: bool
+) -> TracedText:
+    """Return an answer in which names of coordinates that comments and sentences say stand as statements.
+
+    ``moves`` says whether a name is one that changes with time, ``taken`` whether it belongs to the system. Only a new
+    name for such a one is read; every other comment stays a comment.
+    """
+
+    def says(new: str, own: str) -> bool:
+        return moves(own.lstrip("\\")) and not taken(new.lstrip("\\"))
+
+    edits: list[Edit] = []
+    if not latex:
+        text = written.text
+        for match in _COMMENT.finditer(text):
+            if all(says(*pair) or says(*reversed(pair)) for pair in _EACH.findall(match["said"])):
+                behind = text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
+                edits.append((*match.span("mark"), "; " if behind else " "))
+    for match in _SENTENCE.finditer(written.text):
+        if says(match["new"], match["own"]):
+            edits.append((*match.span(), _statement(match, latex=latex)))
+    for match in _USED.finditer(written.text) if not latex else ():
+        pairs = _FOR.findall(match["said"])
+        named = [[x for x in re.findall(_NAME, value) if function_of(x) is None] for _, value in pairs]
+        if all(a and all(map(taken, a)) and not taken(new) for a, (new, _) in zip(named, pairs, strict=True)):
+            edits.append((*match.span(), "; " + "; ".join(f"{new} = {value}" for new, value in pairs) + ";"))
+    return written.edited(sorted(edits))
+
+
+_WORD = r"[^\W\d_]{2,20}+"
+_VALUED = re.compile(
+    rf"(?<!\w)(?:with|where|let|and|mit|wobei|und|sei)[ \t]++(?P<new>{_NAME})[ \t]++"
+    r"(?:(?:is|be|being|denotes|ist)[ \t]++)?(?:the|an?|its|das|die|der|dem)[ \t]++"
+    rf"(?P<words>(?:{_WORD}[ \t]++){{1,4}}?)"
+    r"(?P<value>[^\s,;=]{0,60}[-+*/^·²³(][^,;=\n]{0,200}?)(?P<end>[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+_IN_BRACKETS = re.compile(
+    rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|=|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
+    rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})"
+    rf"\([ \t]*=?[ \t]*(?P<value>{_NAME}['’′]{{1,2}})[ \t]*\)"
+)
+"""A name, what it is, and the rate that it is: w: speed of the drum (phi')."""
+_IS_RATE = re.compile(
+    rf"(?<![\w.*/^+=])(?P<new>{_NAME})[ \t]++(?:is|denotes|means|being|ist|bezeichnet)[ \t]++"
+    rf"(?P<value>{_NAME}['’′]{{1,2}})(?=[ \t]*(?:[.,;:)]|$|and\b|und\b))",
+    re.MULTILINE,
+)
+_BY = re.compile(
+    r"(?<!\w)(?:denot(?:e|ing)|abbreviat(?:e|ing)|call(?:ing)?|writ(?:e|ing))[ \t]++(?P<value>[^,;:=\n]{3,80}?)"
+    rf"[ \t]++(?:by|as)[ \t]++(?P<new>{_NAME})(?![\w'’′(])",
+    re.IGNORECASE,
+)
+_LISTED = rf"{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}}"
+_RATES = re.compile(
+    rf"(?<![\w.*/^+])(?P<names>{_LISTED})[ \t]*"
+    r"(?::|=|\bis\b|\bare\b|\bdenotes?\b)[ \t]*(?:the[ \t]+)?(?:(?:angular|linear|their|its)[ \t]+)?"
+    r"(?P<rate>accelerations?|velocit(?:y|ies)|speeds?"
+    r"|(?:first|second)(?![ \t]+(?:and|und|or)\b)(?=\b[^.;\n]{0,60}\bderivatives?\b))\b"
+    rf"(?:(?![ \t]*(?:,|and\b|und\b)[ \t]*{_LISTED}[ \t]*(?::|=|is\b|are\b|denotes?\b))[^=+*/^()\n;.]){{0,60}}",
+    re.IGNORECASE,
+)
+
+_STATES = re.compile(
+    r"^[ \t]*+(?:states?|state[ \t](?:variables?|vector)|Zustände|Zustandsgrößen)[ \t]*+:[ \t]*+"
+    r"(?P<listed>[^\n;]{3,300}?)(?P<end>[ \t]{0,9}(?:[.;](?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+_STATE = re.compile(
+    rf"{_NAME}['’′]{{0,2}}(?:[ \t]*=[ \t]*(?P<value>{_NAME}['’′]{{1,2}}))?(?:[ \t]*\([^()=]{{1,60}}\))?"
+)
+
+
+def _with_listed_states(written: TracedText) -> TracedText:
+    """Return an answer in plain text in which a list of states only states which rates they are."""
+    edits: list[Edit] = []
+    for match in _STATES.finditer(written.text):
+        states = [
+            _STATE.fullmatch(x.strip()) for x in re.split(r",(?![^(]*\))|[ \t]and[ \t]|[ \t]und[ \t]", match["listed"])
+        ]
+        stated = [x.group().partition("(")[0] for x in states if x is not None and x["value"]]
+        if stated and all(states):
+            edits.append((*match.span(), f"{'; '.join(stated)};"))
+    return written.edited(edits)
+
+
+def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which a value behind the words for a new name is a statement, or a
+    rate in brackets behind them."""
+    written = _with_listed_states(written)
+    edits: list[Edit] = []
+    for match in _VALUED.finditer(written.text):
+        names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
+        if names and all(map(taken, names)) and not any(map(taken, [match["new"], *match["words"].split()])):
+            edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
+            edits.append((*match.span("end"), ";"))
+    for form in (_IN_BRACKETS, _IS_RATE, _BY):
+        for match in form.finditer(written.text):
+            spoken = match.groupdict().get("words") or ""
+            names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
+            if names and all(map(taken, names)) and not any(map(taken, [match["new"], *spoken.split()])):
+                edits.append((*match.span(), f"; {match['new']} = {match['value']};"))
+    return written.edited(apart(edits))
+
+
+def with_stated_rates(
+    written: TracedText, coordinates: Sequence[str], taken: Callable[[str], bool], *, sure: bool = False
+) -> TracedText:
+    """Return an answer in plain text in which names that words call velocities or accelerations are rates.
+
+    They are those of the coordinates with the same number, a2 of x2, or of all of them in their order. It is ``sure``
+    where comments of programs say so of names that begin as the coordinates do: xp, tp = velocities.
+    """
+    edits: list[Edit] = []
+    for match in _RATES.finditer(written.text):
+        names = [x for x in re.findall(_NAME, match["names"]) if x not in ("and", "und")]
+        primes = "''" if match["rate"].lower().startswith(("acc", "second")) else "'"
+        numbered = any(map(_number, coordinates)) and all(map(_number, names))
+        of = [[c for c in coordinates if _number(c) == _number(x)] for x in names]
+        own = [x[0] for x in of if len(x) == 1] if numbered else coordinates
+        told = re.findall(r"(?<![\w.])\d{1,2}(?!\w)", match.group()[match.end("rate") - match.start() :])[: len(names)]
+        if numbered and told and told != [_number(x) for x in names]:
+            continue  # c1 and c2 are the accelerations of masses 1 and 3
+        line = written.text[written.text.rfind("\n", 0, match.start()) + 1 : match.start()]
+        mark = re.search(r"(?<![\\\w])(?:[#%]|//)", line)
+        alike = mark is not None and all(x[0] == c[0] for x, c in zip(names, own, strict=False))
+        if len(own) == len(names) and not any(map(taken, names)) and (alike or not sure):
+            pairs = [(x, c) for x, c in zip(names, own, strict=True) if (len(primes), c) not in spelled_rates(x)]
+            said = "; ".join(f"{x} = {c}{primes}" for x, c in pairs)
+            edits.append((*match.span(), f"; {said}" if mark is None else f"\n{said}\n{mark.group()} "))
+    return written.edited(edits)
+
+
+def _number(name: str) -> str:
+    """The number at the end of a name."""
+    return re.search(r"\d*\Z", name)[0]  # type: ignore[index]  # it always matches
+
+
+_VARIATION = re.compile(r"(?<![\w\\])delta[ \t_]?+(?=[^\W\d])")
+_VIRTUAL_WORK = re.compile(r"(?<![\w\\])delta[ \t_]?W(?!\w)")
+
+
+def with_variations(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x."""
+    if taken("delta") or _VIRTUAL_WORK.search(written.text) is None:
+        return written
+    return written.edited([(*match.span(), "δ") for match in _VARIATION.finditer(written.text)])
+
+
+def _statement(match: re.Match[str], *, latex: bool) -> str:
+    """The statement that a sentence makes."""
+    new, own = match["new"], match["own"]
+    if not latex:
+        return f"{new} = {own}"
+    new, own = (f"\\{x}" if key(x) in SPELLED.values() and not x.startswith("\\") else x for x in (new, own))
+    return f"${new}={own}$"

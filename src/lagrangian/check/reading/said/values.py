@@ -1,0 +1,242 @@
+"""Finds what sentences say about names that nothing else explains.
+
+A stands for M+m, B for m*l and D for J + m*l^2            A = M+m   B = m*l   D = J + m*l^2
+$m_t$ is the total mass $M+m$                              m_t = M+m
+We write $s_1$ and $c_1$ for $\\sin x$ and $\\cos x$       s_1 = \\sin x   c_1 = \\cos x
+Denote J + m l^2 by D; M_eff being m1 + m2                 D = J + m l^2   M_eff = m1 + m2
+v is the velocity of the cart                              v is the rate of a coordinate
+
+A sentence is a row of names without a meaning, of expressions, and of words between them, in any markup. Where the
+words say that a name *is* the expression, that is its value. Everything else is a proposal that counts only if the
+answer is right with it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from itertools import islice, pairwise, product
+
+from lagrangian.check.reading.numbered_rates import numbered_rates
+from lagrangian.check.reading.plain.spans import spans
+from lagrangian.check.reading.prose.words import Words
+from lagrangian.read.letters import SPELLED, key
+from lagrangian.records import dataclass
+
+MOST, MOST_NAMES = 12, 6
+"""The most readings that are proposed, and names for which they are sought."""
+
+SHORTEST, NEAR = 4, 0.8
+"""The letters of a name that may have a wrong one, and how similar it must be."""
+
+_LONGEST = 3_000
+"""The most characters of a sentence."""
+
+_SAY = (
+    "is are be being denotes denote stands stand for means equals equal as called call short abbreviates abbreviation "
+    "write written with where let namely represents the ist sind sei seien bezeichnet steht für mit wobei heißt est "
+    "sont soit désigne"
+)
+_IS = frozenset(_SAY.split())
+"""Words that give a name its value."""
+_NAMED = frozenset(
+    [
+        "by",
+        "as",
+        "call",
+        "called",
+        "calling",
+        "name",
+        "named",
+        "denote",
+        "denoted",
+        "abbreviate",
+        "abbreviated",
+        "durch",
+        "mit",
+        "par",
+    ]
+)
+"""Words between a value and the name for it."""
+_JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
+_RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
+_ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
+_ENDS = re.compile(r"(?<=[\w)\]}$'’′″²³])[.;](?=\s|\Z)|\n[ \t]*\n|\n(?=[ \t]*(?:\\|[A-Z(]|[^\n=]{0,200}=))")
+_MATH = re.compile(r"(?<!\\)\$(?P<dollar>[^$\n]{1,300})\$|\\\((?P<round>[^\n]{1,300}?)\\\)")
+_DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
+_STATES = re.compile(r"[=<>≈≡]|\\(?:approx|equiv|ll|gg|leq?|geq?|to|neq|begin|quad|qquad)(?![A-Za-z])")
+_DISPLAY = re.compile(
+    r"\$\$.*?\$\$|\\\[.*?\\\]|\\begin\{(?P<kind>(?:equation|align|gather|eqnarray|multline|flalign)\*?)\}.*?"
+    r"\\end\{(?P=kind)\}",
+    re.DOTALL,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class _Item:
+    """A name without a meaning, an expression, or something else; ``before`` are the words in front of it."""
+
+    kind: str
+    text: str
+    before: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class SaidValues:
+    """Values of names, as an answer spells them; ``sure`` if its words say so."""
+
+    values: dict[str, str]
+    sure: bool
+
+
+def said_values(text: str, unknown: Sequence[str], words: Words, *, latex: bool) -> list[SaidValues]:
+    """Return what the sentences of an answer may say about the ``unknown`` names, the likeliest first."""
+    names = {key(x): x for x in unknown[:MOST_NAMES]}
+    found: dict[str, dict[str, bool]] = {name: {} for name in names}
+    coordinates = [c.name for c in words.names.model.coordinates]
+    for sentence in _sentences(text, latex=latex):
+        items = list(_items(sentence, names, words, latex=latex))
+        for name, value, sure in (*_paired(items), *_rated(items, coordinates, words, latex=latex)):
+            found[name][value] = found[name].get(value, False) or sure
+    readings = list(_readings({names[x]: said for x, said in found.items() if said}))
+    if numbered := {} if latex else numbered_rates(text, unknown, words.names.model):
+        others = {x: v for y in readings if y.sure for x, v in y.values.items()}
+        readings.insert(0, SaidValues({**others, **numbered}, True))
+    return readings
+
+
+def misspelled(unknown: Sequence[str], known: Iterable[str]) -> dict[str, str]:
+    """The names of the system that ``unknown`` ones may be with a letter wrong: theeta is theta; no number differs."""
+    listed, found = list(known), dict[str, str]()
+    for name in unknown[:MOST_NAMES]:
+        close = get_close_matches(name, listed, 1, NEAR) if len(name) >= SHORTEST else []
+        if close and re.sub(r"\D", "", name) == re.sub(r"\D", "", close[0]) and name not in SPELLED.values():
+            found[name] = close[0]
+    return found
+
+
+def completed(text: str, values: Mapping[str, str], *, latex: bool) -> str:
+    """An answer with the values of names as statements behind it."""
+    marks = ("\\[", "\\]") if latex and _DELIMITED.search(text) else ("", "")
+    spelled = {x: f"\\{x}" if latex and re.match(r"[^\W\d_]*", x)[0] in SPELLED.values() else x for x in values}  # type: ignore[index]
+    return text.rstrip() + "".join(f"\n\n{marks[0]}{spelled[x]} = {value}{marks[1]}" for x, value in values.items())
+
+
+def _readings(found: dict[str, dict[str, bool]]) -> Iterator[SaidValues]:
+    """The combinations of values, first that of what is said for sure."""
+    certain = {name: values[0] for name, said in found.items() if len(values := [x for x in said if said[x]]) == 1}
+    if certain:
+        yield SaidValues(certain, True)
+    others = islice(product(*found.values()), 2 * MOST)
+    tried = (dict(zip(found, values, strict=True)) for values in others)
+    yield from islice((SaidValues(x, False) for x in tried if x != certain and _differ(x)), MOST)
+
+
+def _differ(values: dict[str, str]) -> bool:
+    return len(set(values.values())) == len(values)
+
+
+def _sentences(text: str, *, latex: bool) -> Iterator[str]:
+    """The sentences of an answer; LaTeX's displayed mathematics has none."""
+    if latex:
+        text = _DISPLAY.sub(lambda m: ";\n\n" if "\\text" not in m.group() else _words_in(m.group()), text)
+    yield from (x for x in _ENDS.split(text) if x and len(x) <= _LONGEST)
+
+
+def _words_in(display: str) -> str:
+    """The words with mathematics between the rows of a display."""
+    said = re.findall(r"\\(?:inter)?text\{((?:[^{}]|\{[^{}]*\})*)\}", display)
+    return ";\n\n" + ";\n\n".join(x for x in said if "$" in x) + ";\n\n"
+
+
+# -- items ------------------------------------------------------------------------------------------------------------
+
+
+def _items(sentence: str, names: dict[str, str], words: Words, *, latex: bool) -> Iterator[_Item]:
+    at = 0
+    for start, end, stated in _pieces(sentence, words, latex=latex):
+        before = tuple(re.findall(r"[^\W\d_]+|[,:=(]", sentence[at:start]))
+        written = sentence[start:end].strip()
+        at = end
+        bare = key(re.sub(r"[\\{}\s]", "", written)) if latex else key(written)
+        if stated:
+            yield _Item("other", written, before)
+        elif bare in names:
+            yield _Item("name", bare, before)
+        else:
+            yield _Item("value" if latex or _is_value(written, words) else "other", written, before)
+    yield _Item("end", "", tuple(re.findall(r"[^\W\d_]+|[,:=(]", sentence[at:])))
+
+
+def _pieces(sentence: str, words: Words, *, latex: bool) -> Iterator[tuple[int, int, bool]]:
+    """Where mathematics begins and ends in a sentence, and whether it says something by itself."""
+    if not latex:
+        yield from ((x.start, x.end, x.stated) for x in spans(sentence, words))
+        return
+    for match in _MATH.finditer(sentence):
+        start, end = match.span("dollar" if match["dollar"] is not None else "round")
+        depth, first = 0, start
+        for i in range(start, end):
+            depth += (sentence[i] in "({[") - (sentence[i] in ")}]")
+            if depth == 0 and sentence[i] == "," and sentence[i - 1] != "\\":
+                yield first, i, _STATES.search(sentence[first:i]) is not None
+                first = i + 1
+        yield first, end, _STATES.search(sentence[first:end]) is not None
+
+
+def _is_value(written: str, words: Words) -> bool:
+    """Whether this is an expression in known names."""
+    named = re.findall(r"[^\W\d⁰¹²³⁴-⁹]\w*", written)
+    if named == [written] and not words.names.known(written):
+        return False  # another name of the answer
+    return bool(named) and written[-1] not in "+-*/^" and all(words.readable(x) or words.is_product(x) for x in named)
+
+
+# -- pairs ------------------------------------------------------------------------------------------------------------
+
+
+def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
+    """Each name with the value beside it, in groups of equal length: a and b for x and y."""
+    groups = _groups(items)
+    for (kind, first, said), (other, second, between) in pairwise(groups):
+        lower = {x.lower() for x in between}
+        if (kind, other) == ("name", "value"):
+            values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
+            sure = bool(lower & _IS) and not lower & {"not", "nicht"}
+            yield from ((a, b, sure) for a, b in zip(first, values, strict=False))
+        elif (kind, other) == ("value", "name") and len(first) == len(second) and lower & _NAMED:
+            sure = bool({x.lower() for x in said} & _NAMED) or "by" in lower or "called" in lower
+            yield from ((a, b, sure) for a, b in zip(second, first, strict=True))
+
+
+def _groups(items: Sequence[_Item]) -> list[tuple[str, list[str], tuple[str, ...]]]:
+    """Items of one kind that only commas and "and" join, with the words in front of them."""
+    found: list[tuple[str, list[str], tuple[str, ...]]] = []
+    for item in items:
+        joined = all(x.lower() in _JOINS or x == "," for x in item.before)
+        if found and joined and item.before and found[-1][0] == item.kind:
+            found[-1][1].append(item.text)
+        else:
+            found.append((item.kind, [item.text], item.before))
+    return found
+
+
+def _rated(
+    items: Sequence[_Item], coordinates: Sequence[str], words: Words, *, latex: bool
+) -> Iterator[tuple[str, str, bool]]:
+    """The rates that a name may be of which words only say that it is a velocity or an acceleration."""
+    for item, below in pairwise(items):
+        said = " ".join(below.before)
+        order = 2 if _ACCELERATIONS.search(said) else 1 if _RATES.search(said) else 0
+        if item.kind != "name" or not order:
+            continue
+        beside = below.kind == "value" and not (below.before[0] == "(" and below.before[-1] == ",")  # i (current), x
+        named = words.names.scope.meanings(re.sub(r"[\\{}\s]", "", below.text))[0] if beside else []
+        own = [x for x in coordinates if x in named]
+        if beside and not own:
+            continue
+        for name in own or coordinates:
+            shown = below.text if own else rf"\mathrm{{{name}}}"
+            written = f"\\{'d' * order}ot{{{shown}}}" if latex else name + "'" * order
+            yield item.text, written, len(own) == 1
