@@ -13,7 +13,6 @@ from lagrangian.check.rows import ratio
 from lagrangian.check.verdict import TermDifference, TermOrigin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
-from lagrangian.model import time
 from lagrangian.records import dataclass
 
 MAX_DIFFERENCES = 12
@@ -142,26 +141,25 @@ def _groups(form: Form) -> list[frozenset[Key]]:
 
 
 def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigin, ...]:
-    """The elements behind a term of equation ``index``, each once, with its step."""
-    if index is None:
-        return _shares(truth, term)
+    """The elements that add a term to equation ``index``, or to an energy, each once, with its step.
+
+    An element whose terms have the same motion and other letters adds nothing to it.
+    """
     found: dict[TermOrigin, None] = {}
-    letters = term.expr().free_symbols - {time}
+    if index is None:
+        for element in truth.model.elements:
+            for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
+                if energy != 0 and _adds_to(truth, truth.expand(energy), term):
+                    found[TermOrigin(element.title, step)] = None
+        return tuple(found)
     for origin in truth.derivation.shares.where(term.expr()):
-        shared = not letters or origin.share.free_symbols & letters
-        if shared and origin.coordinate == truth.model.coordinates[index].name:
+        own = origin.coordinate == truth.model.coordinates[index].name
+        if own and _adds_to(truth, truth.put(origin.share), term):
             found[TermOrigin(origin.element.title, origin.step)] = None
     return tuple(found)
 
 
-def _shares(truth: Reference, term: Form) -> tuple[TermOrigin, ...]:
-    """The elements whose energies contain a term, each with its step."""
-    keys, letters = term.keys(), term.expr().free_symbols - {time}
-    found: dict[TermOrigin, None] = {}
-    for element in truth.model.elements:
-        for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
-            form = truth.form(truth.expand(energy)) if energy != 0 else None
-            common = form.restricted(keys) if form is not None else None
-            if common is not None and not common.is_zero and (common.expr().free_symbols & letters or not letters):
-                found[TermOrigin(element.title, step)] = None
-    return tuple(found)
+def _adds_to(truth: Reference, share: sp.Expr, term: Form) -> bool:
+    """Whether what an element adds has a monomial of a term."""
+    form = truth.form(share)
+    return form is not None and not _coefficients(form).keys().isdisjoint(_coefficients(term))

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.difference import differences
+from lagrangian.check.difference import differences, likeness
 from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.motion_names import names_of_motion
 from lagrangian.check.reference import Reference
@@ -165,7 +166,8 @@ def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, line:
 def without_dampers(
     truth: Reference, line: AnsweredLine, i: int | None, lines: Sequence[AnsweredLine]
 ) -> sp.Expr | None:
-    """Ξ_i without the dampers where a line may be meant so: it holds none, and D or an equation holds what they add.
+    """Ξ_i without the dampers where a line may be meant so: it holds none, and D or the equation of ξ_i holds what they
+    add.
 
     None if it is meant as the whole.
     """
@@ -174,9 +176,19 @@ def without_dampers(
     damping = truth.Xi[i] - (drive := driving(truth, i))
     added = damping.free_symbols | damping.atoms(sp.Derivative)
     own = damping.free_symbols - drive.free_symbols - {time}
-    others = [x.expr for x in lines if x.kind in ("D", "equation")]
-    said = any(added <= x.free_symbols | x.atoms(sp.Derivative) for x in others)
-    return drive if said and not own & line.expr.free_symbols else None
+    if own & line.expr.free_symbols:
+        return None
+    others = [x for x in lines if x.kind in ("D", "equation")]
+    holding = [x for x in others if added <= x.expr.free_symbols | x.expr.atoms(sp.Derivative)]
+    return drive if any(x.kind == "D" or _resembled(truth, x.expr) in (i, None) for x in holding) else None
+
+
+@lru_cache(maxsize=64)
+def _resembled(truth: Reference, expr: sp.Expr) -> int | None:
+    """The coordinate, by its place, whose equation one resembles most; None if it resembles none."""
+    found = likeness(truth.form(expr), truth.forms)
+    best = max(found, key=lambda x: x.score, default=None)
+    return best.index if best is not None and best.score > 0 else None
 
 
 def index_of(truth: Reference, name: str | None) -> int | None:

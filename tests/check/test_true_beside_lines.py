@@ -1,0 +1,49 @@
+"""What is said beside lines is true: excuses, where terms come from, what stands for what.
+
+Oracle: two carts on springs between a wall and a damper, and a disc with a bob, with their equations by hand.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import lagrangian as lg
+from lagrangian.check.verdict import Finding
+
+
+@cache
+def carts() -> lg.Derivation:
+    """Two carts, a spring to the wall, a spring and a damper between them, a force on the second."""
+    s = lg.System("two carts")
+    x, y = s.coordinates("x y")
+    m, n, k, c, b = s.parameters("m n k c b")
+    for mass, q, name in ((m, x, "first"), (n, y, "second")):
+        s.particle(mass, at=s.point(name, (q, 0)), name=name)
+    s.spring(k, deflection=x, name="outer")
+    s.spring(c, deflection=y - x, name="inner")
+    s.damper(b, deflection=y - x, name="between")
+    s.force(s.input("F"), deflection=y, name="push")
+    return s.derive()
+
+
+ENERGIES = "T = m x'^2/2 + n y'^2/2\nV = k x^2/2 + c (y - x)^2/2\n"
+DAMPED = "m x'' + k x - c (y - x) - b (y' - x') = 0\nn y'' + c (y - x) + b (y' - x') = F"
+
+
+def of_line(verdict: lg.Verdict, number: int) -> Finding:
+    return next(f for f in verdict.findings if f.line.number == number)
+
+
+def test_a_force_without_its_damper_is_excused_only_by_its_own_equation() -> None:
+    forces = "Xi_x = 0\nXi_y = F - b (y' - x')\n"
+    assert of_line(carts().check(f"{ENERGIES}Xi_x = 0\nXi_y = F\n{DAMPED}"), 3).status.right
+    verdict = carts().check(f"{ENERGIES}{forces}{DAMPED.replace('- b (y', '+ 0 (y')}")
+    assert not of_line(verdict, 3).status.right and of_line(verdict, 5).follows
+    assert "eaction of damper 'between' is missing" in str(verdict.mistake.what if verdict.mistake else "")
+
+
+def test_a_term_comes_from_an_element_that_adds_just_this_term() -> None:
+    verdict = carts().check(f"{ENERGIES.replace('k x^2', 'k (x + y)^2')}{DAMPED.replace('m x', '2 m x')}")
+    said = str(verdict)
+    assert "the term k x y does not belong there" in said and "Such a term comes from spring 'inner'" not in said
+    assert "It comes from particle 'first' in step 2." in said
