@@ -60,3 +60,39 @@ def test_a_hint_of_level_one_names_the_line_alone() -> None:
     assert "Line 1 (V) does not agree with them." in said(verdict) and verdict.to_dict()["motion"]
     hidden = derivation("cart-pole").check(f"V = m g l\n{CART}\n{POLE}", hint=0)
     assert "equations of motion" not in said(hidden) and "motion" not in hidden.to_dict()
+
+
+def hoist() -> lg.Derivation:
+    """A rotor phi_m with a torque, an elastic shaft, and a drum phi_1 with friction and a weight."""
+    s = lg.System("hoist")
+    phi_m, phi_1 = s.coordinates("phi_m phi_1")
+    J_m, m, R, c, d, g = s.parameters("J_m m R c d g")
+    rotor = s.frame(phi_m, name="rotor")
+    s.rigid_body(mass=0, inertia=J_m, at=s.origin, frame=rotor, name="rotor")
+    s.particle(m, at=s.point("weight", (0, R * phi_1)), name="weight")
+    s.gravity((0, -1), g)
+    s.spring(k=c, deflection=phi_m - phi_1)
+    s.damper(d, deflection=phi_1)
+    s.torque(s.inputs("tau"), on=phi_m)
+    return s.derive()
+
+
+HOIST = "J_m phi_m'' + c (phi_m - phi_1) = tau\nm R^2 phi_1'' - c (phi_m - phi_1) + m g R = -d phi_1'"
+
+
+@pytest.mark.parametrize(
+    ("above", "right"),
+    [
+        ("Q_m = tau\nQ_1 = -d phi_1'", True),  # by the ends of names, since Q_m is
+        ("Q_1 = tau\nQ_2 = -d phi_1'", True),  # by numbers alone
+        ("Q_m = tau\nQ_1 = d phi_1'", False),
+        ("D = d phi_1'^2/2\nQ_m = Q_1 = 0", False),
+        ("T = J_m phi_m'^2/2 + m R^2 phi_1'^2/2\nV = c (phi_m - phi_1)^2/2\nQ_m = tau\nQ_1 = -d phi_1' - m g R", True),
+        ("T = J_m phi_m'^2/2 + m R^2 phi_1'^2/2\nV = c (phi_m - phi_1)^2/2\nQ_m = tau\nQ_1 = -d phi_1' + m g R", False),
+        ("L = J_m phi_m'^2/2 + m R^2 phi_1'^2/2 - c (phi_m - phi_1)^2/2\nQ_m = tau\nQ_1 = -d phi_1' - m g R", True),
+        ("L = J_m phi_m'^2/2 + m R^2 phi_1'^2/2 - c (phi_m - phi_1)^2/2\nQ_m = tau\nQ_1 = -d phi_1'", False),
+    ],
+)
+def test_forces_are_called_by_names_and_right_with_the_energies_beside_them(above: str, right: bool) -> None:
+    verdict = hoist().check(f"{above}\n{HOIST}")
+    assert verdict.right is right and (right or verdict.motion)

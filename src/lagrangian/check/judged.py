@@ -17,6 +17,7 @@ from lagrangian.check.explain.row_words import findings_of, name_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
+from lagrangian.check.together import right_together
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
 from lagrangian.derive.algebra import Form
 from lagrangian.page.formula import Text, text
@@ -63,6 +64,7 @@ def judged_lines(
             continue
         finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
         findings.append(replace(finding, line=own))
+    findings = findings if change is not None else right_together(truth, findings)
     status, found = _overall(truth, comparison, findings)
     motion = status is Status.WRONG and _ends_right(truth, [line.expr for line in equations], comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)

@@ -203,7 +203,8 @@ class Lines:
         for base in [base for base, at in self._waiting.items() if at == i]:
             del self._waiting[base]
         before = set(self.names.unknown)
-        lines = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
+        lines = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
+        lines = lines if subject else self._equations(sides, reader)
         if all(line.kind == "statement" for line in lines):  # a general statement may use its own letters: ξ_i
             for new in set(self.names.unknown) - before:
                 del self.names.unknown[new]

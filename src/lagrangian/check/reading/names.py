@@ -19,7 +19,7 @@ from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
-from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.check.reading.stated import energy_of, force_of, names_forces
 from lagrangian.errors import did_you_mean
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
@@ -78,6 +78,8 @@ class Names:
         """The coordinates of the system."""
         self.dependents: frozenset[str] = frozenset()
         """The quantities that the answer states with what they depend on: I(r)."""
+        self._named_forces = False
+        """Whether the answer calls forces by letters of coordinates' names: Q_m."""
         self._moving: set[str] = set()
         self._seen: Counter[str] = Counter()
 
@@ -91,6 +93,7 @@ class Names:
                 self._seen[key(base)] += 1
                 if changing or dots:
                     self._moving.add(key(base))
+        self._named_forces = names_forces(self._seen, self.model)
         for base in list(self._seen):
             self._moving.update(key(stem) for _, stem in spelled_rates(base) if key(stem) in self._seen)
 
@@ -113,6 +116,10 @@ class Names:
     def occurs(self, written: str) -> int:
         """How often a name occurs in the answer."""
         return self._seen[key(undotted(written)[0])]
+
+    def force(self, written: str) -> str | None:
+        """The coordinate whose generalized force a name is in this answer; None if it is not one."""
+        return force_of(written, self.model, named=self._named_forces)
 
     def changes(self, written: str) -> bool:
         """Whether a name, of the system or of the answer, changes with time, so that it can have a rate."""
@@ -166,7 +173,7 @@ class Names:
         if (kind := energy_of(base, self.model)) is not None and (kind in self.stating or not self.moving):
             given = self.energy(kind)
             return kind, ENERGIES[kind] if given is None else given, dots
-        if (coordinate := force_of(base, self.model)) is not None:
+        if (coordinate := self.force(base)) is not None:
             return base, generalized_force(coordinate), dots
         if base in ("pi", "π"):
             return "pi", sp.pi, dots

@@ -7,6 +7,7 @@ parameter already has its value; everywhere else L means what the model says.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from lagrangian.model import Model
 from lagrangian.read.letters import find, key, normal, spelled
@@ -54,8 +55,11 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
     return kind if lhs and taken[0] in constants else None
 
 
-def force_of(name: str, model: Model) -> str | None:
-    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None if it is not one."""
+def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
+    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None if it is not one.
+
+    ``named``: the answer gives forces the ends of coordinates' names, so that Q_1 beside Q_m is that of phi_1.
+    """
     if find(name, model.symbols):
         return None
     match = _FORCE.match(spelled(name))
@@ -63,7 +67,13 @@ def force_of(name: str, model: Model) -> str | None:
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
         return None  # it means a torque
-    return _coordinate(match["index"], model)
+    return _coordinate(match["index"], model, named=named)
+
+
+def names_forces(names: Iterable[str], model: Model) -> bool:
+    """Whether one of the names is a generalized force with letters as its index."""
+    found = ((_FORCE.match(spelled(x)), x) for x in names)
+    return any(m and m["index"] and not m["index"].isdigit() and force_of(x, model) is not None for m, x in found)
 
 
 def momentum_of(name: str, model: Model) -> str | None:
@@ -74,14 +84,15 @@ def momentum_of(name: str, model: Model) -> str | None:
     return None if match is None else _coordinate(match["index"], model)
 
 
-def _coordinate(index: str, model: Model) -> str | None:
-    """The coordinate of an index: by name, by number, or by the end of its name; a single coordinate needs no index."""
+def _coordinate(index: str, model: Model, *, named: bool = False) -> str | None:
+    """The coordinate of an index: by name, by number, or by the end of its name, which is first if it is ``named``; a
+    single coordinate needs no index."""
     names = [c.name for c in model.coordinates]
     if not index:
         return names[0] if len(names) == 1 else None
     if found := find(index, names):
         return found[0] if len(found) == 1 else None
-    if index.isdigit() and 1 <= int(index[:6]) <= len(names):
-        return names[int(index) - 1]
     ending = [n for n in names if key(n).endswith(key(index))]
+    if index.isdigit() and 1 <= int(index[:6]) <= len(names) and not (named and len(ending) == 1):
+        return names[int(index) - 1]
     return ending[0] if len(ending) == 1 else None

@@ -15,7 +15,7 @@ from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
-from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
+from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
 from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
@@ -134,6 +134,16 @@ class Subjects:
         kept = [side for side, s in alone if s is None or s.token not in same]
         return [sides[0], *kept, sides[-1]], same
 
+    def each(self, subject: Subject | None, sides: list[Tree]) -> list[tuple[Subject, list[Tree]]]:
+        """The subjects of a statement, each with its sides: two of Ξ_x = Ξ_z = 0, none of an equation."""
+        if subject is None:
+            return []
+        forces = [(side, x) for side in sides if (x := self.of(side)) is not None and x.kind == "Xi"]
+        rest = [side for side in sides if all(side is not x for x, _ in forces)]
+        if subject.kind != "Xi" or not rest:
+            return [(subject, sides)]
+        return [(own, [side, *rest]) for side, own in forces]
+
     def names_sides(self, subject: Subject, sides: list[Tree]) -> bool:
         """Whether a name in front of an equation of motion only says what its sides are: F_x = m x'' = F - b x'."""
         token = subject.token
@@ -204,7 +214,7 @@ class Subjects:
         plain = key(str(token)) in self.plain
         if not moving and not plain and (kind := energy_of(token, self.model, lhs=True)) is not None:
             return Subject(cast("Kind", kind), None, token)
-        if (coordinate := force_of(token, self.model)) is not None:
+        if (coordinate := self.names.force(token)) is not None:
             return Subject("Xi", coordinate)
         if (coordinate := momentum_of(token, self.model)) is not None and self.names.occurs(token) == 1:
             return Subject("p", coordinate)
