@@ -81,6 +81,59 @@ n = [-m*g*l*sin(theta); b*xd - m*l*thetad^2*sin(theta)];
 p = [0; F];
 """
 
+COMPACT = """>> A = simplify(jacobian(lhs, qdd))
+A =
+[M + m, l*m*cos(theta)]
+[l*m*cos(theta), J + m*l^2]
+>> rest = simplify(lhs - A*qdd)
+rest =
+ b*xp - l*m*sin(theta)*thetap^2
+ -g*l*m*sin(theta)
+% qdd = [x''; theta''], xp = x', thetap = theta', equations: A*qdd + rest = [F; 0]
+"""
+UNDERLINED = """M_ = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]
+C_ = [b, -m*l*theta'*sin(theta); 0, 0]
+f = [F; m*g*l*sin(theta)]
+
+M_ q'' + C_ q' = f
+
+i.e.
+
+[M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]*[x''; theta''] + C_*[x'; theta'] = [F; m*g*l*sin(theta)]
+"""
+MOTOR = """% generalized coordinates [theta; q]
+M = [J + m*l^2, 0; 0, L];
+C = [b, -K; K, R];
+f = [-m*g*l*sin(theta); u];
+% M*qdd + C*qd + 0*q = f
+"""
+STATES = """function dz = motor(t, z)
+  % z = [i; theta; w], i = q'
+  i = z(1); theta = z(2); w = z(3);
+  di = (u - R*i - K*w)/L;
+  dw = (K*i - b*w - m*g*l*sin(theta))/(J + m*l^2);
+  dz = [di; w; dw];
+end
+"""
+
+
+@pytest.mark.parametrize(
+    ("written", "old", "new"),
+    [
+        (COMPACT, " b*xp", " -b*xp"),
+        (UNDERLINED, "= [F; m*g*l*sin(theta)]\n", "= [F; -m*g*l*sin(theta)]\n"),
+        (MOTOR, "[theta; q]", "[q; theta]"),
+        (STATES, "K*i - b", "K*i + b"),
+    ],
+    ids=["compact", "underlined", "motor", "states"],
+)
+def test_names_of_columns_and_states(written: str, old: str, new: str) -> None:
+    name = "dc-motor" if "K" in written else "cart-pole"
+    assert old in written
+    verdict = derivation(name).check(written)
+    assert verdict.right, verdict.to_text()
+    assert not derivation(name).check(written.replace(old, new)).right
+
 
 @pytest.mark.parametrize(
     ("written", "old", "new"),

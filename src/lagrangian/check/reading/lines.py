@@ -87,8 +87,7 @@ class Lines:
         self._collect()
         complete = self._complete()
         found = [*errors, *([] if complete else self.remarks)]
-        aside: list[ParseError] = []
-        results = list(self.results)
+        aside, results = list[ParseError](), list(self.results)
         for i in range(len(statements)):
             try:
                 self._line(i)
@@ -147,6 +146,7 @@ class Lines:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
         self._places = {i for i, s in enumerate(self._statements) if is_place(s, self.names)}
+        self._made |= {i: [] for i in self._places}
         first = [
             None if i in self._places else self.subjects.turned(list(s.sides))[0]
             for i, s in enumerate(self._statements)
@@ -179,8 +179,7 @@ class Lines:
         """Read the definition of a name that comes later in the answer; that of an acceleration only for another."""
         if self._waiting.get(base) in self._solved and not self.names.moving:
             return  # D = cos q2, and q2'' = …/D further down
-        at = self._waiting.pop(base, None)
-        if at is None or at in self._made or self._chain >= MAX_CHAIN:
+        if (at := self._waiting.pop(base, None)) is None or at in self._made or self._chain >= MAX_CHAIN:
             return
         self._chain += 1
         self._line(at)
@@ -190,21 +189,22 @@ class Lines:
         if i in self._made:
             return
         self._made[i] = []  # a definition that refers to itself finds its own name unknown
-        if i in self._places:
-            return
         statement = self._statements[i]
-        sides = list(statement.sides)
-        subject, sides = self.subjects.turned(sides)
+        subject, sides = self.subjects.turned(list(statement.sides))
         above = self.names.moving, self.names.matrices, self.names.statement
         self.names.statement = i
         self.names.moving = any(self.subjects.accelerates(x) for x in sides)
         self.names.matrices = self._has_matrices(statement.sides)
-        reader = Meaning(statement.source, self.names, self.budget)
+
+        def read() -> list[AnswerLine]:
+            reader = Meaning(statement.source, self.names, self.budget)
+            stated = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
+            return stated if subject else self._equations(sides, reader)
+
         for base in [base for base, at in self._waiting.items() if at == i]:
             del self._waiting[base]
         before = set(self.names.unknown)
-        lines = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
-        lines = lines if subject else self._equations(sides, reader)
+        lines = self.names.fitting(sides, read)
         if all(line.kind == "statement" for line in lines):  # a general statement may use its own letters: ξ_i
             for new in set(self.names.unknown) - before:
                 del self.names.unknown[new]
@@ -318,7 +318,7 @@ class Lines:
             pairs = zip(left, value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
         self._used_nowhere(subject, reader)
-        if token is not None and self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
+        if self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
             self._not_judged(reader, f"no equation uses this matrix {token}")
         return []
 

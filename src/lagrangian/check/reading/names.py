@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import sympy as sp
 from lark import Token, Tree
@@ -20,13 +20,14 @@ from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reading.stated import energy_of, force_of, names_forces
-from lagrangian.errors import did_you_mean
+from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, spelled, undotted
 from lagrangian.read.scope import Scope, rate_stems
 
+T = TypeVar("T")
 MAX_NAME = 64
 MAX_UNKNOWN = 100
 """The largest number of unknown names in an answer."""
@@ -68,6 +69,10 @@ class Names:
         """Whether the statement that is being read contains accelerations; then an energy must be stated."""
         self.matrices = False
         """Whether the statement that is being read contains matrices, so that a name may be one."""
+        self.columns = False
+        """Whether a coordinate q of the system is the column of all coordinates in that statement: M*qdd + K*q = f."""
+        self.column = [c.symbol for c in model.coordinates]
+        """The coordinates in the order in which such a column holds them."""
         self.given_matrices: set[str] = set()
         """The names that a statement of the answer gives a matrix."""
         self.defined: set[str] = set()
@@ -154,6 +159,9 @@ class Names:
         names, dots = self.scope.meanings(token)
         if self.matrices and (matrix := self._matrix(undotted(token)[0])) is not None:
             return str(token), matrix, undotted(token)[1]
+        for order, stem in spelled_rates(token) if self.columns else ():
+            if (matrix := self._matrix(stem)) is not None:
+                return str(token), matrix, order
         if len(names) > 1:
             listed = " or ".join(f"'{n}'" for n in names)
             what = f"'{token[:40]}' can mean {listed}"
@@ -195,14 +203,40 @@ class Names:
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
 
     def _matrix(self, base: str) -> Value | None:
-        """The matrix that the answer gives this name; q or x is the column of coordinates if it is nothing else."""
+        """The matrix that the answer gives this name; q or x is the column of coordinates if it is nothing else.
+
+        Beside a matrix M_, M stays the mass that the system calls so.
+        """
+        own = self.scope.meanings(base)[0]
         if key(base) not in self.own and key(base) in self.given_matrices:
             self.later(key(base))
-        if (mine := self.mine(key(base))) is not None:
+        if (mine := self.mine(key(base))) is not None and not (own and undotted(mine[0])[0] != base):
             return mine[1] if isinstance(mine[1], MatrixBase) else None
-        if key(base) not in COLUMNS or self.scope.meanings(base)[0] or key(base) in self.defined:
+        if key(base) not in COLUMNS or (own and not self.columns) or key(base) in self.defined:
             return None
-        return sp.ImmutableMatrix([c.symbol for c in self.model.coordinates])
+        return sp.ImmutableMatrix(self.column)
+
+    def in_order(self, listed: Sequence[str]) -> None:
+        """Take the order of the coordinates from an answer that lists all of them."""
+        found = [self.scope[x[0]] for written in listed if len(x := self.scope.meanings(written)[0]) == 1]
+        if len(found) == len(self.column) and set(found) == set(self.column):
+            self.column = found
+
+    def fitting(self, sides: Sequence[Tree], read: Callable[[], T]) -> T:
+        """What a statement says; one of matrices that does not fit is read once more with a coordinate q as the column
+        of all."""
+        try:
+            return read()
+        except ParseError:
+            listed = [token for side in sides for token, _ in names_in(side)] if self.matrices else []
+            stems = {key(stem) for x in listed for stem in (undotted(x)[0], *(stem for _, stem in spelled_rates(x)))}
+            if not any(key(c.name) in stems & COLUMNS for c in self.model.coordinates):
+                raise
+        self.columns = True
+        try:
+            return read()
+        finally:
+            self.columns = False
 
     def energy(self, kind: str) -> sp.Expr | None:
         """An energy as stated so far; the Lagrangian also from T* and V."""

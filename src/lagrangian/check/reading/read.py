@@ -40,7 +40,7 @@ from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
-from lagrangian.check.reading.programs.matrices import with_whole_matrices
+from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
@@ -268,6 +268,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     session = without_session(code, taken, commands.append)
     if commands:
         names.notes.setdefault(told_commands(text, commands))
+    names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
     tagless = solved_matrices(without_drawn_formulas(session, typed))
     latex = bool(_LATEX.search(tagless.text))

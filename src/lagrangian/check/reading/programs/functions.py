@@ -34,7 +34,9 @@ _UNPACKED = re.compile(
     re.MULTILINE,
 )
 _INDEX = r"(?:\[(?P<zero>\d)\]|\((?P<one>\d)\))"
-_INDEXED = re.compile(rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME}){_INDEX}{_END}", re.MULTILINE)
+_INDEXED = re.compile(
+    rf"(?:^|(?<=;))[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME}){_INDEX}[ \t]*+(?:;|$)", re.MULTILINE
+)
 _SLICES = re.compile(
     rf"^[ \t]*+(?P<out>{_NAME})(?:\((?P<one>\d):\d\)|\[(?P<zero>\d?):\d?\])[ \t]*+=[ \t]*+"
     rf"(?P<of>{_NAME})(?:\((?P<one_of>\d):(?P<last>\d|end)\)|\[(?P<zero_of>\d?):(?P<stop>\d?)\]){_END}",
@@ -94,6 +96,8 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     if function.state is not None and _alternates(text, function, len(coordinates)):
         default = [name + prime for name in coordinates for prime in ("", "'")]
     states = [name or default[i] for i, name in enumerate(names)]
+    if len(function.names) > 1 and set(function.names) == set(range(len(function.names))):
+        states = states[: len(function.names)]  # the current and not the charge
     if function.state is not None:
         edits += [*_indices(text, function.state, states), *_slices(text, function, states)]
     if function.out is not None:

@@ -22,6 +22,7 @@ from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _NAME = r"[^\W\d]\w{0,23}+"
 _WORD = r"[^\W\d]\w*"
+_RATE = rf"{_WORD}['’′]{{0,2}}"
 _CALL = r"(?:\w{1,8}\.)?(?:array|asarray|Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix)\("
 _ARRAY = re.compile(rf"(?<![\w.\\{{]){_CALL}(?=\s*+\[)")
 _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
@@ -39,13 +40,17 @@ _SOLVED = re.compile(
 _SHOWN = re.compile(rf"[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+\Z")
 _BRACKETED = re.compile(r"[ \t]*+(?P<open>\[)[^\[\]=]*+(?P<close>\])[ \t]*+\Z")
 _ENTRY = re.compile(r"[ \t]++(?![+*/^)]|-[ \t])[^\[\]{}=%#>;]*[^\s\[\]{}=%#>;+*/^(-][ \t]*+\Z")
+_ENDS = re.compile(r"[ \t]*+(?:$|[#%]|>>)")
+"""What stands below a matrix: a blank line, a comment or the next command."""
 _COMMENT = re.compile(r"(?P<prompt>^[ \t]*+>>[ \t]*+)?(?<![\\\w])(?P<mark>[#%]+|//)(?P<said>[^\n]*+)", re.MULTILINE)
 _CUT = re.compile(
     r"[()\[\]]|(?P<cut>[,;.](?=\s|$)|:(?!=)|\b(?:with|where|and|so|mit|wobei|und)\b"
     r"|(?<=[^\s=+*/-])[ \t]{2,}(?![=+*/-]))"
 )
 _ARGUMENTS = re.compile(r"(?<!\w)(?P<of>[^\W\d]\w{0,23})\((?P<by>[\w ,'’′]{1,40})\)")
-_COLUMN = re.compile(rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+[\[(](?P<entries>[\w ,;]{{3,200}})[\])](?:\.?['’]|\^T|ᵀ)?")
+_COLUMN = re.compile(rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+[\[(](?P<entries>[\w ,;'’′]{{3,200}})[\])](?:\.?['’]|\^T|ᵀ)?")
+_ORDER = re.compile(r"\bcoordinates[^\S\n][^\n\[\](=]{0,20}[\[(](?P<entries>[\w ,;]{3,200})[\])]")
+"""The order of the coordinates in words: generalized coordinates [x; theta]."""
 LONGEST = 400
 """The most characters of a comment that states an equation."""
 
@@ -65,8 +70,15 @@ def with_shown_matrices(written: TracedText) -> TracedText:
     written = written.edited(edit for _, edits in found for edit in edits)
     if not names:
         return written
-    command = re.compile(rf"^[ \t]*+>>[ \t]*+(?:{'|'.join(names)})[ \t]*+;?[ \t]*+(?=%|$)", re.MULTILINE)
+    command = re.compile(
+        rf"^[ \t]*+>>[ \t]*+(?:{'|'.join(names)})[ \t]*+(?:=(?!=)[^\n%]*+|;?[ \t]*+(?=%|$))", re.MULTILINE
+    )
     return written.sub(command, lambda m: "")
+
+
+def told_order(text: str) -> list[str]:
+    """The names of the coordinates in the order in which an answer lists them; none if it does not."""
+    return re.findall(_WORD, match["entries"]) if (match := _ORDER.search(text)) is not None else []
 
 
 def with_equations_in_comments(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
@@ -116,14 +128,14 @@ def _shown(text: str) -> Iterator[tuple[str, list[Edit]]]:
     for i, line in enumerate(lines):
         named = _SHOWN.match(line) if len(line) <= LONGEST else None
         first = next((k for k in range(i + 1, min(i + 4, len(lines))) if lines[k].strip()), i + 1)
-        if named is None or first == i + 1:
+        if named is None or (first == i + 1 and ">>" not in text):  # without a session, a sum may go on below
             continue
         for form in (_BRACKETED, _ENTRY):
             rows = list(_rows(lines, first, form))
             if form is _ENTRY and (len(rows) < 2 or any(not _balanced(m.group()) for m in rows)):
                 continue
             last = first + len(rows)
-            if rows and (last == len(lines) or not lines[last].strip()):
+            if rows and (last == len(lines) or _ENDS.match(lines[last])):
                 yield named["name"], list(_joined(places, i, first, rows))
                 break
 
@@ -171,7 +183,7 @@ def _stated(text: str, code: str, given: set[str], unused: set[str], taken: Call
             said = _equation(piece, given, unused, {*columns, *COLUMNS}, taken)
             column = next((name for name, listed in columns.items() if listed == piece), None)
             if column is not None:
-                entries = re.findall(_WORD, columns.pop(column).partition("=")[2].removesuffix("^T"))
+                entries = re.findall(_RATE, columns.pop(column).partition("=")[2].removesuffix("^T"))
                 stated.insert(0, f"{column} = [{'; '.join(entries)}]")
             elif said:
                 stated.append(said)
@@ -179,7 +191,7 @@ def _stated(text: str, code: str, given: set[str], unused: set[str], taken: Call
                 rest.append(piece)
         if stated:
             behind = text[text.rfind("\n", 0, comment.start()) + 1 : comment.start()].strip()
-            kept = f"\n{comment['mark']} {', '.join(rest)}" if rest else ""
+            kept = f"\n{comment['mark']} {'; '.join(rest)}" if rest else ""
             yield *comment.span(), f"{'; ' if behind else ''}{'; '.join(stated)}{kept}"
 
 
@@ -197,7 +209,7 @@ def _pieces(said: str) -> Iterator[str]:
 
 def _is_column(column: re.Match[str], code: str, taken: Callable[[str], bool]) -> bool:
     """Whether a comment says which coordinates a column holds."""
-    entries, name = re.findall(_WORD, column["entries"]), column["name"]
+    entries, name = re.findall(_WORD, column["entries"]), column["name"]  # without primes
     assigned = re.search(rf"(?<!\w){name}[ \t]*=(?!=)", code) is not None
     return len(entries) > 1 and all(map(taken, entries)) and not taken(name) and not assigned
 

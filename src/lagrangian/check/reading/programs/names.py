@@ -137,5 +137,5 @@ def _used(text: str, name: str, comment: tuple[int, int]) -> bool:
     """Whether a name stands outside a comment, and is given no value there."""
     rest = text[: comment[0]] + text[comment[1] :]
     found = re.compile(rf"(?<!\w){name}(?!\w)")
-    given = re.search(rf"^[ \t]*+{name}[ \t]*+=(?!=)", rest, re.MULTILINE)
+    given = re.search(rf"^[ \t]*+{name}[ \t]*+=(?!=)(?![ \t]*+\w+[(\[]\d[)\]])", rest, re.MULTILINE)  # not i = z(1)
     return found.search(rest) is not None and given is None
