@@ -16,8 +16,8 @@ from effort import at_most
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
-from lagrangian.check.reading.programs.spellings import spellings as programs
-from lagrangian.check.reading.prose.words_or_mathematics import words_or_mathematics as prose
+from lagrangian.check.reading.programs import spellings as programs
+from lagrangian.check.reading.prose import words_or_mathematics as prose
 from lagrangian.check.reading.said import stands_for
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
