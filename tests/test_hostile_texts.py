@@ -39,6 +39,8 @@ ANSWERS = {
     "a word before blanks": "ad" + BLANK + "y",
     "a condition before blanks": "x1'' = 0\ncheck: for x1" + BLANK + "= x2r y",
     "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
+    "letters in words": "x1'' = 0\n" + "c statt k, " * (N // 11),
+    "words of one letter": "x1'' = 0\n" + "c for a " * (N // 8),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
 }
 

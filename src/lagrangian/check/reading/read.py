@@ -50,7 +50,9 @@ from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import LINKING, is_statement
+from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
+from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -109,6 +111,15 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
+    said = declarations(text, model)
+    if not said.names:
+        found = _parsed(said.text, model, place)
+        return replace(found, notes=(*said.notes, *found.notes))
+    return restored(_parsed(said.text, renamed(model, said.names), place), model, said.names, said.notes)
+
+
+def _parsed(text: str, model: Model, place: Place | None) -> Answer:
+    """The content of an answer, as it is most likely meant if it can be read so."""
     others: list[Choices] = []
     likeliest: Answer | ParseError
     try:

@@ -1,0 +1,311 @@
+"""Finds what an answer says, in words, about its own letters for the names of the system.
+
+x₁ statt x (Klotz), c statt k                        x₁ is x, c is k
+the gap is y (instead of x)                          y is x
+I write m for the puck's mass (m1), M for m2         m is m1, M is m2
+alpha = angle of the rotor (phi_m)                   alpha is phi_m
+theta = angle of the pulley (x = R*theta)            ; x = R*theta ;   a statement that remains
+
+A list is read item by item. Both sides must be names, the second one of the system. The letter taken may be one that
+the system uses for something else: m for m1 and M for m2.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from itertools import islice
+
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.model import Model
+from lagrangian.read.letters import SPELLED, find, key, normal, undotted
+from lagrangian.records import dataclass
+
+MOST = 40
+"""The largest number of letters that are declared in words."""
+
+_PRODUCT = 4
+"""The most letters of a product without signs in which a name is sought."""
+
+LONGEST = 200
+"""The most characters of one item of a list."""
+
+_NAME = r"[$`*]{0,2}\\?[^\W\d_][^\W_]{0,11}(?:_\w{1,8}|_\{\w{1,8}\})?[$`*]{0,2}"
+_NEW = rf"(?<![\w\\$`*^/+'’′-])(?P<new>{_NAME})"
+_OWN = rf"(?P<own>{_NAME})(?![\w'’′^(*/+$\\{{])"
+_WORD = r"(?:[^\W_][^\W_]{0,23}(?:[-'’.][^\W_]{0,23})?[ \t\n]{1,9})"
+_GAP = r"[ \t\n]{1,9}"
+_END = r"[ \t\n.!]*\Z"
+_INSTEAD = (
+    r"(?:instead[ \t\n]of|in[ \t\n](?:place|lieu)[ \t\n]of|rather[ \t\n]than|statt|anstatt|anstelle(?:[ \t\n]von)?"
+    r"|an[ \t\n]Stelle[ \t\n]von)"
+)
+_STANDS = (
+    r"(?P<stands>stands[ \t\n]for|replaces|corresponds[ \t\n]to|takes[ \t\n]the[ \t\n]place[ \t\n]of|steht[ \t\n]für"
+    r"|ersetzt|entspricht)"
+)
+_IS = r"(?P<stands>denotes|means|is|bezeichnet|bedeutet|ist)"
+_LINK = r"[ \t\n]{0,9}(?:=|:|[–—-]|\bis\b|\bist\b|\bfor\b|\bfür\b|\bdenotes\b|\bbezeichnet\b)[ \t\n]{1,9}"
+_REST = r"(?P<rest>[^\0]{1,160})\Z"
+
+
+def _forms(*forms: str) -> tuple[re.Pattern[str], ...]:
+    return tuple(re.compile(form, re.IGNORECASE) for form in forms)
+
+
+_SURE = _forms(
+    rf"{_NEW}{_GAP}{_INSTEAD}{_GAP}{_REST}",
+    rf"{_NEW}{_GAP}{_STANDS}{_GAP}{_REST}",
+    rf"{_NEW}[ \t\n]{{0,9}}\([ \t]?(?:{_INSTEAD}{_GAP}|[=≙][ \t]?)(?P<rest>[^()=]{{1,80}})\){_END}",
+    rf"(?<!\w)(?:{_INSTEAD}|for|für){_GAP}(?P<rest>[^()=+^/]{{1,60}}){_GAP}(?:(?:I|we){_GAP}(?:write|use|take|have|put)"
+    rf"|(?:schreibe|nehme|verwende|benutze|setze){_GAP}ich){_GAP}(?P<new>{_NAME}){_END}",
+    rf"(?<!\w)(?:renam(?:e|ed|ing)|replac(?:e|ed|ing)|ersetzt?e?){_GAP}{_OWN}{_GAP}(?:to|by|with|as|into|durch|zu|in)"
+    rf"{_GAP}(?P<new>{_NAME}){_END}",
+    rf"(?<!\w){_OWN}{_GAP}(?:is{_GAP}(?:called|renamed|written(?:{_GAP}as)?)|heißt)(?:{_GAP}(?:hier|bei{_GAP}mir|here))?"
+    rf"{_GAP}(?P<new>{_NAME})(?:{_GAP}here)?{_END}",
+)
+"""Forms that say nothing else."""
+_LIKELY = _forms(
+    rf"{_NEW}{_LINK}{_WORD}{{1,8}}\([ \t]?(?:[=≙][ \t]?)?(?P<rest>[^()=]{{1,60}})\){_END}",
+    rf"{_NEW}{_GAP}{_IS}{_GAP}{_REST}",
+)
+"""Forms that may also say to what a quantity belongs, s = stretch of the spring (k): the other letter is then used."""
+_LED = _forms(
+    rf"{_NEW}{_GAP}(?:for|für){_GAP}{_REST}",
+    rf"{_NEW}[ \t]{{0,9}}(?:=|≙|:|->|→)[ \t]{{0,9}}{_REST}",
+)
+"""Forms that need a word such as uses or Letters in front of the list."""
+_BEFORE = re.compile(rf"{_WORD}{{0,8}}")
+_TAIL = re.compile(
+    rf"(?:[ \t\n]{{1,9}}\([^()=]{{0,80}}\)|,[^()=+*^/]{{0,60}}|(?:[ \t\n]{{1,9}}{_WORD}{{0,8}}[^\W_]{{1,24}})?){_END}"
+)
+_LEADS = re.compile(
+    r"(?<!\w)(?:us(?:e|es|ed|ing)|writ(?:e|es|ing|ten)|wrote|call(?:s|ed)?|letters?|notation|names?|symbols?|renam\w{0,4}"
+    r"|schreib\w{0,3}|verwend\w{0,3}|benutz\w{0,3}|nehme|nenn\w{0,3}|bezeichn\w{0,8}|buchstaben|formelzeichen)(?!\w)",
+    re.IGNORECASE,
+)
+_RELATION = re.compile(
+    rf"{_NEW}{_LINK}{_WORD}{{1,8}}\((?:[^()=,;]{{0,60}}[,;])?[ \t]?(?P<relation>{_NAME}[ \t]?=[ \t]?[^()=,;\n]{{1,60}})"
+    r"\)[ \t\n.!]*\Z"
+)
+"""A new coordinate, what it is, and its relation to that of the system."""
+_GROUP = re.compile(
+    rf"{_NEW}(?P<more>(?:[ \t]{{0,9}}(?:,|and|und)[ \t]{{1,9}}{_NAME}){{1,7}})[ \t\n]{{1,9}}"
+    rf"(?:{_INSTEAD}|for|für|stand[ \t\n]for|stehen[ \t\n]für|denote)[ \t\n]{{1,9}}"
+    r"(?:the[ \t\n](?:[^\W\d_]{3,20}[ \t\n]){1,3})?"
+    rf"(?P<own>{_NAME}(?:[ \t]{{0,9}}(?:,|and|und)[ \t]{{1,9}}{_NAME}){{1,7}})(?![\w'’′^(*/+$\\{{=])"
+)
+_ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
+_SIGNS = frozenset("-+−*/^=(·½¼²³'’′")
+_JOIN = re.compile(r"[(){}\[\]]|(?:,|;|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
+_STATED = re.compile(r"(?<![\w\\])\\?([^\W\d]\w{0,15}+)\*?[ \t]*+=(?!=)")
+_PARAGRAPH = re.compile(r"\n[ \t]*\n")
+_MATHEMATICS = re.compile(r"[=+^]|\w[ ]?[*/][ ]?\w|[’'′](?!\w)|\w\(")
+_VARIANTS = {"varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho", "ell": "l"}
+_MARKS = str.maketrans("", "", "$\\{}`*")
+_IN_WORDS = "is it in on of to as at by or an no so ist im am es zu"
+_OF = "of on in at to from between by von an auf in zwischen am im"
+_NO_LETTERS, _PREPOSITIONS = frozenset(_IN_WORDS.split()), frozenset(_OF.split())
+
+
+@dataclass(frozen=True)
+class DeclaredLetter:
+    """A letter of the answer's own and the name of the system that it stands for; where an answer says so; whether the
+    words can mean nothing else."""
+
+    new: str
+    own: str
+    span: tuple[int, int]
+    sure: bool
+
+
+@dataclass(frozen=True)
+class DeclaredLetters:
+    """What an answer declares; its text without that, of the same length; and what to tell."""
+
+    names: dict[str, str]
+    text: str
+    notes: tuple[str, ...] = ()
+
+
+class _System:
+    """The names of a system in any spelling."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self._found: dict[str, list[str]] = {}
+
+    def find(self, name: str) -> list[str]:
+        """The names that one can mean."""
+        if name not in self._found:
+            self._found[name] = find(name, self.model.symbols)
+        return self._found[name]
+
+    def states(self, name: str) -> bool:
+        """Whether this is the name of an energy or of a generalized force."""
+        return energy_of(name, self.model, lhs=True) is not None or force_of(name, self.model) is not None
+
+
+def declarations(text: str, model: Model) -> DeclaredLetters:
+    """Return the letters that an answer declares in words, by the name of the system: {"k": "c"}.
+
+    A letter that the system has, too, and words that may mean something else count only if the answer does without the
+    name of the system.
+    """
+    system = _System(model)
+    found = list(islice(_declared(text, system), MOST))
+    relations = list(islice(_relations(text, system), MOST))
+    if not found and not relations:
+        return DeclaredLetters({}, text)
+    bare = _blanked(text, [x.span for x in found])
+    news, owns = ({key(x.new) for x in found}, {key(x.own) for x in found})
+    used = _in_formulas(bare, {*model.symbols, *(x.new for x in found)})
+    stated = {key(m[1]) for m in _STATED.finditer(bare)}
+    kept: dict[str, DeclaredLetter] = {}
+    notes: list[str] = []
+    for x in found:
+        if x.own in kept or key(x.new) in {key(y.new) for y in kept.values()}:
+            continue
+        if not x.sure and key(x.new) in stated:
+            continue  # what it is stands elsewhere
+        other = bool(system.find(x.new)) and key(x.new) not in owns
+        if key(x.own) in used - news and (other or not x.sure):
+            if x.sure:
+                told = f"{x.new} was read as the {x.new} of the system, as you use {x.own}, too"
+                notes.append(f"You write that {x.new} stands for {x.own}: {told}.")
+            continue
+        kept[x.own] = x
+    if kept:
+        told = ", ".join(f"{x.new} {'stands ' if k == 0 else ''}for {x.own}" for k, x in enumerate(kept.values()))
+        notes.append(f"As you write, {told}.")
+    text = _blanked(text, [x.span for x in kept.values()])
+    for start, first, end in relations:
+        head, stands = re.sub(r"[^\n]", " ", text[start : first - 1]), text[first:end].rstrip(" .!\n)")
+        text = f"{text[:start]}{head};{stands};".ljust(end) + text[end:]
+    return DeclaredLetters({own: x.new for own, x in kept.items()}, text, tuple(notes))
+
+
+def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:
+    """The declarations in their order, each once."""
+    spans: list[tuple[int, int]] = []
+    for match in _GROUP.finditer(text):
+        new, own = ([_bare(x.group()) for x in _ANY.finditer(y)] for y in (match["new"] + match["more"], match["own"]))
+        new, own = ([x for x in y if x not in ("and", "und")] for y in (new, own))
+        if len(new) == len(own) and all(_may_be(a, b, system) for a, b in zip(new, own, strict=True)):
+            spans.append(match.span())
+            sure = re.search(_INSTEAD, match.group()) is not None
+            for a, b in zip(new, own, strict=True):
+                yield DeclaredLetter(a, system.find(b)[0], match.span(), sure)
+    for start, end, led in _items(text):
+        if any(a < end and start < b for a, b in spans):
+            continue
+        said = _said(text[start:end], system, led=led)
+        if said is not None:
+            spans.append((start, end))
+            yield DeclaredLetter(*said[:2], (start, end), said[2])
+
+
+def _said(item: str, system: _System, *, led: bool) -> tuple[str, str, bool] | None:
+    """The letter, the name of the system and whether it is sure, of an item that declares one."""
+    for forms, sure in ((_SURE, True), (_LIKELY, False), (_LED if led else (), False)):
+        for form in forms:
+            match = form.search(item)
+            if match is None or _MATHEMATICS.search(item[: match.start()]):
+                continue
+            new, named = _bare(match["new"]), match.groupdict().get("rest") or match["own"]
+            if not sure and not led and system.states(new):
+                continue
+            own = _named(named, system, alone="stands" in form.groupindex)
+            if own is not None and _may_be(new, own, system):
+                return new, own, sure
+    return None
+
+
+def _named(rest: str, system: _System, *, alone: bool) -> str | None:
+    """The name of the system in words: the mass M of the block; ``alone``: not what something else belongs to."""
+    for match in _ANY.finditer(rest):
+        found = system.find(_bare(match.group()))
+        before = rest[: match.start()]
+        if len(found) != 1 or _BEFORE.fullmatch(before) is None or _TAIL.match(rest, match.end()) is None:
+            continue
+        if not alone or _PREPOSITIONS.isdisjoint(before.lower().split()):
+            return found[0]
+    return None
+
+
+def _may_be(new: str, own: str, system: _System) -> bool:
+    """Whether one is a letter, perhaps with an index, and the other one name of the system."""
+    stem = re.match(r"[^\W\d_]*", key(new))[0]  # type: ignore[index]  # it always matches
+    letter = len(re.sub(r"[\d_].*", "", normal(new))) == 1 or stem in SPELLED.values() or bool(system.find(new))
+    letter = letter or (new.isalpha() and len(new) == 2 and new.lower() not in _NO_LETTERS and new[0].isupper())
+    return letter and function_of(new) is None and len(system.find(own)) == 1 and key(new) != key(own)
+
+
+def _items(text: str) -> Iterator[tuple[int, int, bool]]:
+    """The items of lists, and whether a word such as uses stands in front; a line may end in one of them."""
+    at = 0
+    for gap in [*(m.span() for m in _PARAGRAPH.finditer(text)), (len(text), len(text))]:
+        paragraph, first = text[at : gap[0]], at
+        at = gap[1]
+        if len(_ANY.findall(paragraph)) < 2:
+            continue
+        lead = _LEADS.search(paragraph)
+        for lines in (True, False):
+            start, depth = 0, 0
+            for match in [*_JOIN.finditer(paragraph), None]:
+                mark = match.group().strip(" \t") if match is not None else ""
+                if mark in ("(", "[", "{"):
+                    depth += 1
+                elif mark in (")", "]", "}"):
+                    depth = max(0, depth - 1)
+                elif match is None or (mark == "\n" and lines) or (mark != "\n" and depth == 0):
+                    end = len(paragraph) if match is None else match.start()
+                    depth = 0
+                    item = paragraph[start:end]
+                    if end - start <= LONGEST and item.strip() and (lines or "\n" in item):
+                        yield first + start, first + end, lead is not None and lead.start() < end
+                    start = len(paragraph) if match is None else match.end()
+
+
+def _relations(text: str, system: _System) -> Iterator[tuple[int, int, int]]:
+    """Where an item begins, where the relation in its brackets does, and where it ends."""
+    spans: list[tuple[int, int]] = []
+    for start, end, _ in _items(text):
+        match = _RELATION.search(text[start:end])
+        if match is None or any(a < end and start < b for a, b in spans):
+            continue
+        new, own = _bare(match["new"]), _bare(match["relation"].partition("=")[0].strip())
+        names = [_bare(x.group()) for x in _ANY.finditer(match["relation"].partition("=")[2])]
+        known = find(own, [c.name for c in system.model.coordinates]) and not system.find(new)
+        if known and new in names and all(x == new or system.find(x) or function_of(x) for x in names):
+            spans.append((start, end))
+            yield start, start + match.start("relation"), start + match.end("relation") + 1
+
+
+def _bare(name: str) -> str:
+    """A name without marks of LaTeX and Markdown."""
+    bare = name.translate(_MARKS)
+    stem = re.match(r"[^\W\d_]*", bare)[0]  # type: ignore[index]  # it always matches
+    return _VARIANTS.get(stem, stem) + bare[len(stem) :]
+
+
+def _blanked(text: str, spans: Sequence[tuple[int, int]]) -> str:
+    for start, end in spans:
+        text = text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+    return text
+
+
+def _in_formulas(text: str, known: Collection[str]) -> set[str]:
+    """The names that are parts of formulas, alone or in short products of known letters, in their common form."""
+    found: set[str] = set()
+    for match in _ANY.finditer(text):
+        before = text[max(0, match.start() - 2) : match.start()].rstrip(" ")[-1:]
+        behind = text[match.end() : match.end() + 2].lstrip(" ")[:1]
+        if before + behind == "()" or _SIGNS.isdisjoint(before + behind):
+            continue
+        name = undotted(_bare(match.group()))[0]
+        found.add(key(name))
+        if name not in known and len(name) <= _PRODUCT and all(x in known for x in name):
+            found.update(map(key, name))
+    return found

@@ -1,0 +1,110 @@
+"""Letters of an answer's own that sentences declare, in English and German, also letters that the system has.
+
+Oracle: by hand, two carts on a spring k and a damper c,
+
+    m1 ẍ + k (x − y) + c (ẋ − ẏ) = F,   m2 ÿ + k (y − x) + c (ẏ − ẋ) = 0
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+import pytest
+
+from lagrangian import Derivation, ParseError, System
+from lagrangian.check.reading import parse_answer
+
+SHEET = "m1*x'' + k*(x - y) + c*(x' - y') = F\nm2*y'' + k*(y - x) + c*(y' - x') = 0"
+
+
+@cache
+def carts() -> Derivation:
+    """Two carts, a spring and a damper between them, and a force on the first."""
+    sys = System("two carts")
+    x, y = sys.coordinates("x y")
+    m1, m2, k, c = sys.parameters("m1 m2 k c")
+    for name, mass, at in (("one", m1, x), ("two", m2, y)):
+        sys.particle(mass, at=sys.point(name, (at, 0)))
+    sys.spring(k, deflection=x - y)
+    sys.damper(c, deflection=x - y)
+    sys.generalized_force(x, sys.input("F"))
+    return sys.derive()
+
+
+def written(letters: dict[str, str]) -> str:
+    """The equations of the system in other letters."""
+    return re.sub(r"[a-zA-Z]\d?", lambda m: letters.get(m.group(), m.group()), SHEET)
+
+
+def right(answer: str) -> bool:
+    """Whether an answer is judged right; one that is refused is not."""
+    try:
+        return carts().check(answer).right
+    except ParseError:
+        return False
+
+
+SAID = {
+    "Bezeichnungen: x₁ statt x (Wagen), x₂ statt y, D statt k, d statt c.": {
+        "x": "x_1",
+        "y": "x_2",
+        "k": "D",
+        "c": "d",
+    },
+    "Ich schreibe c statt k und d anstelle von c.": {"k": "c", "c": "d"},
+    "My letters: u instead of x for the first cart, w instead of y.": {"x": "u", "y": "w"},
+    "Here the spring constant is c (instead of k), and the damping b (instead of c)": {"k": "c", "c": "b"},
+    "I write m for the first cart's mass (m1), M for the second one (m2).": {"m1": "m", "m2": "M"},
+    "My sheet uses m_2 for the mass m1 of the first cart,\nm_1 for m2 and w for y.": {"m1": "m2", "m2": "m1", "y": "w"},
+    "alpha = position of cart 1 (x in the sheet), k_s = stiffness (k), b = damper (c).": {
+        "x": "alpha",
+        "k": "k_s",
+        "c": "b",
+    },
+    "Notation:\n- u: cart 1 (x)\n- w: cart 2 (y)": {"x": "u", "y": "w"},
+    "p und q statt x und y": {"x": "p", "y": "q"},
+    "Für k schreibe ich D, statt c schreibe ich d.": {"k": "D", "c": "d"},
+    "D stands for k, d steht für c, M denotes the mass m1.": {"k": "D", "c": "d", "m1": "M"},
+    "$D$ instead of $k$": {"k": "D"},
+}
+
+
+@pytest.mark.parametrize(("said", "letters"), SAID.items(), ids=SAID)
+def test_declared_letters_are_read(said: str, letters: dict[str, str]) -> None:
+    equations = written(letters)
+    if "$" in said:
+        equations = "\n".join(rf"\[ {x} \]" for x in equations.replace("*", " ").split("\n"))
+    answer = f"{said}\n\n{equations}"
+    assert right(answer)
+    told = " ".join(parse_answer(answer, carts().model).notes)
+    assert all(re.search(rf"\bfor {own}\b", told) for own in letters)
+    wrong = answer.replace("''", "'", 1)
+    assert not right(wrong)
+
+
+def test_a_letter_has_the_declared_meaning_alone() -> None:
+    assert not right("c statt k, d statt c.\n\n" + written({"k": "d", "c": "c"}))
+    assert not right("u statt x, w statt y.\n\n" + written({"x": "w", "y": "u"}))
+    assert not right("m for the second mass (m2), M for the first (m1).\n\n" + written({"m1": "m", "m2": "M"}))
+
+
+def test_a_declaration_against_its_own_use_is_told() -> None:
+    verdict = carts().check(f"I write c instead of k.\n\n{SHEET}")
+    assert "You write that c stands for k" in str(verdict)
+
+
+def test_what_a_quantity_belongs_to_is_no_other_name() -> None:
+    assert right(f"s = stretch of the spring (k), v = speed (x)\n\n{SHEET}")
+    assert right(f"T = kinetic energy of cart 1 (m1) and cart 2 (m2)\n\n{SHEET}")
+
+
+def test_a_relation_in_brackets_is_read() -> None:
+    theta = "theta = angle of the wheel (clockwise, x = R*theta)"
+    sys = System("cart with a wheel")
+    x, R, k, m = sys.coordinates("x"), *sys.parameters("R k m")
+    sys.particle(m, at=sys.point("A", (x, 0)))
+    sys.spring(k, deflection=x / R)
+    derived = sys.derive()
+    assert derived.check(f"Coordinate: {theta}.\n\nm R^2 theta'' + k theta = 0").right
+    assert not derived.check(f"Coordinate: {theta}.\n\nm R^2 theta'' + k R theta = 0").right
