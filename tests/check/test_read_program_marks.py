@@ -75,6 +75,15 @@ def test_units_behind_numbers_are_units_where_only_that_is_right(unit: str) -> N
     twins(row, "· sin", "· cos", "pendulum")
 
 
+def test_units_behind_numbers_are_no_products_of_parameters_and_degrees_belong_to_their_number() -> None:
+    row = "(2 kg + 0.01 kg m²/(0.1 m)²)·ẍ − 2 kg·9.81 m/s²·sin 20° = 0"
+    twins(row, "0.1 m", "0.2 m", "rolling-cylinder")
+    wrong = derivation("rolling-cylinder").check(row.replace("sin 20°", "cos 20°")).to_text()
+    assert "should be" in wrong or "sin(" in wrong
+    assert "0.349" not in wrong
+    assert derivation("rolling-cylinder").check("2 m x'' − 2 m g sin(alpha) + 2 J/R^2 x'' = 0").right
+
+
 def test_a_dash_in_front_of_a_label_is_that_of_a_list() -> None:
     said = "- inertia about pivot: J_A = m L^2\n- eq. of motion:\n\n  J_A theta'' + b theta' + m g L sin theta = 0"
     twins(said, "m L^2", "m L", "pendulum")

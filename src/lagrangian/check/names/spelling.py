@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice, permutations
+from math import isclose, pi
 from typing import Any, cast
 
 import numpy as np
@@ -151,10 +152,19 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
 
 
 def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
-    """The values of the parameters that an answer does not name."""
+    """The values of the parameters that an answer does not name; angles in degrees are parts of π, as in cos 25°."""
     used = _constants(lines)
     put = truth.values.keys()
-    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used and p not in put}
+    turns = any(line.expr.has(sp.pi) for line in lines)
+    left = ((p, v) for p, v in truth.model.values.items() if p not in used and p not in put)
+    return {p: (_part_of_pi(v) if turns else None) or sp.Rational(str(v)) for p, v in left}
+
+
+def _part_of_pi(value: float) -> sp.Expr | None:
+    """An angle of some degrees as a part of π; None if they have more than four decimals."""
+    degrees = round(value * 180 / pi, 4)
+    same = value != 0 and isclose(degrees * pi / 180, value, rel_tol=1e-14)
+    return cast("sp.Expr", sp.Rational(str(degrees)) * sp.pi / 180) if same else None
 
 
 def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:

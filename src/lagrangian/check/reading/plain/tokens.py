@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
+from itertools import islice
 
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.prose.words import Words, function_of
@@ -56,6 +57,10 @@ _WORD = re.compile(_NAME)
 _ENERGIES = frozenset("TVLDℒ")
 _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
+_NUMBER = re.compile(r"(?<![\w.])(?>\d+)(?:\.\d*)?(?:[eE][+-]?\d+)?")
+_BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{_NAME})")
+MOST = 60
+"""The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
     rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
 )
@@ -71,6 +76,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
     tokens: list[AnswerToken] = []
     at = 0
     value = (given := _VALUE.fullmatch(text)) is not None and not _goes_on(given["behind"], words)
+    units = value or words.units or _in_units(text, words)
     while at < len(text):
         match = TOKEN.match(text, at)
         assert match is not None
@@ -89,7 +95,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
             tokens.append(AnswerToken("name", "sqrt", match.start(), at))
         elif kind == "number":
             tokens.append(AnswerToken(kind, match.group(), match.start(), at))
-            at = _with_unit(tokens, text, at, words, value)
+            at = _with_unit(tokens, text, at, words, value=value, units=units)
         elif kind == "name":
             tokens += _names(match.group(), source, match.start(), words)
         else:
@@ -138,18 +144,34 @@ def with_points(text: str) -> str:
     return "".join(letters)
 
 
-def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, value: bool) -> int:
+def _in_units(text: str, words: Words) -> bool:
+    """Whether what follows the numbers of a statement are units: one is no product of names, 300 N/m, and nothing else
+    in the statement is a parameter: (8 kg + 2 kg) x'' + 300 N/m x = F."""
+    rest, at, sure = "", 0, False
+    for match in islice(_NUMBER.finditer(text), MOST):
+        if match.start() >= at and (end := _unit(text, match.end(), words, True)[1]) > match.end():
+            unit, behind = text[match.end() : end].strip(), _BEHIND.match(text, end)
+            if behind is not None and words.known(unit) and words.names.changes(behind["name"]):
+                return False  # 2 m x''
+            sure = sure or _unit(text, match.end(), words, False)[0] is not None
+            rest, at = rest + text[at : match.start()] + " ", end
+    listed = _WORD.findall(rest + text[at:]) if sure else []
+    return sure and not any(words.known(x) and not words.names.changes(x) and function_of(x) is None for x in listed)
+
+
+def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, *, value: bool, units: bool) -> int:
     """Convert the number that was just read if a unit follows that is no product of names; return where to go on.
 
-    In a ``value``, m = 2 kg, what follows the number is always a unit.
+    In a ``value``, m = 2 kg, and where a statement has ``units``, what follows the number is always a unit.
     """
     number = tokens[-1]
     if (degrees := _DEGREES.match(text, at)) is not None and not words.is_name("deg"):
-        more = [("times", "*"), ("name", "pi"), ("over", "/"), ("number", "180")]
+        tokens[-1:] = [AnswerToken("(", "(", number.start, number.start), number]  # cos 25° is cos(25 π/180)
+        more = [("times", "*"), ("name", "pi"), ("over", "/"), ("number", "180"), (")", ")")]
         tokens += [AnswerToken(kind, written, number.end, degrees.end()) for kind, written in more]
         return degrees.end()
-    factor, end = _unit(text, at, words, value or words.units)
-    if factor is None and not words.units:
+    factor, end = _unit(text, at, words, units)
+    if factor is None and not units:
         words.doubtful = words.doubtful or _unit(text, at, words, True)[0] is not None
     made = _decimal(Fraction(number.text) * factor) if factor is not None else None
     if made is None:
