@@ -47,3 +47,22 @@ def test_a_term_comes_from_an_element_that_adds_just_this_term() -> None:
     said = str(verdict)
     assert "the term k x y does not belong there" in said and "Such a term comes from spring 'inner'" not in said
     assert "It comes from particle 'first' in step 2." in said
+
+
+def test_a_wrong_derivative_of_an_own_energy_is_no_wrong_equation() -> None:
+    """∂V/∂y without the inner derivative stands beside its equation, not in place of it."""
+    rows = DAMPED.replace("n y'' + c", "n y'' - c")
+    lines = f"{ENERGIES}dV/dx = k x - c (y - x)\ndV/dy = c (x - y)\n{rows}"
+    verdict = carts().check(lines)
+    assert "follows from the energies" in str(of_line(verdict, 3).note)
+    wrong = of_line(verdict, 4)
+    assert not wrong.status.right and not wrong.differences and "not the derivative" in str(wrong.note)
+    (mistake,) = verdict.mistakes
+    assert mistake.coordinate == "y" and mistake.element == "spring 'inner'"
+
+
+def test_equations_below_a_wrong_energy_have_its_mistake_and_another() -> None:
+    """A spring counted twice in V, and a sign of the damper: not one other mistake that does the same as both."""
+    rows = DAMPED.replace("k x", "2 k x").replace("b (y' - x') = F", "b (x' - y') = F")
+    verdict = carts().check(f"{ENERGIES.replace('k x^2/2', 'k x^2')}{rows}")
+    assert [m.element for m in verdict.mistakes] == ["spring 'outer'", "damper 'between'"]

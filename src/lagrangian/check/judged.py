@@ -171,7 +171,13 @@ def _differing(
     """The right equation that one is compared with, and the terms that differ; None for one without a normal form."""
     if form is None or right is None:
         return None
-    return like.index, differences(truth, form, right, like.factor, like.index)
+    found = differences(truth, form, right, like.factor, like.index)
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    if like.factor in (1, -1) and any(d.kind == "sign" and d.term.has(*accelerations) for d in found):
+        other = differences(truth, form, right, -like.factor, like.index)
+        if not any(d.term.has(*accelerations) for d in other):  # m y″ has a sign that everybody knows
+            return like.index, other
+    return like.index, found
 
 
 def _elements(truth: Reference, index: int) -> tuple[str, ...]:

@@ -109,8 +109,11 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
         return Finding(line, Status.RIGHT)
     coordinate = truth.model.coordinates[i].name if i is not None else None
     rest = line.expr - right
+    own = line.kind == "derived" or (line.kind == "identity" and i is not None)
     if zero_everywhere(truth, rest):
-        return Finding(line, Status.RIGHT, None, coordinate)
+        return Finding(line, Status.RIGHT, text("it follows from the energies above") if own else None, coordinate)
+    if own:
+        return Finding(line, Status.WRONG, text("it is not the derivative of what is stated above"), coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     if line.kind in ("T", "V", "L", "D") and (on := _on_constraints(truth)) is not None:
@@ -202,7 +205,7 @@ def right_value(truth: Reference, line: AnsweredLine, i: int | None, turn: sp.Ma
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
     if line.kind == "D":
         return dissipation(truth)
-    if line.kind == "identity":
+    if line.kind in ("identity", "derived"):
         return sp.S.Zero
     if i is None:
         return None

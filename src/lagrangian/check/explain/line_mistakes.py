@@ -16,11 +16,11 @@ from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation,
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
-from lagrangian.model import Element, Force, Torque
+from lagrangian.model import Force, Torque
 
 ENERGIES = ("T", "V", "L", "Xi")
-DERIVED = ("p-rate", "slope", "left")
-"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, and the first less the second."""
+DERIVED = ("p-rate", "slope", "left", "derived")
+"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
 MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
 MOST_TOGETHER = 10
@@ -162,7 +162,7 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
     A Ξ without the dampers, which other ``lines`` hold, says nothing of these and of the springs beside them.
     """
     found: set[int] = set()
-    driven = {id(p) for p in pool.all if isinstance(_element(p), Force | Torque)}
+    driven = {id(p) for p in pool.all if isinstance(p.element, Force | Torque)}
     for line in right:
         i = index_of(pool.truth, line.name)
         if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
@@ -170,13 +170,6 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
             undamped = line.kind == "Xi" and without_dampers(pool.truth, line, i, lines) is not None
             found |= shown & driven if undamped else shown
     return found
-
-
-def _element(possible: Possible) -> Element | None:
-    """The element that a possible mistake concerns."""
-    if possible.change is not None:
-        return possible.change.site.element
-    return possible.wrong.variant.element if possible.wrong is not None else None
 
 
 def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:

@@ -11,6 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.align import Alignment, alignments
+from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
@@ -115,7 +116,11 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     below = below_right_equations(truth, findings)
     for sheet in sheets(truth, [f for f in of_equation if id(f.line) not in below]):
         right = [rows[id(line)] for line in sheet if id(line) in rows]
-        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
+        open_ = any(line is w for line in sheet for w in wrong)
+        more = beyond(pool, [x for x in sheet if id(x) not in combined], groups, against) if open_ else None
+        of_sheets += [(more, [])] if more else []
+        if more is None:
+            of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
     for found, more in _without_partial(of_sheets):
         groups.append(found)
         own += more

@@ -105,7 +105,7 @@ def squared(effects: Array) -> Array:
     return np.einsum("cs,cs->c", effects, effects)
 
 
-def _in_rows(
+def in_rows(
     pool: Pool, rests: Sequence[Array], under: Sequence[Alignment], rows: Sequence[int]
 ) -> list[list[Explanation]]:
     """The single mistakes that explain each of several rests of some of the system's rows, the cheapest first."""
@@ -210,7 +210,7 @@ def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]
     best: list[Explanation] = []
     for rows in dict.fromkeys(a.rows for a in found):
         own = [a for a in found if a.rows == rows]
-        best += [e for each in _in_rows(pool, [a.rest for a in own], own, rows) for e in each]
+        best += [e for each in in_rows(pool, [a.rest for a in own], own, rows) for e in each]
     best.sort(key=lambda e: e.cost)
     if best and best[0].cost <= EXOTIC:
         return best
@@ -231,7 +231,7 @@ def by_rows(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
         for j, i in enumerate(a.rows):
             if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
                 continue
-            [one] = _in_rows(pool, [a.rest[[j]]], [a], [i])
+            [one] = in_rows(pool, [a.rest[[j]]], [a], [i])
             if not one or one[0].cost > EXOTIC:
                 vectors: Vectors = pool.kept(("vectors", (i,)), lambda i=i: Vectors(pool, pool.W[:, [i]]))
                 one = sorted([*one, *vectors.pairs(a.rest[[j]], a)], key=lambda e: e.cost)

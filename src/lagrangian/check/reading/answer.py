@@ -11,7 +11,21 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.records import dataclass, field
 
 Kind: TypeAlias = Literal[
-    "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "definition", "identity", "statement", "given"
+    "equation",
+    "T",
+    "V",
+    "L",
+    "D",
+    "Xi",
+    "p",
+    "p-rate",
+    "slope",
+    "left",
+    "derived",
+    "definition",
+    "identity",
+    "statement",
+    "given",
 ]
 """What a line states:
 
@@ -21,6 +35,8 @@ Kind: TypeAlias = Literal[
     Xi          the generalized force Ξ of the coordinate ``name``
     p           ∂L/∂ξ̇ of the coordinate ``name``;  p-rate: d/dt ∂L/∂ξ̇;  slope: ∂L/∂ξ
     left        d/dt ∂L/∂ξ̇ − ∂L/∂ξ of the coordinate ``name``, worked out
+    derived     a derivative of the answer's own T*, V or D by ξ, ξ̇ or t: what the equation of the coordinate ``name``
+                has too much by it
     definition  a name of the person's own, or a coordinate of the model in new ones
     identity    lhs = rhs holds whatever the motion: the rate of a name that was defined before
     given       the value of a parameter of the model in others, which is an assumption: J = m R²/2

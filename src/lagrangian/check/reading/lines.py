@@ -314,8 +314,7 @@ class Lines:
         self.names.define(token, value)
         rates = {k for k, x in spelled_rates(str(token)) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
-            left = [c.symbol.diff(time, 2) for c in self.model.coordinates]
-            pairs = zip(left, value, strict=True)
+            pairs = zip([c.symbol.diff(time, 2) for c in self.model.coordinates], value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
         self._used_nowhere(subject, reader)
         if self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
@@ -328,8 +327,7 @@ class Lines:
         return any(key(str(x)) == key(str(token)) for sides in listed for side in sides for x, _ in names_in(side))
 
     def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
-        """Compare the velocity or acceleration of a point with the derivative of its position, which is given before,
-        component by component."""
+        """Compare the velocity or acceleration of a point with the derivative of its position, given before."""
         token, order = subject.token, subject.order
         assert token is not None
         own = self.names.mine(key(undotted(token)[0]))
@@ -375,6 +373,10 @@ class Lines:
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return made_line("left", None, value, subject.name, a, b, reader)
+        for side, own, value in ((a, left, right), (b, right, left)):
+            if (by := self.subjects.derived(side)) is not None and not is_general(own - value):
+                left, right = (value, own) if by[1] > 0 else (own, value)
+                return made_line("derived" if by[1] else "identity", left, right, by[0], a, b, reader)
         for side, value in ((left, right), (right, left)):
             if not is_general(value) and (own := [x for x, energy in ENERGIES.items() if energy == side]):
                 return made_line(cast("Kind", own[0]), None, value, None, a, b, reader)  # (T, V) = (m x'^2/2, k x^2/2)
@@ -389,7 +391,6 @@ class Lines:
         return made_line(kind, left, right, None, a, b, reader)
 
     def _not_judged(self, reader: Meaning, why: str) -> None:
-        """Tell that a statement is not judged."""
         self.names.notes.setdefault(f"'{' '.join(reader.source.text.split())}' was not judged: {why}.")
 
     def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:

@@ -220,6 +220,20 @@ class Subjects:
             return Subject("p", coordinate)
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
+    def derived(self, side: Node) -> tuple[str, int] | None:
+        """Which equation ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ or d/dt ∂T*/∂ξ̇ alone on one side adds to, and with which sign.
+
+        ∂T*/∂ξ̇ itself adds to none: 0.
+        """
+        side, rate = inside(side), False
+        if isinstance(side, Tree) and side.data == "rate" and side.children[1] == 1:
+            side, rate = inside(side.children[0]), True
+        if not isinstance(side, Tree) or side.data != "partial" or (by := self._by(side.children[1])) is None:
+            return None
+        signs = {("T", 1): int(rate), ("T", 0): -1, ("V", 0): 1, ("D", 1): 1}
+        sign = signs.get((str(side.children[0]), by[1]))
+        return None if sign is None or (rate and sign != 1) else (by[0], sign)
+
     def _derivative_of_energy(self, side: Node) -> Subject | None:
         """Recognize ∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""
         if not isinstance(side, Tree):
@@ -232,7 +246,14 @@ class Subjects:
         of_kinetic = side.children[0] == "T"
         if of_kinetic and ("T" in self.names.stating or self.names.energy("T") is not None):
             return None
-        found = only_name(side.children[1])
+        by = self._by(side.children[1])
+        if by is None or (of_kinetic and not by[1]):
+            return None
+        return Subject("p" if by[1] else "slope", by[0])  # ∂T*/∂ξ̇ = ∂L/∂ξ̇: V has no rates
+
+    def _by(self, side: Node) -> tuple[str, int] | None:
+        """The coordinate of the model by which, or by whose rate (1), something is differentiated."""
+        found = only_name(side)
         if found is None or self.names.coordinates() is not None:
             return None
         token, primes = found
@@ -242,8 +263,5 @@ class Subjects:
             names, dots = next(
                 ([x], k) for k, x in [*((k, x) for k, x in spelled_rates(token) if x in coordinates), (0, "")]
             )
-        if len(names) != 1 or names[0] not in coordinates or primes + dots > 1:
-            return None
-        if of_kinetic and not primes + dots:
-            return None
-        return Subject("p" if primes + dots else "slope", names[0])  # ∂T*/∂ξ̇ = ∂L/∂ξ̇: V has no rates
+        known = len(names) == 1 and names[0] in coordinates and primes + dots <= 1
+        return (names[0], primes + dots) if known else None

@@ -25,6 +25,7 @@ from lagrangian.check.explain.changes.work import WorkChanges
 from lagrangian.check.reference import Reference
 from lagrangian.derive import Derived
 from lagrangian.derive.sampling import Array
+from lagrangian.model import Element
 from lagrangian.records import dataclass
 
 MOST = 9_000
@@ -43,6 +44,13 @@ class Possible:
     cost: float
     change: LocalChange | None = None
     wrong: Wrong | None = None
+
+    @property
+    def element(self) -> Element | None:
+        """The element that it concerns."""
+        if self.change is not None:
+            return self.change.site.element
+        return self.wrong.variant.element if self.wrong is not None else None
 
     def takes(self, number: Fraction) -> bool:
         """Whether a multiple of it is a mistake of the same kind."""
