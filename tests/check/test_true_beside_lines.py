@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from functools import cache
 
+import sympy as sp
+
 import lagrangian as lg
 from lagrangian.check.verdict import Finding
 
@@ -66,3 +68,38 @@ def test_equations_below_a_wrong_energy_have_its_mistake_and_another() -> None:
     rows = DAMPED.replace("k x", "2 k x").replace("b (y' - x') = F", "b (x' - y') = F")
     verdict = carts().check(f"{ENERGIES.replace('k x^2/2', 'k x^2')}{rows}")
     assert [m.element for m in verdict.mistakes] == ["spring 'outer'", "damper 'between'"]
+
+
+@cache
+def slope() -> lg.Derivation:
+    """A block on the slope of a cart, with friction between them, and a force on the block along the ground."""
+    s = lg.System("slope")
+    x, u = s.coordinates("x u")
+    M, m, b = s.parameters("M m b")
+    alpha, g = s.parameter("alpha", unit="rad"), s.parameter("g")
+    s.particle(M, at=s.point("cart", (x, 0)), name="cart")
+    block = s.point("block", (x + u * sp.cos(alpha), u * sp.sin(alpha)))
+    s.particle(m, at=block, name="block")
+    s.gravity((0, -1), g)
+    s.damper(b, deflection=u, name="friction")
+    s.force((s.input("F"), 0), at=block, name="push")
+    return s.derive()
+
+
+def test_a_damper_with_the_absolute_speed_along_a_slope() -> None:
+    verdict = slope().check("D = 1/2 b (u' + x' cos(alpha))^2")
+    (mistake,) = verdict.mistakes
+    assert mistake.name == "damper_other_velocity" and str(mistake.what).endswith("it is u'.")
+
+
+def test_a_letter_is_left_out_only_where_it_stands() -> None:
+    rows = "(M+m)*x'' + m*cos(alpha)*u'' = F\nm*u'' + m*cos(alpha)*x'' + m*g*sin(alpha) + b*u' = F"
+    verdict = slope().check(rows)
+    said = [str(m.what) for m in (*verdict.mistakes, *verdict.alternatives)]
+    assert said and not any("'friction'" in x for x in said), said
+
+
+def test_a_second_choice_is_another_cause() -> None:
+    verdict = carts().check(f"{ENERGIES.replace('c (y - x)^2', 'c (y + x)^2')}{DAMPED}")
+    said = [str(m.what) for m in (*verdict.mistakes, *verdict.alternatives)]
+    assert len([x for x in said if "x + y" in x or "y + x" in x]) == 1, said

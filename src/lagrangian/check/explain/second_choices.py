@@ -32,13 +32,26 @@ def distinct(others: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistak
 
 
 def _repeats(mistake: Mistake, other: Mistake) -> bool:
-    """Whether both say that the same was done, to the same letters or to the same element."""
+    """Whether both say that the same was done, to the same letters or to the same element.
+
+    x + y in place of y - x, and x + y where it is y - x, is the same, whatever it is called.
+    """
+    one, two = _written(mistake), _written(other)
+    quoted, others = _quoted(mistake), _quoted(other)
+    replaced = len(one) > 1 and len(two) > 1 and mistake.element in (other.element, None)
+    if replaced and (one == two or (len(quoted) > 1 and quoted == others)):
+        return True
     if _family(mistake) != _family(other):
         return False
-    one, two = _quoted(mistake), _quoted(other)
-    if one and two:
-        return one == two or (mistake.element == other.element and (one <= two or two <= one))
+    if quoted and others:
+        return quoted == others or (mistake.element == other.element and (quoted <= others or others <= quoted))
     return mistake.element is None or other.element is None or mistake.element == other.element
+
+
+def _written(mistake: Mistake) -> set[sp.Expr]:
+    """The formulas in the words, of two signs the same one."""
+    exprs = (x for x in mistake.what.parts if isinstance(x, sp.Expr))
+    return {-x if x.could_extract_minus_sign() else x for x in exprs}
 
 
 def _family(mistake: Mistake) -> str:

@@ -373,10 +373,8 @@ class Lines:
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return made_line("left", None, value, subject.name, a, b, reader)
-        for side, own, value in ((a, left, right), (b, right, left)):
-            if (by := self.subjects.derived(side)) is not None and not is_general(own - value):
-                left, right = (value, own) if by[1] > 0 else (own, value)
-                return made_line("derived" if by[1] else "identity", left, right, by[0], a, b, reader)
+        if (derived := self.subjects.derived((a, left), (b, right))) is not None:
+            return made_line(*derived, a, b, reader)
         for side, value in ((left, right), (right, left)):
             if not is_general(value) and (own := [x for x, energy in ENERGIES.items() if energy == side]):
                 return made_line(cast("Kind", own[0]), None, value, None, a, b, reader)  # (T, V) = (m x'^2/2, k x^2/2)

@@ -12,7 +12,7 @@ from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reading.answer import Kind
-from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
 from lagrangian.check.reading.stated import energy_of, momentum_of
@@ -220,11 +220,19 @@ class Subjects:
             return Subject("p", coordinate)
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
-    def derived(self, side: Node) -> tuple[str, int] | None:
-        """Which equation ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ or d/dt ∂T*/∂ξ̇ alone on one side adds to, and with which sign.
+    def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr, sp.Expr, str] | None:
+        """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
+        one of its ``sides``, trees and values: as a line less its place."""
+        for (side, own), (_, value) in (sides, sides[::-1]):
+            found = self._added_by(side)
+            if found is not None and not is_general(own - value):
+                name, sign = found
+                left, right = (value, own) if sign > 0 else (own, value)
+                return "derived" if sign else "identity", left, right, name
+        return None
 
-        ∂T*/∂ξ̇ itself adds to none: 0.
-        """
+    def _added_by(self, side: Node) -> tuple[str, int] | None:
+        """Which equation a derivative adds to, and with which sign; ∂T*/∂ξ̇ itself adds to none: 0."""
         side, rate = inside(side), False
         if isinstance(side, Tree) and side.data == "rate" and side.children[1] == 1:
             side, rate = inside(side.children[0]), True

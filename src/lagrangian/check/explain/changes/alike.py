@@ -26,11 +26,13 @@ def bodies(
         if 1 < len(group) < len(listed):
             names = _names(group)
             words: Words = (f"the kinetic energy of {names}",)
-            T = plus(*[kinetic[b] for b in group])
-            yield Site(words=words, brief=words, step=2, element=group[0], T=T, surcharge=0.1, sign_cost=0.9)
-            V = plus(*[weights[b][1] for b in group if b in weights])
+            own = tuple(kinetic[b] for b in group)
+            made = {"words": words, "brief": words, "element": group[0], "members": own}
+            yield Site(**made, step=2, T=plus(*own), surcharge=0.1, sign_cost=0.9)
+            own = tuple(weights[b][1] for b in group if b in weights)
             words = (f"the weights of {names}",)
-            yield Site(words=words, brief=words, step=3, element=group[0], V=V, surcharge=0.1)
+            made |= {"words": words, "brief": words, "members": own}
+            yield Site(**made, step=3, V=plus(*own), surcharge=0.1)
 
 
 def springs(energies: Mapping[Element, Sum]) -> Iterator[Site]:
@@ -59,8 +61,9 @@ def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) ->
         if len(held) > 1:
             names = _names(held) if len(held) == 2 else "all forces"
             words: Words = (f"what {names} add to the equation of ", coordinate)
-            Xi = {i: plus(*[shares[e][i] for e in held])}
-            yield Site(words=words, brief=words, step=6, element=held[0], coordinate=i, Xi=Xi, surcharge=0.15)
+            own = tuple(shares[e][i] for e in held)
+            made = {"words": words, "brief": words, "element": held[0], "members": own if len(held) == 2 else ()}
+            yield Site(**made, step=6, coordinate=i, Xi={i: plus(*own)}, surcharge=0.15)
 
 
 def all_but_one(element: Element, shares: Mapping[int, Sum], q: Sequence[sp.Expr]) -> Iterator[Site]:

@@ -37,6 +37,8 @@ class Site:
     surcharge: float = 0.0
     single: bool = False
     whole: bool = False
+    members: tuple[Sum, ...] = ()
+    """What each element adds, if its words name several."""
     sign_cost: float = 0.15
     """What the other sign costs besides; less where a sign is slipped most easily."""
 
@@ -50,6 +52,10 @@ class Site:
     def atoms(self) -> list[int]:
         """The atoms in its sums."""
         return sorted({a for s in self.sums() for m in s for a, _ in m})
+
+    def shared_atoms(self) -> list[int]:
+        """The atoms that all members of a group have: a change of any other one leaves a member as it is."""
+        return [a for a in self.atoms() if all(any(a == b for m in x for b, _ in m) for x in self.members)]
 
     def changed(self, change: Callable[[Sum], Sum]) -> Site:
         """What the site gains when every sum is replaced by ``change`` of it: the differences."""

@@ -37,7 +37,7 @@ class LetterChanges:
     def changes(self, places: Iterable[Site]) -> Iterator[LocalChange]:
         """All changes of one atom at every site."""
         for site in places:
-            for atom in site.atoms():
+            for atom in site.shared_atoms():
                 yield from self._at(site, atom)
 
     def exchanges(self, places: Iterable[Site]) -> Iterator[LocalChange]:

@@ -11,6 +11,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.ring import Sum, TooLong, minus
 from lagrangian.check.explain.changes.sites import Sites
+from lagrangian.model import time
 from lagrangian.page.formula import Name
 
 MOST_SUMMANDS = 4
@@ -46,15 +47,25 @@ class SumChanges:
                     yield self._of(cost + 0.1, site, whole, instead)
 
     def _sums(self) -> list[sp.Expr]:
-        """The sums inside T* and V of lengths and what moves, without squares and rates."""
+        """The sums of lengths and what moves inside T* and V, without squares and rates.
+
+        A sum of products with other letters, m g + k y, is a common factor and no length.
+        """
         s = self.sites.of
         found: dict[Any, None] = {}
         for energy in (self.T, self.V):
             for node in sp.preorder_traversal(energy):
                 if isinstance(node, sp.Add) and node != energy and not node.has(*s.v):
                     found[node] = None
+        held = {f: sp.S.One for x in found for f in x.atoms(sp.sin, sp.cos)}
+        known = {*self.lengths, time}
         plain = [
-            x for x in found if len(x.args) <= MOST_SUMMANDS and x.has(*s.q, *self.lengths) and not x.atoms(sp.Pow)
+            x
+            for x in found
+            if len(x.args) <= MOST_SUMMANDS
+            and x.has(*s.q, *self.lengths)
+            and not x.atoms(sp.Pow)
+            and cast("sp.Expr", x.xreplace(held)).free_symbols <= known
         ]
         return plain[:MOST_SUMS]
 

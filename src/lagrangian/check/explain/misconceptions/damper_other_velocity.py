@@ -66,9 +66,19 @@ def _rates(s: Ingredients, rate: sp.Expr) -> list[sp.Expr]:
     """The velocities that are taken for a rate."""
     found = [x for body in s.bodies for x in s.velocity(body)]
     if rate in s.v:
-        found.append(_absolute(s, s.v.index(rate)))
+        i = s.v.index(rate)
+        found = [*(x for body in s.bodies for x in _along(s, body, i)), *found, _absolute(s, i)]
     usable = [x for x in dict.fromkeys(found) if x not in (0, rate, -rate) and bounded.size(x) <= LONGEST]
     return [x for x in usable if any(x.has(v) for v in s.v)][:MOST_RATES]
+
+
+def _along(s: Ingredients, body: Body, i: int) -> Iterator[sp.Expr]:
+    """The component of a body's velocity in the direction in which a coordinate moves it: ṡ + ẋ cos α on a slope."""
+    velocity = s.velocity(body)
+    slopes = [[bounded.diff(x, v) for x in velocity] for v in s.v]
+    with_own = [bounded.trigsimp(sp.Add(*[a * b for a, b in zip(x, slopes[i], strict=True)])) for x in slopes]
+    if with_own[i] != 0 and with_own[i].is_number:
+        yield sp.Add(*[x * v for x, v in zip(with_own, s.v, strict=True)]) / sp.sqrt(with_own[i])
 
 
 def _absolute(s: Ingredients, i: int) -> sp.Expr:

@@ -12,7 +12,7 @@ from lagrangian.model import Element
 from lagrangian.page.formula import Text, text
 
 STEP = 6
-WHY = text("Ξ = F·∂r/∂ξ: for an angle, that is the force times its arm, a torque.")
+WHY = text("Ξ = F·∂r/∂ξ: a force counts with how far its point moves for each unit of ξ, for an angle with its arm.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

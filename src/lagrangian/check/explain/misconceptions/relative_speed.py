@@ -62,7 +62,7 @@ def _carried(s: Ingredients, body: Any) -> Iterator[Variant]:
     carrying = {v for v in s.v if any(x.has(v) for x in parent)}
     doubt = 1 if any(x.has(*carrying) for x in _relative(s, body)) and carrying else 0  # the parent turns, too
     others = [(parent, "its parent", doubt)]
-    others += [(s.velocity(b), b.title, 1) for b in s.bodies if b is not body]
+    others += [(s.velocity(b), b.title, 2) for b in s.bodies if b is not body]
     for other, words, doubt in others:
         if any(x != 0 for x in other) and other != own:
             relative = tuple(a - b for a, b in zip(own, other, strict=True))
