@@ -41,6 +41,8 @@ ANSWERS = {
     "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
     "letters in words": "x1'' = 0\n" + "c statt k, " * (N // 11),
     "words of one letter": "x1'' = 0\n" + "c for a " * (N // 8),
+    "a rule before blanks": "x1'' = 0\n-- " + BLANK + "y --",
+    "rules": "x1'' = 0\n" + "-- y " * (N // 5),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
 }
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+from lagrangian.check.reading.ruled import without_rules
 from lagrangian.check.reading.traced_text import TracedText
 
 _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
@@ -23,10 +24,6 @@ _OF_FORCE = re.compile(r"^[ \t]*[-–][ \t]+(?=(?:Q|Ξ|Xi)_?\w{1,12}[ \t]*=)", r
 """What stands in front of a generalized force that a line states is no minus."""
 _OF_CODE = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=`)", re.MULTILINE)
 """Nor is what stands in front of a piece of code."""
-_RULED = re.compile(
-    r"^[ \t]*(?P<rule>[-=*_~#–—]{2,12})[ \t]+[^\W_](?:[^\n=]{0,60}[\w)])?[ \t]+(?P=rule)[ \t]*$", re.MULTILINE
-)
-"""A heading between rules: --- r ---."""
 _TERM = re.compile(
     r"[ \t]*[-–][ \t]+(?![$]|\\[(\[]|[^\W\d]\w*(?:\{\w{1,12}\})?['’′]{0,2}[ \t]*[:=]"
     r"|[^\W\d_]{2,}:?[ \t]+[^\W\d_]{2,}(?!\w)[ \t:])"
@@ -60,7 +57,8 @@ _BEHIND_SENTENCE = re.compile(
 
 def without_markup(text: str) -> str:
     """Return an answer without Markdown; what is not mathematics is blank."""
-    for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE, _OF_FORCE, _OF_CODE, _RULED):
+    text = without_rules(text)
+    for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE, _OF_FORCE, _OF_CODE):
         text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
     text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)

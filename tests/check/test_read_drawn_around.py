@@ -1,0 +1,61 @@
+"""What is drawn around equations is no part of them: boxes, rules, headings between rules, arrows.
+
+Oracle: by hand, a mass on a spring, m ẍ + k x = F, whose T* has the rate e of nothing else.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from lagrangian import Derivation, ParseError, System
+
+
+@cache
+def spring() -> Derivation:
+    """A mass on a spring, and a damper with the letter d."""
+    sys = System("spring")
+    x = sys.coordinates("x")
+    m, k, d = sys.parameters("m k d")
+    sys.particle(m, at=sys.point("A", (x, 0)))
+    sys.spring(k, deflection=x)
+    sys.damper(d, deflection=x)
+    sys.generalized_force(x, sys.input("F"))
+    return sys.derive()
+
+
+def right(answer: str) -> bool:
+    """Whether an answer is judged right; one that is refused is not."""
+    try:
+        return spring().check(answer).right
+    except ParseError:
+        return False
+
+
+DRAWN = [
+    "+-----------+\n| {} |\n+-----------+",
+    "   +===========+\n   |  {}  |\n   +===========+",
+    "*************\n* {} *\n*************",
+    "#############\n# {} #\n#############",
+    "-------------\n| {} |\n-------------",
+    "--- output (lhs = rhs) ---\n{}",
+    "=== RESULT (x = way) ===\n{}\n=========",
+    "*** {} ***",
+    "===== {}",
+    "{}   --------",
+    "so that\n   -> {}",
+    "T = 1/2 m x'^2\n d/dt dT/dx': m x''\n    -> {}",
+    "==> {}",
+    "--> {}",
+    "k x is the spring force ->\n{}",
+    "{} ->",
+    "{} =>",
+]
+
+
+@pytest.mark.parametrize("drawn", DRAWN)
+def test_frames_and_arrows_are_no_part_of_an_equation(drawn: str) -> None:
+    assert right(drawn.format("m x'' + d x' + k x = F"))
+    assert right(drawn.format("m*x'' = F - d*x' - k*x"))
+    assert not right(drawn.format("m x'' + d x' - k x = F"))
