@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import sympy as sp
@@ -16,6 +16,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 
 
@@ -29,10 +30,11 @@ def beside(
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
-    values = [line for line in lines if line.kind == "identity" and rests(truth, line.expr)]
+    said = [line for line in lines if line.kind == "identity" and not line.expr.has(sp.Derivative)]
+    values = [line for line in said if rests(truth, line.expr, said="rest" in line.beside)]
     if not (wrong or values) or comparison.rank < truth.n:
         return lines, ()
-    aside = {id(line): why for line in wrong if (why := place_or_approximation(truth, line.expr, line.text))}
+    aside = {id(line): why for line in wrong if (why := _place(truth, line, wrong))}
     aside |= {id(line): AT_REST for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
@@ -41,11 +43,50 @@ def beside(
     others = [line for line in wrong if id(line) not in aside]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
+    aside |= {id(line): why for line in wrong if id(line) not in aside and (why := _remark(truth, line))}
     kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
     told = [f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside]
     untrue = [line for line in wrong if id(line) not in aside and only_places(truth, line.expr)]
     told += [f"'{line.text}' is not true: neither of every motion nor of a position at rest." for line in untrue]
     return kept, tuple(text(note) for note in dict.fromkeys(told))
+
+
+def _place(truth: Reference, line: AnsweredLine, wrong: Sequence[AnsweredLine]) -> str | None:
+    """Why a line about positions is not about every motion, with what else its line says: τ = 0, F = m g."""
+    given = [x.expr for x in wrong if x.number == line.number and x is not line]
+    return place_or_approximation(truth, line.expr, line.text, given, said="rest" in line.beside)
+
+
+def _remark(truth: Reference, line: AnsweredLine) -> str | None:
+    """Why a line of a remark is not judged: all but a position at rest, and an equation in a check that is wrong in
+    every special case."""
+    known = {x.symbol for x in (*truth.model.parameters, *truth.model.inputs, *truth.model.coordinates)} | {time}
+    foreign = (line.expr.free_symbols | line.expr.atoms(AppliedUndef)) - known
+    accelerates = line.expr.has(*(c.acceleration for c in truth.model.coordinates))
+    if not line.beside & {"check", "case"}:
+        return None
+    if "rest" in line.beside and rests(truth, line.expr, said=True) is False:
+        return None
+    if "case" in line.beside or foreign or not accelerates:
+        return "it is a remark beside the equations"
+    zero = _special_case(truth, line.expr)
+    return None if zero is None else f"it holds in a special case alone, {zero}"
+
+
+def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
+    """The case in which an equation is right: a letter or an input is 0, or all inputs, or a coordinate is held there,
+    whose own equation says how it is held."""
+    model, P = truth.model, CompiledExpressions([expr]).at(truth.states)
+    cases: list[tuple[str, list[Any], int | None]] = [
+        *((f"{x.name} = 0", [x.symbol], None) for x in (*model.inputs, *model.parameters)),
+        *((f"{c.name} = 0", [c.symbol, c.rate, c.acceleration], i) for i, c in enumerate(model.coordinates)),
+        ("without inputs", [u.symbol for u in model.inputs], None),
+    ]
+    for words, zero, held in cases:
+        rows = [row.xreplace(dict.fromkeys(zero, sp.S.Zero)) for i, row in enumerate(truth.rows) if i != held]
+        if factors_of(truth, P, CompiledExpressions(rows).at(truth.states))[1][0]:
+            return words
+    return None
 
 
 def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:

@@ -12,6 +12,7 @@ system. What is wrong is found so; which mistake explains it is not sought.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any, cast
 
@@ -105,7 +106,7 @@ class _Truth:
             if (name := getattr(symbol, "name", "")) in names:
                 table[symbol] = names[name]
         expr = self.model.expand(cast("sp.Expr", line.expr.xreplace(table)), constants=True)
-        return AnsweredLine(line.kind, expr, line.number, line.name, line.text)
+        return replace(line, expr=expr)
 
     def answer(self, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic]) -> _AnswerInNumbers:
         """The equations of an answer at random states."""

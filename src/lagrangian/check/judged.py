@@ -66,14 +66,17 @@ def judged_lines(
         findings.append(replace(finding, line=own))
     findings = findings if change is not None else right_together(truth, findings)
     status, found = _overall(truth, comparison, findings)
-    motion = status is Status.WRONG and _ends_right(truth, [line.expr for line in equations], comparison)
+    motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
 
 
-def _ends_right(truth: Reference, exprs: Sequence[sp.Expr], comparison: RowComparison) -> bool:
-    """Whether the equations behind the last wrong one that accelerates are as many as there are coordinates."""
+def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison) -> bool:
+    """Whether the equations behind the last wrong one that accelerates are as many as there are coordinates; a remark
+    is not the last word."""
     accelerations = [c.acceleration for c in truth.model.coordinates]
-    wrong = [j for j, row in enumerate(comparison.rows) if row.kind is Kind.WRONG and exprs[j].has(*accelerations)]
+    told = [j for j, row in enumerate(comparison.rows) if row.kind is Kind.WRONG and not lines[j].beside]
+    exprs = [line.expr for line in lines]
+    wrong = [j for j in told if exprs[j].has(*accelerations)]
     rows = exprs[wrong[-1] + 1 :] if wrong else exprs
     rank = comparison.rank if rows is exprs or len(rows) < truth.n else compare(truth, rows).rank
     return len(rows) >= truth.n and rank >= truth.n

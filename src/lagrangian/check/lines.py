@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
@@ -22,7 +23,8 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
     found: list[AnsweredLine] = []
     for k, stated in enumerate(answer.lines, 1):
         number = stated.place.line if stated.place is not None and stated.place.line is not None else k
-        found.append(AnsweredLine(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text))
+        beside = answer.beside.get(number, frozenset())
+        found.append(AnsweredLine(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text, beside))
     return tuple(found)
 
 
@@ -86,7 +88,7 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
         kind, expr = line.kind, truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
         if _is_other_lagrangian(line):
             kind, expr = "L", cast("sp.Expr", expr.xreplace(energies))
-        out.append(AnsweredLine(kind, expr, line.number, line.name, line.text))
+        out.append(replace(line, kind=kind, expr=expr))
     return tuple(out)
 
 

@@ -9,6 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.at_rest import DIGITS, at_rest
 from lagrangian.check.reference import Reference
 from lagrangian.model import time
 
@@ -18,7 +19,6 @@ HIGHEST = 4
 LONG = 300
 """The size of a line above which it is no position."""
 
-DIGITS = 30
 STEPS = 40
 """The most steps of Newton's method to a position."""
 
@@ -36,18 +36,21 @@ def only_places(truth: Reference, expr: sp.Expr) -> set[AppliedUndef]:
     return changing if changing <= places and not expr.has(sp.Derivative) else set()
 
 
-def place_or_approximation(truth: Reference, expr: sp.Expr, written: str) -> str | None:
+def place_or_approximation(
+    truth: Reference, expr: sp.Expr, written: str, given: Sequence[sp.Expr] = (), *, said: bool = False
+) -> str | None:
     """Why a line, as it is ``written``, with its difference ``expr``, is not about every motion; None if it is.
 
     A position may be any, θ = 0, if a real one exists (not cos θ = 7), or one at rest: then a row at rest vanishes
-    where the line holds. An approximation holds to a higher order than its degree.
+    where the line holds, with the values that are ``given`` beside it; ``said``: words say that it is about rest. An
+    approximation holds to a higher order than its degree.
     """
     if "=" in written and _is_input(truth, expr):
         return "it is about one value of an input"
     if "=" not in written or bounded.hard([expr], LONG):
         return None
-    if rests(truth, expr):
-        return AT_REST
+    if (holds := rests(truth, expr, given, said=said)) is not None:
+        return AT_REST if holds else None
     changing = only_places(truth, expr)
     if not changing:
         return None
@@ -69,44 +72,26 @@ def is_rate(truth: Reference, expr: sp.Expr) -> bool:
     return bool(expr.diff(rate).is_number) and (rest.is_number or (-rest).is_Symbol or rest.is_Symbol)
 
 
-def rests(truth: Reference, expr: sp.Expr) -> bool:
-    """Whether a line gives coordinates the constant values that they have at rest: s = m g/k, x2 - x1 = F/k2.
+def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, said: bool = False) -> bool | None:
+    """Whether a line about positions at rest is right, s = m g/k; None if it need not be about these, or is not clear.
 
-    Rows of the system that are linear in the coordinates at rest, with constant inputs or without these, say so.
+    It is where it is ``said``, except for θ = 0, and where coordinates get a value that is not 0: that may be any
+    position, x = L/2, unless it is a product of letters; k x = F may be meant as an equation of motion.
     """
+    if expr.has(sp.Derivative):
+        return None
     coordinates = [c.symbol for c in truth.model.coordinates]
-    still: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
     slopes = [expr.diff(q) for q in coordinates]
-    if expr.has(sp.Derivative) or not any(slopes) or not all(x.is_number for x in slopes):
-        return False
-    for given in (True, False):
-        inputs = {u.symbol: sp.Symbol(u.name) if given else sp.S.Zero for u in truth.model.inputs}
-        listed = [cast("sp.Expr", x.xreplace(still | inputs)) for x in (*truth.rows, expr)]
-        names = sorted(set().union(*(x.free_symbols for x in listed)) - {time}, key=str)
-        table = {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
-        *rows, own = (_linear(cast("sp.Expr", x.xreplace(table)), coordinates) for x in listed)
-        if own is not None and own[-1] != 0 and _combined([row for row in rows if row is not None], own):
-            return True
-    return False
-
-
-def _linear(expr: sp.Expr, coordinates: Sequence[AppliedUndef]) -> list[sp.Expr] | None:
-    """The factors of the coordinates in an expression of numbers, and what is left; None if it is not linear."""
-    parts = [expr.diff(q) for q in coordinates]
-    parts.append(cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero))))
-    return [sp.N(x, DIGITS) for x in parts] if all(x.is_number and x.is_finite for x in parts) else None
-
-
-def _combined(rows: list[list[sp.Expr]], own: list[sp.Expr]) -> bool:
-    """Whether a row of numbers is a sum of multiples of others; those with a last number alone do not count."""
-    small = sp.Float(10) ** (10 - DIGITS)
-    for k in range(len(own) - 1):
-        pivot = max(rows, key=lambda row: abs(row[k]), default=None)
-        if pivot is None or abs(pivot[k]) <= small:
-            continue
-        rows = [row for row in rows if row is not pivot]
-        own, *rows = ([a - b * row[k] / pivot[k] for a, b in zip(row, pivot, strict=True)] for row in (own, *rows))
-    return all(abs(x) <= small for x in own)
+    value = bounded.expand(cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero))))
+    terms = (x.free_symbols - {time} | x.atoms(AppliedUndef) for x in sp.Add.make_args(value))
+    formula = any(len(x) > 1 for x in terms)
+    moving = [x for x in slopes if x != 0]
+    claims = said and (value != 0 or len(moving) > 1)
+    valued = value != 0 and bool(moving) and (all(x.is_number for x in slopes) or not value.atoms(AppliedUndef))
+    if not claims and not valued:
+        return None
+    holds = at_rest(truth, expr, given)
+    return holds if holds or claims or formula else None
 
 
 def _is_input(truth: Reference, expr: sp.Expr) -> bool:

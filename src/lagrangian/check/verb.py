@@ -108,6 +108,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
     own = _deciding(derivation, answer)
+    wrong: set[tuple[int, str]] = set()
     for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
         try:
             other = reading()
@@ -115,8 +116,9 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             continue
         for decides in own if other is answer else _deciding(derivation, other):
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
-            if verdict.right:
+            if verdict.right and wrong <= {(line.number, line.text) for line in decides.lines}:
                 return _told(verdict, other, decides.notes)
+            wrong |= _wrong_beside(verdict) if other is answer else set()
     decides = own[-1]
     verdict = check.check(derivation, decides.lines, hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
@@ -128,6 +130,12 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     if asked := unexplained(derivation, answer, verdict):
         raise question(asked)
     return _told(verdict, answer, decides.notes)
+
+
+def _wrong_beside(verdict: check.Verdict) -> set[tuple[int, str]]:
+    """The lines of remarks that are wrong beside right equations: no reading without these is taken."""
+    wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG] if verdict.motion else []
+    return {(line.number, line.text) for line in wrong if line.beside}
 
 
 def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:

@@ -33,13 +33,17 @@ class Status(StrEnum):
 @dataclass(frozen=True)
 class AnsweredLine(Brief):
     """One line of an answer: what kind it is and what it states. ``expr`` is the energy, the force, or left minus
-    right."""
+    right.
+
+    ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
+    """
 
     kind: str
     expr: sp.Expr
     number: int
     name: str | None = None
     text: str = ""
+    beside: frozenset[str] = frozenset()
 
     @property
     def title(self) -> str:

@@ -156,7 +156,7 @@ def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
         moving = cast("sp.Expr", sp.diff(meaning, time))
         table |= {sp.Derivative(speed, time): moving, speed: meaning, sp.Symbol(plain(speed)): meaning}
     expr = cast("sp.Expr", line.expr.xreplace(table))
-    return AnsweredLine(line.kind, expr, line.number, line.name, line.text)
+    return replace(line, expr=expr)
 
 
 def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
@@ -170,7 +170,7 @@ def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
         if line.kind == "definition" and line.name == name and _left(line) in (f"{name}'", rf"\dot{{{name}}}"):
             expr = rate - line.expr
         if expr is not None:
-            return AnsweredLine("equation", expr, line.number, line.name, line.text)
+            return replace(line, kind="equation", expr=expr)
     return line
 
 

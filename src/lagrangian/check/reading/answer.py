@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Literal, TypeAlias
 
 import sympy as sp
@@ -105,6 +105,8 @@ class Answer:
     """The names of which words say what they are."""
     unread: frozenset[str] = frozenset()
     """The names, in the form of `lagrangian.read.letters.key`, in parts that were not read and may explain them."""
+    beside: Mapping[int, frozenset[str]] = field(default_factory=dict)
+    """What words say of lines that may stand beside the equations, by number; see `side_remarks`."""
     others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
     doubt: ParseError | None = field(default=None, repr=False, compare=False)
     """The error of parts that were not read and may say what names of the system mean: no reason to call it wrong."""

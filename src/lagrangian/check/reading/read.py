@@ -182,8 +182,8 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
     """The answer in one reading; those that are less likely are added to ``others``."""
     given, lines = text, Lines(model)
-    bare, remarks = without_side_remarks(text, model, lines.names.known)
-    text = bare if reading.bare else text
+    remarks = without_side_remarks(text, model, lines.names.known)
+    text = remarks.text if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
     plain = _without_notations(typed, lines)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
@@ -212,7 +212,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
         listing = not listed if choice else None
-        others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks))
+        others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)
@@ -221,7 +221,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
             others += marked_readings(marked(), lines.failed)
     again = [partial(_answer, given, model, place, x, []) for x in others]
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
-    aside += told_remarks(remarks) if reading.bare else []
+    aside += told_remarks(remarks.lines) if reading.bare else []
     notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
@@ -232,6 +232,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
         notes,
         said,
         unread,
+        remarks.said,
         tuple(again),
         together(lines.doubts) if lines.doubts else None,
         bool(lines.lacking),

@@ -11,7 +11,8 @@ remarks.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
 from lagrangian.check.reading.prose.remarks import accelerates_in
@@ -37,6 +38,12 @@ _CASES = (
 CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
 
+_REST = re.compile(
+    r"\b(?:at rest|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique)"
+    r"|gleichgewicht",
+    re.IGNORECASE,
+)
+"""Words of positions at rest."""
 _FIRST = 6
 """The words of a line of which one says that it is a remark."""
 _MOST = 40
@@ -84,8 +91,18 @@ class _Remark:
     case: bool
 
 
-def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) -> tuple[str, tuple[int, ...]]:
-    """Return an answer in which remarks are blank, and the numbers of the lines with their statements."""
+@dataclass(frozen=True)
+class SideRemarks:
+    """An answer in which remarks are blank, the numbers of the lines with their statements, and what words say of lines
+    by number: that they are "rest", and whether they are part of a "check" or of a "case"."""
+
+    text: str
+    lines: tuple[int, ...]
+    said: Mapping[int, frozenset[str]]
+
+
+def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) -> SideRemarks:
+    """Find the remarks in an answer."""
     lines = text.split("\n")
     starts = [0, *accumulate(len(line) + 1 for line in lines)]
     found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
@@ -98,8 +115,17 @@ def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) 
     bare = _blanked(text, found)
     used = [r for r in found if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known))]
     bare = _blanked(text, [r for r in found if r not in used]) if used else bare
-    changed = (k for k, at in enumerate(starts[:-1]) if not bare.startswith(lines[k], at))
-    return bare, tuple(k + 1 for k in changed if "=" in lines[k])
+    changed = [k for k, at in enumerate(starts[:-1]) if not bare.startswith(lines[k], at)]
+    said: dict[int, frozenset[str]] = {}
+    for r in found:
+        inside = range(bisect_right(starts, r.start) - 1, bisect_right(starts, r.end - 1))
+        rests = any(_REST.search(lines[k]) for k in inside[:1])
+        for k in inside:
+            said[k + 1] = said.get(k + 1, frozenset()) | {"case" if r.case else "check", *(["rest"] if rests else [])}
+    for k, line in enumerate(lines):
+        if _REST.search(line):
+            said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
+    return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)
 
 
 def _blanked(text: str, remarks: Sequence[_Remark]) -> str:

@@ -1,0 +1,84 @@
+"""What right equations have beside them is judged where it says something: positions at rest, and checks.
+
+Oracle: two hanging masses, k1 y1 = 2 m g and k2 (y2 − y1) = m g at rest; a lever of two ropes, which rests for
+m1 R = m2 r alone.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+
+HANGING = "m y1'' + k1 y1 - k2 (y2 - y1) = m g\nm y2'' + k2 (y2 - y1) = m g"
+DRUM = "(J + m_2 r^2) phi'' + k R (R phi - y) + m_2 g r = tau\nm_1 y'' - k (R phi - y) = m_1 g"
+
+
+@cache
+def hanging() -> lg.Derivation:
+    s = lg.System("two hanging masses")
+    y1, y2 = s.coordinates("y1 y2")
+    m, k1, k2, g = s.parameters("m k1 k2 g")
+    for name, y in (("A", y1), ("B", y2)):
+        s.particle(m, at=s.point(name, (0, -y)))
+    s.gravity((0, -1), g)
+    s.spring(k=k1, deflection=y1)
+    s.spring(k=k2, deflection=y2 - y1)
+    return s.derive()
+
+
+@cache
+def drum() -> lg.Derivation:
+    s = lg.System("drum")
+    phi, y = s.coordinates("phi y")
+    J, m_1, m_2, R, r, k, g = s.parameters("J m_1 m_2 R r k g")
+    wheel = s.frame(-phi, name="drum")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=wheel, name="drum")
+    s.particle(m_1, at=s.point("load", (R, -y)))
+    s.particle(m_2, at=s.point("weight", (-r, r * phi)))
+    s.gravity((0, -1), g)
+    s.spring(k=k, deflection=y - R * phi)
+    s.torque(s.inputs("tau"), on=phi)
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    ("line", "right"),
+    [
+        ("y2 - y1 = m g/k2", True),
+        ("y2 - y1 = -m g/k2", False),
+        ("y1 = -2*m*g/k1", False),
+        ("k1 y1 = 2 m g", True),
+        ("At rest k1 y1 = m g", False),
+        ("Statics: k1 y1 = 2 k2 (y2 - y1)", True),
+        ("Im Gleichgewicht ist k1 y1 = k2 (y2 - y1)", False),
+        ("k1 y1 = 2 k2 (y2 - y1)", False),  # nothing says that it is about rest
+        ("Equilibrium:\nk1 y1 = 2 m g\ny2 = 2 m g/k1 + m g/k2", True),
+        ("Equilibrium:\nk1 y1 = 2 m g\nk2 y2 = 2 m g", False),
+        ("At t = 0 it is at rest: y1 = 0, y2 = 0", True),
+        ("Check: the sum is m y1'' + m y2'' + k1 y1 = 2 m g", True),
+        ("Check: the sum is m y1'' + m y2'' + k1 y1 = m g", False),
+        ("Note: m y2'' - k2 (y2 - y1) = m g", False),
+        ("Check: without gravity m y2'' + k2 (y2 - y1) = 0", True),
+        ("Check: for y1 = 0 we have m y2'' + k2 y2 = m g", True),
+    ],
+)
+def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None:
+    verdict = hanging().check(f"{HANGING}\n{line}")
+    assert verdict.right is right
+    assert right or (verdict.motion and verdict.first_wrong.line.number > 2)
+
+
+@pytest.mark.parametrize(
+    ("line", "right"),
+    [
+        ("Let e = y - R phi. In equilibrium with tau = 0 we have k e = m_1 g, so m_1 R = m_2 r.", True),
+        ("Let e = y - R phi. In equilibrium with tau = 0 we have k e = m_1 g, so m_1 r = m_2 R.", False),
+        ("Let e = y - R phi. In equilibrium k e = -m_1 g.", False),
+        ("At rest tau = (m_2 r - m_1 R) g", True),
+    ],
+)
+def test_rest_for_certain_parameters_alone(line: str, right: bool) -> None:
+    assert drum().check(f"{DRUM}\n{line}").right is right
