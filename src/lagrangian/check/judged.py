@@ -23,6 +23,9 @@ from lagrangian.derive.algebra import Form
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
+OF_COORDINATES = ("Xi", "p", "p-rate", "slope", "left")
+"""What lines state for one coordinate, which in other coordinates is a sum of ours."""
+
 
 @dataclass(frozen=True, eq=False)
 class Judged:
@@ -47,7 +50,8 @@ def judged_lines(
     """Judge every line, and the equations together; with a change, everything is converted to the system's
     coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
-    turn = change.turn(truth) if change is not None else None
+    named = any(line.kind in OF_COORDINATES for line in moved)
+    turn = change.turn(truth) if change is not None and named else None
     truth = truth.within(change.region(truth)) if change is not None else truth
     equations = [line for line in moved if line.kind == "equation"]
     comparison = compare(truth, [line.expr for line in equations])

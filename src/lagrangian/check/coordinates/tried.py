@@ -70,7 +70,9 @@ class ProposedChange(Brief):
         """(∂ψ/∂ξ)⁻¹, with the answer's coordinates in the order of those that they replace; None if it is singular."""
         psi = self._in_order(truth)
         J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
-        return sp.Matrix(J.inv()) if truth.n <= 6 and J.det() != 0 else None
+        if truth.n > 6 or (det := J.det()) == 0:
+            return None
+        return sp.Matrix(J.adjugate() / det)  # elimination would simplify every pivot
 
     def region(self, truth: Reference) -> sp.Expr | None:
         """det ∂ψ/∂ξ, whose sign is constant where the change is one-to-one; None if it is constant or too long."""
@@ -278,14 +280,17 @@ def _static(truth: Reference) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
 
 
 class QuickTest:
-    """Tests quickly whether a change may make an answer right: from its equations in doubles, otherwise from an
-    energy."""
+    """Tests quickly whether a change may make an answer right: from its equations in doubles, from an energy where no
+    equation has a name that is changed."""
 
     def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
         self.truth = truth
         equations = [line.expr for line in lines if line.kind == "equation"]
-        self._equations = bool(equations)
         energy = next((line for line in lines if line.kind in ("T", "V", "L")), None)
+        new = new_names(truth, lines)
+        if energy is not None and new and energy.expr.has(*new) and not any(x.has(*new) for x in equations):
+            equations = []
+        self._equations = bool(equations)
         right = [{"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind]] if energy is not None else []
         self._own = CompiledExpressions([] if equations else right)
         chosen = equations or ([energy.expr] if energy is not None else [])
