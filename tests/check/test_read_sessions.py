@@ -110,3 +110,37 @@ def test_an_equation_of_motion_in_a_command_is_never_left_out(command: str) -> N
 def test_a_name_that_a_command_sets_has_no_value() -> None:
     with pytest.raises(ParseError, match="weight"):
         right("weight = get_weight(m, g, units='SI')\nm*L**2*theta'' + b*theta' + weight*L*sin(theta) = 0", "pendulum")
+
+
+NOTEBOOK = r"""```python
+theta = dynamicsymbols('theta')
+P = Matrix([L*sin(theta), -L*cos(theta), 0])
+v = P.diff(t)
+V = m*g*P[1]
+T = simplify(m/2*v.dot(v))
+T
+```
+Out[2]: $\displaystyle \frac{L^{2} m \dot{\theta}^{2}}{2}$
+
+```python
+expand(LM.eom)
+```
+Out[3]: $\displaystyle L^{2} m \ddot{\theta} + L g m \sin{\left(\theta \right)} + b \dot{\theta}$
+
+(this must be zero)
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [("m*g*P[1]", "m*g*P[0]"), (r"{L^{2} m", r"{L m"), ("+ b", "- b")],
+    ids=["entry", "value of a name", "zero"],
+)
+def test_what_a_notebook_shows_belongs_to_its_cell(old: str, new: str) -> None:
+    twins(NOTEBOOK, "pendulum", old, new)
+
+
+def test_a_column_times_itself_is_a_sum_of_squares() -> None:
+    code = NOTEBOOK.replace("simplify(m/2*v.dot(v))\nT\n", "m/2*v.dot(v)\n").partition("Out[2]")[0].replace("`", "")
+    rows = "\nL**2*m*theta'' + L*g*m*sin(theta) + b*theta' = 0"
+    twins(code.replace("python", "") + rows, "pendulum", "m/2*v", "m*v")

@@ -42,6 +42,7 @@ from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
+from lagrangian.check.reading.programs.notebooks import with_columns, with_shown_values
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
@@ -275,7 +276,8 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     typed_in = without_crossed_out(without_terminators(without_maxima(TracedText(text))), names.notes)
-    prompted = with_whole_matrices(without_prompts(without_long_names(without_tags(typed_in))))
+    shown = with_shown_values(without_long_names(without_tags(typed_in)))
+    prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:

@@ -1,0 +1,77 @@
+r"""Reads notebooks of Python: what a cell shows belongs to what stands on its last line, and columns have entries.
+
+T⏎ Out[2]: $\frac{m \dot{x}^{2}}{2}$            $T = \frac{m \dot{x}^{2}}{2}$       the value of a name
+Out[3]: $m \ddot{x} - F$                        $m \ddot{x} - F = 0$                an expression that is zero
+P = Matrix([x, 0])   V = m*g*P[1]               P = [x, 0]   V = m*g*(0)
+v.dot(v)                                        abs(v)^2
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import islice
+
+from lagrangian.check.reading.programs.sessions import MOST, closes
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+
+_NAME = r"[A-Za-z]\w{0,23}+"
+_SHOWN = re.compile(
+    r"^[ \t]*+Out[ \t]?\[\d{1,4}\][ \t]*+:?[ \t]*+\n?[ \t]*+(?P<opens>\$\$?(?:[ \t]*+\\displaystyle)?)?"
+    r"(?P<value>[^$\n=]{1,2000}+)(?P<closes>\$\$?|$)",
+    re.MULTILINE,
+)
+_ABOVE = re.compile(rf"(?:^|[;\n])[ \t]*+(?P<name>{_NAME})[ \t]*+(?:\n[ \t]*+(?:```[^\n]*+)?)*+\Z")
+_ACCELERATES = re.compile(r"\\ddot(?![a-z])|d\^\{?2\}?\s?\}?\s?\{\s?d\s?t")
+_COLUMN = re.compile(
+    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<call>(?:\w{{1,6}}\.)?(?:Matrix|array)\()(?=\[)", re.MULTILINE
+)
+_SQUARE = re.compile(rf"(?<![\w.])(?P<of>{_NAME})\.dot\((?P=of)\)")
+LONGEST = 400
+"""The most characters of an entry that is put in the place of its index."""
+
+
+def with_shown_values(written: TracedText) -> TracedText:
+    """Return an answer in which what a cell shows is a statement: of the name on its last line, or that an expression
+    with accelerations is zero."""
+    text = written.text
+    edits: list[Edit] = []
+    for match in islice(_SHOWN.finditer(text), MOST):
+        above = _ABOVE.search(text, max(0, match.start() - 80), match.start())
+        if bool(match["opens"]) != ("$" in match["closes"]):
+            continue
+        if above is not None:
+            edits.append((match.start("value"), match.start("value"), f" {above['name']} = "))
+            edits.append((*above.span("name"), ""))
+        elif match["opens"] and _ACCELERATES.search(match["value"]):
+            edits.append((match.end("value"), match.end("value"), " = 0"))
+    return written.edited(apart(edits))
+
+
+def with_columns(written: TracedText) -> TracedText:
+    """Return an answer in which columns of Python are lists, and their entries stand where an index names them."""
+    text, edits = written.text, list[Edit]()
+    for match in islice(_COLUMN.finditer(text), MOST):
+        end = closes(text, match.end("call") - 1)
+        entries = list(_entries(text, match.end(), closes(text, match.end())))
+        if end < 0 or not entries or any("[" in x or len(x) > LONGEST for x in entries):
+            continue
+        name = match["name"]
+        if len(re.findall(rf"^[ \t]*+{name}[ \t]*+=(?!=)", text, re.MULTILINE)) > 1:
+            continue
+        indexed = [m for m in re.finditer(rf"(?<![\w.]){name}\[(\d)\](?![ \t]*+=)", text) if int(m[1]) < len(entries)]
+        edits += [(*match.span("call"), ""), (end, end + 1, "")]
+        edits += [(*m.span(), f"({entries[int(m[1])]})") for m in islice(indexed, MOST)]
+    return written.edited(apart(edits)).sub(_SQUARE, lambda m: f"abs({m['of']})^2")
+
+
+def _entries(text: str, start: int, end: int) -> Iterator[str]:
+    """The entries of a list that opens at a place and is closed at another."""
+    depth, first = 0, start + 1
+    for at in range(start + 1, max(end, start + 1)):
+        depth += (text[at] in "([{") - (text[at] in ")]}")
+        if text[at] == "," and depth == 0:
+            yield text[first:at].strip()
+            first = at + 1
+    if text[first:end].strip():
+        yield text[first:end].strip()
