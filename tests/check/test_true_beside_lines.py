@@ -103,3 +103,12 @@ def test_a_second_choice_is_another_cause() -> None:
     verdict = carts().check(f"{ENERGIES.replace('c (y - x)^2', 'c (y + x)^2')}{DAMPED}")
     said = [str(m.what) for m in (*verdict.mistakes, *verdict.alternatives)]
     assert len([x for x in said if "x + y" in x or "y + x" in x]) == 1, said
+
+
+def test_energies_of_parts_of_a_system_are_added_up() -> None:
+    for parts in ("T (first) = m x'^2/2\nT (second) = n y'^2/2\n", "T = m x'^2/2, energy of the other: n y'^2/2\n"):
+        verdict = carts().check(f"{parts}V = k x^2/2 + c (y - x)^2/2\n{DAMPED}")
+        assert verdict.right and any("those in line" in str(note) for note in verdict.notes)
+    verdict = carts().check(f"T (first) = m x'^2/2\nT (second) = n y'^2\n{DAMPED.replace('n y', '2 n y')}")
+    assert [m.element for m in verdict.mistakes] == ["particle 'second'"]
+    assert not carts().check(f"T = m x'^2/2\nT = m x'^2/2 + n y'^2/2\n{DAMPED}").right  # twice the whole

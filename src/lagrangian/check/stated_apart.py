@@ -1,4 +1,4 @@
-"""Energies of coils and capacitors that an answer states apart: W_m = ½ L i² beside T*, W_e = q²/(2 C) beside V."""
+"""Energies in parts: T (cart) = … and T (pole) = …, W_m = ½ L i² of coils beside T*, W_e = q²/(2 C) beside V."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import sympy as sp
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
+from lagrangian.errors import listed as listed_in_words
+from lagrangian.model import Gravity, Inductor, Spring
 from lagrangian.model.elements.branch import CircuitBranch
 from lagrangian.page.formula import Text, text
 
@@ -21,11 +23,11 @@ MOST_PARTS, MOST_ADDED = 8, 3
 def with_energies_apart(
     truth: Reference, lines: Sequence[AnsweredLine]
 ) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
-    """The lines, with the energy of all coils added to a T* without any, and that of all capacitors to a V without any,
-    where a name of the answer has exactly this value, or a sum of names; and notes that say so."""
+    """The lines, with several T* or V of different parts added up, with the energy of all coils added to a T* without
+    any, and that of all capacitors to a V without any, where a name of the answer has exactly this value, or a sum of
+    names; and notes that say so."""
     elements = [e for e in truth.model.elements if isinstance(e, CircuitBranch)]
-    found = tuple(lines)
-    notes: list[Text] = []
+    found, notes = _added_up(truth, lines)
     for kind, words, energies in (
         ("T", "magnetic co-energy", [e.kinetic(truth.model) for e in elements]),
         ("V", "electric energy", [e.potential(truth.model) for e in elements]),
@@ -40,6 +42,38 @@ def with_energies_apart(
                 text(f"The {words}, which is stated apart as {' + '.join(names)}, was added to {_CALLED[kind]}.")
             )
     return found, tuple(notes)
+
+
+def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], list[Text]]:
+    """The lines, with all lines of T*, or of V, as one in place of the first if no two have a mass, a moment of inertia
+    or a stiffness in common: each is the energy of a part of the system. With notes that say so."""
+    found, notes = list(lines), list[Text]()
+    for kind, letters in (("T", _inertias(truth)), ("V", _stiffnesses(truth))):
+        own = [line for line in found if line.kind == kind]
+        held = [truth.expand(line.expr).free_symbols & letters for line in own]
+        if len(own) < 2 or not all(held) or sum(map(len, held)) > len(set[sp.Basic]().union(*held)):
+            continue
+        whole = replace(own[0], expr=sp.Add(*[line.expr for line in own]))
+        found = [whole if x is own[0] else x for x in found if x is own[0] or not any(x is y for y in own)]
+        at = list(dict.fromkeys(str(line.number) for line in own))
+        where = f"lines {listed_in_words(at)}" if len(at) > 1 else f"line {at[0]}"
+        notes.append(text(f"{_CALLED[kind]} is stated in parts; those in {where} were added up."))
+    return tuple(found), notes
+
+
+def _inertias(truth: Reference) -> set[sp.Basic]:
+    """The masses, moments of inertia and inductances that are single letters."""
+    listed = [x for b in truth.model.bodies for x in (b.mass, *(b.inertia.flat() if b.axes is not None else ()))]
+    listed += [e.L for e in truth.model.elements if isinstance(e, Inductor)]
+    return {x for x in listed if isinstance(x, sp.Symbol)}
+
+
+def _stiffnesses(truth: Reference) -> set[sp.Basic]:
+    """The stiffnesses, and the masses that have weights, that are single letters."""
+    listed = [e.k for e in truth.model.elements if isinstance(e, Spring)]
+    if any(isinstance(e, Gravity) for e in truth.model.elements):
+        listed += [b.mass for b in truth.model.bodies]
+    return {x for x in listed if isinstance(x, sp.Symbol)}
 
 
 _CALLED = {"T": "T*", "V": "V"}

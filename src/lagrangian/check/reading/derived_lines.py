@@ -49,6 +49,18 @@ def with_derivatives(text: TracedText) -> TracedText:
     return text.edited(edits)
 
 
+_WORD = r"[^\W\d_]{1,15}"
+_ENERGY_BESIDE = re.compile(
+    rf"(?<!\w)(?P<name>[TV]\*?)[ \t]*=(?!=)[^=;,:\n]{{1,300}}"
+    rf"(?P<said>[,;][ \t]+(?:{_WORD}[ \t]+){{0,4}}(?i:energy|energie)(?:[ \t]+{_WORD}){{0,4}}[ \t]?:)(?=[ \t])"
+)
+
+
+def with_energies_beside(text: TracedText) -> TracedText:
+    """Return a plain text in which an energy in words behind T or V is a part of it: T = A, energy in the coil: B."""
+    return text.edited((*m.span("said"), f"; {m['name']} = ") for m in _ENERGY_BESIDE.finditer(text.text))
+
+
 _ENERGY = r"(?:[TLVD]|\\math(?:cal|scr)\s?\{[^{}]\}|\\mathcal\s[A-Z])(?:\^\s?(?:\*|\{\*\}))?"
 _FRACTION = r"\\[dt]?frac\s?"
 _LATEX_SLOPE = (

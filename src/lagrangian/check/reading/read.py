@@ -13,7 +13,7 @@ from lagrangian.check.reading.arguments import dependents, with_own_functions
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.crossed_out import without_crossed_out
-from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex
+from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
@@ -298,7 +298,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     if _LATEX.search(said.text):
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
-        said = with_stated_values(with_derivatives(said.sub(_BY_TIME, lambda m: m["by"])), taken)
+        said = with_stated_values(with_derivatives(with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]))), taken)
         said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
