@@ -170,6 +170,37 @@ def test_errors_point_into_what_was_written() -> None:
     assert place.column == written.split("\n")[1].index("(x") + 1
 
 
+CART = r"""(a dot is written as _t, and w = theta_t)
+M_t = M + m
+M_t x_tt + m l cos(theta) w_t - m l sin(theta) w^2 + b x_t = F
+(J + m l^2) w_t + m l cos(theta) x_tt - m g l sin(theta) = 0"""
+LATEX = r"""\[(M+m)x_{tt} + m l\cos\theta\,\theta_{tt} - m l\sin\theta\,\theta_t^2 + b x_t = F\]
+\[(J+m l^2)\theta_{tt} + m l\cos\theta\, x_{tt} - m g l\sin\theta = 0\]"""
+REFERENCES = """[1] T_1 = 1/2*M*x'^2
+[2] T_2 = 1/2*m*(x'^2 + 2*l*cos(theta)*x'*theta' + l^2*theta'^2) + 1/2*J*theta'^2
+[3] V = m*g*l*cos(theta)
+[4] L = [1] + [2] - [3]
+[5] (M + m)*x'' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F - b*x'
+[6] (J + m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"""
+
+
+@pytest.mark.parametrize(
+    ("written", "old", "new"),
+    [
+        (CART, "b x_t", "b x_tt"),
+        (LATEX, r"\theta_t^2", r"\theta_{tt}^2"),
+        (REFERENCES, "1/2*M", "M"),
+        (REFERENCES, "+ [2] - [3]", "+ [2] + [3]"),
+    ],
+    ids=["index", "index in LaTeX", "reference", "signs"],
+)
+def test_rates_with_an_index_and_references_to_lines(written: str, old: str, new: str) -> None:
+    assert old in written
+    verdict = derivation("cart-pole").check(written)
+    assert verdict.right, verdict.to_text()
+    assert not derivation("cart-pole").check(written.replace(old, new)).right
+
+
 @pytest.mark.slow
 def test_a_turntable_that_turns_the_other_way_is_a_mistake_and_no_other_coordinate() -> None:
     turntable = loads(TURNTABLE).derive()

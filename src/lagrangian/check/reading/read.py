@@ -51,6 +51,7 @@ from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import LINKING, is_statement
+from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
@@ -60,6 +61,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_stated_values,
     with_variations,
 )
+from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.traced_text import TracedText
@@ -284,7 +286,9 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
-    tagless = solved_matrices(without_drawn_formulas(session, typed))
+    moving = {key(c.name) for c in lines.model.coordinates}
+    indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
+    tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed))
     latex = bool(_LATEX.search(tagless.text))
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX

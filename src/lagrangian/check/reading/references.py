@@ -1,0 +1,34 @@
+"""Reads references to an answer's own numbered lines: [5] L = [2] + [3] - [4] as L = T_1 + T_2 - V."""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+
+from lagrangian.check.reading.traced_text import TracedText
+
+_NUMBERED = re.compile(
+    r"^[ \t]*+(?:\[(?P<square>\d{1,2})\]|\((?P<round>\d{1,2})\))[ \t]*+(?P<name>[^\W\d][\w*]{0,23}+)[ \t]*+=(?!=)",
+    re.MULTILINE,
+)
+_TERM = r"(?:\[\d{1,2}\]|\(\d{1,2}\))"
+_ALONE = re.compile(
+    rf"(?<==)[ \t]*+(?:[-+−][ \t]*+)?{_TERM}(?:[ \t]*+[-+−][ \t]*+{_TERM}){{1,20}}+[ \t]*+[.;]?[ \t]*+$", re.MULTILINE
+)
+_REFERENCE = re.compile(r"[\[(](\d{1,2})[\])]")
+MOST = 60
+"""The most numbered lines, and sides of references, that are looked at."""
+
+
+def without_references(written: TracedText) -> TracedText:
+    """Return an answer in which sides that consist of numbers of its lines have the names that these lines define."""
+    numbered = list(islice(_NUMBERED.finditer(written.text), MOST))
+    names: dict[str, str] = {m["square"] or m["round"]: m["name"] for m in reversed(numbered)}
+    if not names:
+        return written
+
+    def named(match: re.Match[str]) -> str:
+        known = all(x in names for x in _REFERENCE.findall(match.group()))
+        return _REFERENCE.sub(lambda m: names[m[1]], match.group()) if known else match.group()
+
+    return written.sub(_ALONE, named)

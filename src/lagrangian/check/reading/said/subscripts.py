@@ -1,0 +1,62 @@
+r"""Reads rates that are written with t as an index, where an answer writes accelerations so or says it.
+
+w = phi_t, J w_t + b w = tau, m x_tt = F      w = phi', J w' + b w = tau, m x'' = F
+\theta_{tt}, x_t                              \ddot{\theta}, \dot{x}
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+from lagrangian.check.reading.traced_text import TracedText
+
+_STEM = r"(?P<of>\\?[^\W\d_]\w{0,23}?)"
+_PLAIN = re.compile(rf"(?<![\w\\]){_STEM}_(?P<by>t{{1,2}})(?![\w'’′(])")
+_LATEX = re.compile(
+    r"(?<![A-Za-z\\])(?P<of>\\?[A-Za-z]+?(?:_\d|_\{\d\})?)_(?:\{\s?(?P<by>t{1,2})\s?\}|(?P<short>t)(?![A-Za-z]))(?!['’′(])"
+)
+_SAID = re.compile(
+    r"(?:\bdots?\b|\bderivatives?\b|\brates?\b|Ableitung|Punkt)[^.\n]{0,60}(?<!\w)_\{?t\b|(?<!\w)_\{?t\b[^.\n]{0,60}"
+    r"\b(?:dots?|derivatives?|rates?)\b",
+    re.IGNORECASE,
+)
+
+
+def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which such rates have primes or dots.
+
+    ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system. Names of the answer's
+    own have rates so where their value has one and no line gives the rate a value: M_t = m_1 + m_2 is a mass.
+    """
+    text = written.text
+    latex = "\\" in text or "$" in text
+    form = _LATEX if latex else _PLAIN
+    found = [m for m in form.finditer(text) if not taken(_name(m.group()))]
+    twice = any((m["by"] == "tt") and moves(_name(m["of"])) for m in found)
+    if not found or not (twice or _SAID.search(text) is not None):
+        return written
+    own = {m["of"] for m in found if not taken(_name(m["of"])) and _is_valued(text, m["of"], form, moves)}
+    kept = [m for m in found if moves(_name(m["of"])) or m["of"] in own]
+    return written.edited((*m.span(), _written(m, latex=latex)) for m in kept)
+
+
+def _is_valued(text: str, name: str, form: re.Pattern[str], moves: Callable[[str], bool]) -> bool:
+    """Whether a line gives a name a value in which a rate stands, and none gives the name with its index one."""
+    given = re.compile(rf"(?<![\w\\]){re.escape(name)}[ \t&]*=(?!=)(?P<value>[^=\n,;]{{1,400}})")
+    rates = (m for x in given.finditer(text) for m in form.finditer(x["value"]))
+    index = re.compile(rf"(?<![\w\\]){re.escape(name)}_\{{?t{{1,2}}\}}?[ \t&]*=(?!=)")
+    return any(moves(_name(m["of"])) for m in rates) and index.search(text) is None
+
+
+def _name(written: str) -> str:
+    return re.sub(r"[\\{}]", "", written)
+
+
+def _written(match: re.Match[str], *, latex: bool) -> str:
+    """A name with primes, or with dots in LaTeX."""
+    order = len(match["by"] or "t")
+    if not latex:
+        return match["of"] + "'" * order
+    letter, _, index = match["of"].partition("_")
+    return f"\\{'d' * order}ot{{{letter}}}" + (f"_{index}" if index else "")
