@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, cast
+from typing import cast
 
 import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.difference import differences, likeness
 from lagrangian.check.explain.misconceptions.small_angle import first_order, small
 from lagrangian.check.places import AT_REST, is_rate, only_places, place_or_approximation, rests
 from lagrangian.check.reference import Reference
@@ -69,23 +70,24 @@ def _remark(truth: Reference, line: AnsweredLine) -> str | None:
         return None
     if "case" in line.beside or foreign or not accelerates:
         return "it is a remark beside the equations"
-    zero = _special_case(truth, line.expr)
-    return None if zero is None else f"it holds in a special case alone, {zero}"
+    return _special_case(truth, line.expr)
 
 
 def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
-    """The case in which an equation is right: a letter or an input is 0, or all inputs, or a coordinate is held there,
-    whose own equation says how it is held."""
-    model, P = truth.model, CompiledExpressions([expr]).at(truth.states)
-    cases: list[tuple[str, list[Any], int | None]] = [
-        *((f"{x.name} = 0", [x.symbol], None) for x in (*model.inputs, *model.parameters)),
-        *((f"{c.name} = 0", [c.symbol, c.rate, c.acceleration], i) for i, c in enumerate(model.coordinates)),
-        ("without inputs", [u.symbol for u in model.inputs], None),
-    ]
-    for words, zero, held in cases:
-        rows = [row.xreplace(dict.fromkeys(zero, sp.S.Zero)) for i, row in enumerate(truth.rows) if i != held]
-        if factors_of(truth, P, CompiledExpressions(rows).at(truth.states))[1][0]:
-            return words
+    """Why an equation may be right in a special case: it lacks terms of a right one and has all others as they are,
+    or a coordinate is held at 0, whose own equation says how it is held."""
+    if (form := truth.form(expr)) is None:
+        return "it is a remark beside the equations"
+    for like, right in zip(likeness(form, truth.forms), truth.forms, strict=True):
+        told = differences(truth, form, right, like.factor, like.index) if right is not None and like.score > 0 else ()
+        if told and all(x.kind == "missing" and x.written == 0 for x in told):
+            return "it lacks terms of a right equation, which may be 0 in a special case"
+    P = CompiledExpressions([expr]).at(truth.states)
+    for i, c in enumerate(truth.model.coordinates):
+        table = dict.fromkeys((c.symbol, c.rate, c.acceleration), sp.S.Zero)
+        rows = [cast("sp.Expr", row.xreplace(table)) for j, row in enumerate(truth.rows) if j != i]
+        if rows and factors_of(truth, P, CompiledExpressions(rows).at(truth.states))[1][0]:
+            return f"it holds for {c.name} = 0 alone"
     return None
 
 
