@@ -7,8 +7,13 @@ twin, which stays wrong.
 import pytest
 
 from built_in import derivation
+from lagrangian import ParseError
 from lagrangian.quantities.units import joined
 
+ROWS_BY_HAND = (
+    "(M + m)*x'' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F - b*x'",
+    "(J + m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0",
+)
 SHOWN = """>> A_mat
 
 A_mat =
@@ -186,3 +191,11 @@ def test_a_unit_that_may_have_a_prefix_is_not_taken_apart() -> None:
     values = "m = 1 kg, L = 0.5 m, b = 0.02 Nms\n"
     row = "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0"
     assert derivation("pendulum").check(values + row).right
+
+
+def test_the_rate_of_a_column_is_no_single_quantity() -> None:
+    wrong = "r = [x; theta]\nr'' = 3*x'\n"
+    with pytest.raises(ParseError, match="a single quantity cannot equal a matrix"):
+        derivation("cart-pole").check(wrong)
+    verdict = derivation("cart-pole").check(wrong + "\n".join(ROWS_BY_HAND))
+    assert verdict.right and "Line 2 has a part that was not read" in verdict.to_text()

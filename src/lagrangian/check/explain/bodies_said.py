@@ -134,8 +134,9 @@ class BodiesSaid:
         for count in range(1, MOST_TOGETHER + 1 if len(good) <= MOST_FOR_THREE else 3):
             for chosen in combinations(good, count):
                 said = [self.parts[k] for k in chosen]
-                alone = len({(p.number, str(p.what)) for p in said}) == count == len({p.number for p in said})
-                if alone and np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size:
+                if len({p.number for p in said}) < count:
+                    continue
+                if np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size:
                     return sorted(said, key=lambda p: p.number)
         return []
 

@@ -257,8 +257,7 @@ class Lines:
         elif kind == "definition":
             assert subject.token is not None
             if self.subjects.equates(subject, value, self._equal) or self._is_force_found(subject):
-                left = reader.value(sides[0])
-                left = sp.S.Zero if is_label_of_equation(subject) else left
+                left = sp.S.Zero if is_label_of_equation(subject) else reader.scalar(sides[0])
                 return made_line("equation", left, value, None, sides[0], side, reader)
             above = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
             self._define(subject, value)
@@ -267,8 +266,8 @@ class Lines:
                 kind = "equation" if accelerates(above) or accelerates(value) else "identity"
                 return made_line(kind, above, value, None, sides[0], side, reader)  # v' = x'' and v' = F/M
         elif kind == "identity":
-            lhs = rate = reader.value(sides[0])
-            if solves(rate, value):
+            lhs = reader.scalar(sides[0])
+            if solves(lhs, value):
                 kind = "equation"
         elif kind == "Xi" and accelerates(value):
             assert name is not None

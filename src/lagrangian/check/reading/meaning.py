@@ -50,6 +50,13 @@ class Meaning(ExpressionReader):
             self.fail("its value is not finite", node, fix="look for a division by zero", code="E705")
         return value
 
+    def scalar(self, node: Node) -> sp.Expr:
+        """The value of a node that equals a single quantity; an error if it is a matrix."""
+        value = self.value(node)
+        if isinstance(value, MatrixBase):
+            self.fail("a single quantity cannot equal a matrix", node, fix="write one equation per line")
+        return value
+
     # -- names -------------------------------------------------------------------------------------------------------
 
     def _meaning(self, token: Any) -> tuple[str, sp.Expr, int]:

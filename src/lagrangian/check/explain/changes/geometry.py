@@ -126,8 +126,8 @@ class GeometryChanges:
         total: sp.Expr = sp.S.Zero
         for element in self.sites.model.elements:
             if isinstance(element, Gravity):
-                moved = [x - y for x, y in zip(position, self.s.position(b), strict=True)]
-                h = -sum((n * x for n, x in zip(element.direction, moved, strict=True)), sp.S.Zero)
+                ways = zip(element.direction, position, self.s.position(b), strict=True)
+                h = -sum((n * (x - y) for n, x, y in ways if n != 0), sp.S.Zero)
                 total = total + self.s.expand(b.mass * element.g * h)
         return self.sites.ring.moving(self.sites.sum(total))
 

@@ -76,9 +76,13 @@ def _along(s: Ingredients, body: Body, i: int) -> Iterator[sp.Expr]:
     """The component of a body's velocity in the direction in which a coordinate moves it: ṡ + ẋ cos α on a slope."""
     velocity = s.velocity(body)
     slopes = [[bounded.diff(x, v) for x in velocity] for v in s.v]
-    with_own = [bounded.trigsimp(sp.Add(*[a * b for a, b in zip(x, slopes[i], strict=True)])) for x in slopes]
-    if with_own[i] != 0 and with_own[i].is_number:
-        yield sp.Add(*[x * v for x, v in zip(with_own, s.v, strict=True)]) / sp.sqrt(with_own[i])
+
+    def with_own(k: int) -> sp.Expr:
+        return bounded.trigsimp(sp.Add(*[a * b for a, b in zip(slopes[k], slopes[i], strict=True)]))
+
+    square = with_own(i)
+    if square != 0 and square.is_number:
+        yield sp.Add(*[with_own(k) * v for k, v in enumerate(s.v)]) / sp.sqrt(square)
 
 
 def _absolute(s: Ingredients, i: int) -> sp.Expr:
