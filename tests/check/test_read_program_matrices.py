@@ -198,4 +198,4 @@ def test_the_rate_of_a_column_is_no_single_quantity() -> None:
     with pytest.raises(ParseError, match="a single quantity cannot equal a matrix"):
         derivation("cart-pole").check(wrong)
     verdict = derivation("cart-pole").check(wrong + "\n".join(ROWS_BY_HAND))
-    assert verdict.right and "Line 2 has a part that was not read" in verdict.to_text()
+    assert verdict.right and "Line 2 could not be read" in verdict.to_text()
