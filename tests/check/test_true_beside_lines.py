@@ -11,6 +11,7 @@ import sympy as sp
 
 import lagrangian as lg
 from lagrangian.check.verdict import Finding
+from lagrangian.model import time
 
 
 @cache
@@ -112,3 +113,42 @@ def test_energies_of_parts_of_a_system_are_added_up() -> None:
     verdict = carts().check(f"T (first) = m x'^2/2\nT (second) = n y'^2\n{DAMPED.replace('n y', '2 n y')}")
     assert [m.element for m in verdict.mistakes] == ["particle 'second'"]
     assert not carts().check(f"T = m x'^2/2\nT = m x'^2/2 + n y'^2/2\n{DAMPED}").right  # twice the whole
+
+
+@cache
+def disc() -> lg.Derivation:
+    """A disc that rolls on a table, with a spring to a wall that is shaken, and a force and a torque."""
+    s = lg.System("disc")
+    phi = s.coordinate("phi")
+    M, J, k, a, w = s.parameters("M J k a w")
+    R = s.parameter("R", unit="m")
+    z = s.define("z", a * sp.sin(w * time))
+    s.rigid_body(M, J, at=s.point("centre", (R * phi, R)), frame=s.frame(-phi), name="disc")
+    s.spring(k, deflection=R * phi - z, name="k")
+    s.force(s.input("F"), deflection=R * phi, name="push")
+    s.torque(s.input("tau"), on=phi, name="motor")
+    return s.derive()
+
+
+def test_a_definition_tells_which_of_two_causes_it_was() -> None:
+    """M R² twice: the ½ of ½mv² forgotten, or J about the point of contact and ½mv² as well, as J_A shows."""
+    row = "(J_A + M R^2) phi'' + k R (R phi - z) = F R + tau"
+    assert disc().check(row.replace("J_A", "J + M R^2")).mistakes[0].name == "half_forgotten"
+    assert disc().check(f"J_A = J + M R^2\n{row}").mistakes[0].name == "inertia_about_pivot"
+
+
+def test_a_force_with_which_another_line_goes_on_is_not_the_whole() -> None:
+    row = "(J + M R^2) phi'' + k R (R phi - z) = F + tau"
+    verdict = disc().check(f"The force pushes: Q_phi = F\nQ_phi = F + tau\n{row}")
+    assert verdict.first_wrong is not None and verdict.first_wrong.line.number == 2
+    assert [m.name for m in verdict.mistakes] == ["force_arm"]
+    assert disc().check(f"Q_phi = F R + tau\n{row.replace('= F', '= F R')}").right
+
+
+def test_a_prescribed_motion_is_no_equation() -> None:
+    row = "(J + M R^2) phi'' + k R (R phi - z) = F R + tau"
+    verdict = disc().check(f"z = a sin(w t), z' = a w cos(w t)\n{row}")
+    assert verdict.right and len(verdict.findings) == 1
+    verdict = disc().check(f"z = a sin(w t), z' = a cos(w t)\n{row}")
+    assert [str(m.what) for m in verdict.mistakes] == ["z' is a*w*cos(t*w), not a*cos(t*w)."]
+    assert not verdict.findings[0].differences

@@ -112,6 +112,8 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
     own = line.kind == "derived" or (line.kind == "identity" and i is not None)
     if zero_everywhere(truth, rest):
         return Finding(line, Status.RIGHT, text("it follows from the energies above") if own else None, coordinate)
+    if line.kind == "identity" and line.name is not None and i is None:
+        return Finding(line, Status.WRONG)
     if own:
         return Finding(line, Status.WRONG, text("it is not the derivative of what is stated above"), coordinate)
     if (note := harmless(truth, line, rest)) is not None:

@@ -1,4 +1,4 @@
-"""Energies in parts: T (cart) = … and T (pole) = …, W_m = ½ L i² of coils beside T*, W_e = q²/(2 C) beside V."""
+"""Energies and forces in parts: T (cart) = … and T (pole) = …, W_m = ½ L i² beside T*, W_e = q²/(2 C) beside V."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from itertools import combinations
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
@@ -42,6 +43,29 @@ def with_energies_apart(
                 text(f"The {words}, which is stated apart as {' + '.join(names)}, was added to {_CALLED[kind]}.")
             )
     return found, tuple(notes)
+
+
+def without_first_parts(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The lines, without a Ξ that another one of the same coordinate below goes on with: Q = F, then Q = F − b v.
+
+    It was what one element adds, and is not the whole, unless it is right. With notes that say so.
+    """
+    forces = [(line, _terms(truth, line.expr)) for line in lines if line.kind == "Xi"]
+    right = {c.name: x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)}
+    whole: dict[int, AnsweredLine] = {}
+    for k, (line, own) in enumerate(forces):
+        after = [other for other, more in forces[k + 1 :] if other.name == line.name and own < more]
+        if after and not zero_everywhere(truth, truth.expand(line.expr) - right.get(line.name or "", line.expr)):
+            whole[id(line)] = after[-1]
+    notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
+    return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))
+
+
+def _terms(truth: Reference, expr: sp.Expr) -> frozenset[sp.Basic]:
+    """The terms of a sum that is written out."""
+    return frozenset(sp.Add.make_args(bounded.expand(truth.expand(expr)))) - {sp.S.Zero}
 
 
 def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], list[Text]]:

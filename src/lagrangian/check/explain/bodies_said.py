@@ -16,6 +16,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.candidates import ingredients_of
+from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quoted import letters_in
@@ -120,6 +121,22 @@ class BodiesSaid:
         values = CompiledExpressions([line.expr - right, *self._exprs(line.kind)]).at(truth.states)
         level = values if line.kind == "T" else without_constant(values)
         return self._named(level[0], level[1:])
+
+    def borne_out(self, pool: Pool, group: Sequence[Explanation]) -> list[Explanation]:
+        """Of explanations of equations, those that change T* as a wrong definition does; all if no definition does."""
+        parts = [p for p in self.parts if p.T != 0 and p.V == 0] if len(group) > 1 else []
+        if not parts:
+            return list(group)
+        found: list[Explanation] = []
+        for part, values in zip(parts, CompiledExpressions([p.T for p in parts]).at(self.truth.states), strict=True):
+            size = np.abs(values).max()
+            if not np.isfinite(values).all() or not 1e-12 < size < LARGEST:
+                continue
+            for e in group:
+                made = np.sum([float(t.times) * pool.T[pool.places[id(t.mistake)]] for t in e.told], axis=0)
+                if e not in found and agrees(e, [part]) and np.abs(made - values).max() <= SMALL * size:
+                    found.append(e)
+        return found or list(group)
 
     def _exprs(self, kind: str) -> list[sp.Expr]:
         """What each definition adds to an energy."""

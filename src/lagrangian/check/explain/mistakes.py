@@ -41,6 +41,7 @@ from lagrangian.check.explain.slips import below_right_equations, of_slip
 from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.explain.undivided import undivided
+from lagrangian.check.prescribed import of_prescribed
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
@@ -92,7 +93,10 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     bodies = BodiesSaid(truth, lines)
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
+    prescribed = {line: said for line in wrong if (said := of_prescribed(truth, line)) is not None}
     for line in wrong:
+        if line in prescribed:
+            continue
         if line.kind == "Xi" and forces:
             groups += [forces] if forces not in groups else []
         elif line.kind != "equation":
@@ -116,13 +120,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     below = below_right_equations(truth, findings)
     for sheet in sheets(truth, [f for f in of_equation if id(f.line) not in below]):
         right = [rows[id(line)] for line in sheet if id(line) in rows]
-        open_ = any(line is w for line in sheet for w in wrong)
-        more = beyond(pool, [x for x in sheet if id(x) not in combined], groups, against) if open_ else None
-        of_sheets += [(more, [])] if more else []
-        if more is None:
-            of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left)
+        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left, groups)
     for found, more in _without_partial(of_sheets):
-        groups.append(found)
+        groups.append(bodies.borne_out(pool, found))
         own += more
     for line in (f.line for f in of_equation if id(f.line) in below and any(f.line is w for w in wrong)):
         slip = of_slip(pool, line)
@@ -130,7 +130,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
-    told = (*named.told, *_once(own, named.told))
+    told = (*prescribed.values(), *named.told, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     rows_left = tuple(line for line in left if line.kind == "equation")
@@ -179,16 +179,20 @@ def _of_sheet(
     against: set[int],
     right: Sequence[str],
     left: list[AnsweredLine],
+    groups: Sequence[Sequence[Explanation]],
 ) -> Iterator[tuple[list[Explanation], list[Mistake]]]:
     """The explanations of one set of equations together or, where there is none, of each wrong one on its own.
 
     ``right`` are the coordinates whose equations are right: a mistake that would show there was not made. Wrong
-    equations that nothing explains are added to ``left``.
+    equations that nothing explains are added to ``left``. ``groups`` explain the lines above.
     """
     own = [line for line in sheet if any(line is w for w in wrong)]
     if not own:
         return
     rows = [line for line in sheet if id(line) not in combined]
+    if (seen := beyond(pool, rows, groups, against)) is not None:
+        yield from [(seen, [])] if seen else []
+        return
     found, more = _of_equations(pool, rows, sheet, against)
     if found or more:
         yield found, more

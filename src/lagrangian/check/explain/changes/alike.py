@@ -62,7 +62,7 @@ def forces(shares: Mapping[Element, Mapping[int, Sum]], q: Sequence[sp.Expr]) ->
             names = _names(held) if len(held) == 2 else "all forces"
             words: Words = (f"what {names} add to the equation of ", coordinate)
             own = tuple(shares[e][i] for e in held)
-            made = {"words": words, "brief": words, "element": held[0], "members": own if len(held) == 2 else ()}
+            made = {"words": words, "brief": words, "element": held[0], "members": own}
             yield Site(**made, step=6, coordinate=i, Xi={i: plus(*own)}, surcharge=0.15)
 
 
