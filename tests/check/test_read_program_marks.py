@@ -84,6 +84,19 @@ def test_units_behind_numbers_are_no_products_of_parameters_and_degrees_belong_t
     assert derivation("rolling-cylinder").check("2 m x'' − 2 m g sin(alpha) + 2 J/R^2 x'' = 0").right
 
 
+@pytest.mark.parametrize(
+    "row",
+    [
+        "5 x'' + cos 30° s'' = F\ncos(30°) x'' + s'' = 9.81 sin 30°",
+        "5 x'' + sqrt(3)/2 s'' = F\nsqrt(3)/2 x'' + s'' = 9.81/2",
+        r"\[5\ddot x + \cos 30^\circ\,\ddot s = F\] \[\cos 30^{\circ}\ddot x + \ddot s = 9.81\sin30\,^\circ\]",
+    ],
+    ids=["degrees", "roots", "LaTeX"],
+)
+def test_angles_in_degrees_are_exact(row: str) -> None:
+    twins(row, "9.81", "9.18", "wedge")
+
+
 def test_a_dash_in_front_of_a_label_is_that_of_a_list() -> None:
     said = "- inertia about pivot: J_A = m L^2\n- eq. of motion:\n\n  J_A theta'' + b theta' + m g L sin theta = 0"
     twins(said, "m L^2", "m L", "pendulum")

@@ -152,16 +152,21 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
 
 
 def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
-    """The values of the parameters that an answer does not name; angles in degrees are parts of π, as in cos 25°."""
+    """The values of the parameters that an answer does not name; angles in degrees are parts of π, as in cos 25°,
+    unless the answer has their value in radians."""
     used = _constants(lines)
+    numbers = {x for line in lines for x in line.expr.atoms(sp.Rational)}
     put = truth.values.keys()
-    turns = any(line.expr.has(sp.pi) for line in lines)
     left = ((p, v) for p, v in truth.model.values.items() if p not in used and p not in put)
-    return {p: (_part_of_pi(v) if turns else None) or sp.Rational(str(v)) for p, v in left}
+    exact = ((p, v, sp.Rational(str(v))) for p, v in left)
+    return {p: value if value in numbers else _part_of_pi(v) or value for p, v, value in exact}
 
 
 def _part_of_pi(value: float) -> sp.Expr | None:
-    """An angle of some degrees as a part of π; None if they have more than four decimals."""
+    """An angle of some degrees, which no decimal number is, as a part of π: the cosine of 30° is √3/2.
+
+    None if the degrees have more than four decimals.
+    """
     degrees = round(value * 180 / pi, 4)
     same = value != 0 and isclose(degrees * pi / 180, value, rel_tol=1e-14)
     return cast("sp.Expr", sp.Rational(str(degrees)) * sp.pi / 180) if same else None

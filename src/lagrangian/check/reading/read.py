@@ -88,6 +88,11 @@ _PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{NAME}))")
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
+_DEGREES = re.compile(
+    r"(?<![\d.,_])(?P<number>\d{1,6}(?:[.,]\d{1,6})?)(?:\\[,;! ]|[ ]){0,3}"
+    r"(?:\^\s?(?:\{\s?\\circ\s?\}|\\circ(?![A-Za-z]))|\\degree(?![A-Za-z])|°)"
+)
+"""An angle in degrees in LaTeX."""
 _EXPLAINED = re.compile(
     r"(?<![\w\\])\$?\\?(?P<name>[^\W\d]\w{0,23}+)\$?\)?"
     r"(?:[ \t]{0,9}+(?::|=|\bis\b|\bdenotes\b|\bmeans\b|\bfor\b|\.{2,9}|[…–—|-])[ \t]{0,9}+|[ \t]{2,20}+)"
@@ -300,6 +305,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
     if _LATEX.search(said.text):
+        said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
         said = with_stated_values(with_derivatives(with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]))), taken)
