@@ -246,9 +246,20 @@ def driving(truth: Reference, i: int) -> sp.Expr:
     return total
 
 
+def _grows(truth: Reference, rest: sp.Expr) -> bool:
+    """Whether an expression has a slope by a coordinate, in doubles."""
+    compiled = CompiledExpressions([])
+    q = [compiled.input(c.symbol) for c in truth.model.coordinates]
+    compiled.ids = vjp(compiled.graph, [compiled.node(rest)], [compiled.graph.one], q)
+    slopes = np.abs(compiled.at(truth.states))
+    return bool(np.isfinite(slopes).all() and slopes.max(initial=0.0) > 1e-6 * (1 + np.median(slopes)))
+
+
 def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None:
     """Why a difference in an energy does not change the equations, in words; None if it does."""
     coordinates = truth.model.coordinates
+    if line.kind == "V" and _grows(truth, rest):
+        return None
     if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
         if rest.has(*[c.rate for c in coordinates]):
             return None
