@@ -152,3 +152,12 @@ def test_a_prescribed_motion_is_no_equation() -> None:
     verdict = disc().check(f"z = a sin(w t), z' = a cos(w t)\n{row}")
     assert [str(m.what) for m in verdict.mistakes] == ["z' is a*w*cos(t*w), not a*cos(t*w)."]
     assert not verdict.findings[0].differences
+
+
+def test_no_list_of_terms_where_it_would_not_be_true() -> None:
+    """A constant of V is nobody's mistake, and a solved form has divisors that no right term has."""
+    verdict = carts().check("V = k x^2 + c (y - x)^2/2 + k")
+    assert len(verdict.findings[0].differences) == 1
+    solved = "x'' = (c (y - x) - k x + b (y' - x'))/(m + n)\nn y'' + c (y - x) + b (y' - x') = F"
+    verdict = carts().check(solved)
+    assert not verdict.right and not any(" + n)" in str(d.term) for f in verdict.findings for d in f.differences)

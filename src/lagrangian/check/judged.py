@@ -167,6 +167,7 @@ def _equations(
             continue
         # solved for its acceleration, or an equation that lacks another one
         index, differing = min(told, key=lambda x: (not x[1], len(x[1])))
+        differing = () if _divided(truth, index, differing) else differing
         name = name_of(truth, index)
         found[j] = Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, index))
     return found
@@ -185,6 +186,16 @@ def _differing(
         if not any(d.term.has(*accelerations) for d in other):  # m y″ has a sign that everybody knows
             return like.index, other
     return like.index, found
+
+
+def _divided(truth: Reference, index: int, differing: Sequence[TermDifference]) -> bool:
+    """Whether terms are divided by sums by which no right one is: those of a solved form."""
+    own = _divisors(truth.rows[index])
+    return any(not _divisors(x) <= own for d in differing for x in (d.term, d.written))
+
+
+def _divisors(expr: sp.Expr) -> set[sp.Basic]:
+    return {p.base for p in expr.atoms(sp.Pow) if isinstance(p.base, sp.Add) and p.exp.is_negative}
 
 
 def _elements(truth: Reference, index: int) -> tuple[str, ...]:

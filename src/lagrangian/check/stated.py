@@ -132,6 +132,9 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
     follows = _follows(truth, line, i, given(truth, lines[:k]))
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
+    if line.kind in ("V", "L"):  # a constant is nobody's mistake
+        moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
+        differing = tuple(d for d in differing if d.term.has(*moving) or d.written.has(*moving))
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
 
 
