@@ -6,7 +6,7 @@ After L(x) = L0 + L1 x and g(x, y) = x² + y² − l², with L the Lagrangian an
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -62,15 +62,34 @@ def with_own_functions(
     named = {key(name): name for name in _functions(text.text, system, changes)}
     if not named:
         return text
-    edits: list[Edit] = []
+    edits = list(_slopes(text.text, named.values(), latex=latex))
+    spans = [(start, end) for start, end, _ in edits]
     for match in _APPLIED.finditer(text.text):
         whole = written(match["name"] + match["of"].removeprefix("\\left"))
-        if key(whole) not in named:
+        if key(whole) not in named or any(start <= match.start() < end for start, end in spans):
             continue
         index = re.sub(r"\W", "", whole.partition("(")[2])
         edits.append((*match.span("of"), f"_{{{index}}}" if latex else f"_{index}"))
         told.setdefault(f"'{whole}' was read as a quantity of its own.")
-    return text.edited(edits)
+    return text.edited(sorted(edits))
+
+
+def _slopes(text: str, functions: Iterable[str], *, latex: bool) -> Iterator[Edit]:
+    """The derivatives of functions of one coordinate, dL/dx and L'(x), by the names of their own."""
+    for whole in functions:
+        name, _, of = whole.removesuffix(")").partition("(")
+        if not re.fullmatch(r"\w{1,24}", name) or not re.fullmatch(r"\w{1,24}", of):
+            continue
+        d, by = r"(?:\\mathrm\s?\{d\}|\\partial|d|∂)\s?", rf"\\?{of}(?![\w'’′\u0307(])"
+        top = rf"{d}\\?{name}\s?(?:\(\s?\\?{of}\s?\))?"
+        forms = [rf"(?<![\w\\]){name}['’′]\s?\(\s?\\?{of}\s?\)"]
+        if not re.search(
+            rf"{d}{name}\s?\}}?\s?[/{{]\s?{d}(?!{by})|(?<![\w\\]){name}\s?&?=", text
+        ):  # no Lagrangian, too
+            forms += [rf"(?<!\w){top}/\s?{d}{by}", rf"\\[dt]?frac\s?\{{{top}\}}\s?\{{{d}{by}\s?\}}"]
+        new = rf"\frac{{\partial {name}_{{{of}}}}}{{\partial {of}}}" if latex else f"∂{name}_{of}/∂{of}"
+        for match in re.finditer("|".join(forms), text):
+            yield (*match.span(), new)
 
 
 _APPLIED = re.compile(rf"(?P<name>{_NAME})\s{{0,3}}(?P<of>(?:\\left)?\([^()=+*/^\n-]{{1,60}}\))")
@@ -86,8 +105,16 @@ def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str]
         end = _VALUE_END.search(text, match.end())
         value = text[match.end() : len(text) if end is None else end.start()]
         own = system(name) or (name in _LETTERS and not moves(value) and not _ENERGY.search(value))
-        if first and own and not changes(name) and all(map(changes, listed)):
+        if first and own and not changes(name) and all(changes(x) or _has_rate(x, text) for x in listed):
             yield f"{name}{of}"
+
+
+def _has_rate(name: str, text: str) -> bool:
+    """Whether an answer differentiates a name by time."""
+    return (
+        re.search(rf"(?<!\w){re.escape(name)}(?:['’′]|d?dot\b)|\\d?dot\s?\{{?\s?{re.escape(name)}(?!\w)", text)
+        is not None
+    )
 
 
 def written(text: str) -> str:

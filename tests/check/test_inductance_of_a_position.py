@@ -1,0 +1,43 @@
+"""An inductance L(x), its slope dL/dx and L'(x) are no Lagrangian."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+
+EQUATIONS = "{0} q'' + {1} x' q' + R q' = u\nm x'' - {1} q'^2/2 + k x = 0"
+
+
+@cache
+def solenoid() -> lg.Derivation:
+    s = lg.System("solenoid")
+    q, x = s.coordinates("q x")
+    m, k, R, L0, a = s.parameters("m k R L0 a")
+    s.particle(m, at=s.point("plunger", (x, 0)))
+    s.spring(k=k, deflection=x)
+    s.inductor(L0 * a / (a + x), charge=q)
+    s.resistor(R, charge=q)
+    s.voltage_source(s.inputs("u"), charge=q)
+    return s.derive()
+
+
+VALUES = EQUATIONS.format("L0 a/(a + x)", "(-L0 a/(a + x)^2)")
+
+
+@pytest.mark.parametrize(
+    ("answer", "right"),
+    [
+        (f"L(x) = L0 a/(a + x)\ndL/dx = -L0 a/(a + x)^2\n{VALUES}", True),
+        (f"L(x) = L0 a/(a + x)\ndL/dx = -L0/(a + x)^2\n{VALUES}", False),
+        ("L(x) = L0 a/(a + x)\n" + EQUATIONS.format("L(x)", "L'(x)"), True),
+        ("L(x) = L0 a/(a + x)\n" + EQUATIONS.format("L(x)", "dL/dx"), True),
+        ("L(x) = L0 a/(a + x)\n" + EQUATIONS.format("L(x)", "(-L'(x))"), False),
+        (f"z = x\nL(z) = L0 a/(a + z)\nT = L0 a/(a + z) q'^2/2 + m z'^2/2\n{VALUES}", True),
+        (f"L(x) = L0 a/(a + x)\nL = L(x) q'^2/2 + m x'^2/2 - k x^2/2\ndL/dx = L0 a/(a + x)^2 - k x\n{VALUES}", False),
+    ],
+)
+def test_an_inductance_and_its_slope_are_judged_as_such(answer: str, right: bool) -> None:
+    assert solenoid().check(answer).right is right
