@@ -59,3 +59,10 @@ def test_frames_and_arrows_are_no_part_of_an_equation(drawn: str) -> None:
     assert right(drawn.format("m x'' + d x' + k x = F"))
     assert right(drawn.format("m*x'' = F - d*x' - k*x"))
     assert not right(drawn.format("m x'' + d x' - k x = F"))
+
+
+def test_bullets_of_one_list_are_no_minus_where_others_have_none() -> None:
+    answer = "T = 1/2 m x'^2\nV = 1/2 k x^2\n\n- dT/dx' = m x'\n- dV/dx = {} x\n\nm x'' + d x' + k x = F"
+    assert right(answer.format("k"))
+    assert not right(answer.format("-k"))
+    assert right("V = 1/2 k x^2\n\n- m x'' - d x' - k x = -F")

@@ -34,6 +34,7 @@ _PRINTED = re.compile(r"\{\\left\(t \\right\)\}|\\frac\{d(?:\^\{2\})?\}\{d t")
 _SIGNED = re.compile(r"[ \t]*[-+–]")
 _UNFINISHED = re.compile(r"^(?=[^=]*['′″²³*^()\u0307\u0308])[^=:]*[^\s=:.,;][ \t]*$")
 """A line that ends in mathematics and has no equals sign."""
+_PARAGRAPHS = re.compile(r"(\n[ \t]*\n)")
 _LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
 _STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
 _ANY = re.compile(r"=|\bEq\w*\s*\(")
@@ -102,15 +103,22 @@ def all_bullets(text: str, *, marked: bool = False) -> bool:
     return len(marks) > (0 if marked else 1) and len(set(marks)) == 1 and marks[0] != ""
 
 
-def are_bullets(text: str, chosen: bool | None, notes: dict[str, None], *, marked: bool) -> bool:
-    """Whether what may be bullets at the beginning of lines is read so, which a note tells if it may be a minus;
-    ``chosen`` decides if it is not None."""
+def listed(text: str, chosen: bool | None, notes: dict[str, None], *, marked: bool) -> str:
+    """Return an answer in which what may be bullets at the beginning of lines is blank where it is read so, which a
+    note tells if it may be a minus: in the whole answer, or in a paragraph of several such lines. ``chosen`` decides
+    for all if it is not None."""
     if chosen is not None:
-        return chosen
-    listed = all_bullets(text, marked=marked)
-    if listed and may_be_signs(text):
+        return without_bullets(text) if chosen else text
+    if all_bullets(text, marked=marked):
+        found, signs = without_bullets(text), may_be_signs(text)
+    else:
+        parts = _PARAGRAPHS.split(text)
+        lists = [not are_signs(text) and all_bullets(x) for x in parts]
+        found = "".join(without_bullets(x) if own else x for own, x in zip(lists, parts, strict=True))
+        signs = any(own and may_be_signs(x) for own, x in zip(lists, parts, strict=True))
+    if signs:
         notes.setdefault("The sign at the beginning of lines was read as that of a list.")
-    return listed
+    return found
 
 
 def without_bullets(text: str) -> str:

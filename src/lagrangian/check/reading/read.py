@@ -27,10 +27,9 @@ from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import (
-    are_bullets,
     bullets,
+    listed,
     sentences_apart,
-    without_bullets,
     without_markup,
 )
 from lagrangian.check.reading.operators import without_operators
@@ -199,9 +198,9 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
-    listed = are_bullets(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
-    choice = bool(bullets(text))
-    text = without_bullets(text) if listed else text
+    choice, signed = bool(bullets(text)), text
+    text = listed(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
+    minus = text == signed
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE)
     own = {key(name) for name in model.symbols}
@@ -219,7 +218,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
-        listing = not listed if choice else None
+        listing = minus if choice else None
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
     try:
