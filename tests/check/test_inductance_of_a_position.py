@@ -26,6 +26,12 @@ def solenoid() -> lg.Derivation:
 
 VALUES = EQUATIONS.format("L0 a/(a + x)", "(-L0 a/(a + x)^2)")
 
+CURVE, SLOPE = r"\frac{L0 a}{a + x}", r"\frac{L0 a}{(a + x)^2}"
+LATEX = rf"""
+$$ {CURVE} \ddot q - {SLOPE} \dot x \dot q + R \dot q = u $$
+$$ m \ddot x + \frac{{1}}{{2}} {SLOPE} \dot q^2 + k x = 0 $$
+"""
+
 
 @pytest.mark.parametrize(
     ("answer", "right"),
@@ -37,6 +43,8 @@ VALUES = EQUATIONS.format("L0 a/(a + x)", "(-L0 a/(a + x)^2)")
         ("L(x) = L0 a/(a + x)\n" + EQUATIONS.format("L(x)", "(-L'(x))"), False),
         (f"z = x\nL(z) = L0 a/(a + z)\nT = L0 a/(a + z) q'^2/2 + m z'^2/2\n{VALUES}", True),
         (f"L(x) = L0 a/(a + x)\nL = L(x) q'^2/2 + m x'^2/2 - k x^2/2\ndL/dx = L0 a/(a + x)^2 - k x\n{VALUES}", False),
+        (rf"$L(x) = {CURVE}$, $\frac{{\partial L}}{{\partial x}} = -{SLOPE}$" + LATEX, True),
+        (rf"$L(x) = {CURVE}$, $L'(x) = {SLOPE}$" + LATEX, False),
     ],
 )
 def test_an_inductance_and_its_slope_are_judged_as_such(answer: str, right: bool) -> None:

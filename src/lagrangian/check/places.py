@@ -125,7 +125,7 @@ def _approximates(expr: sp.Expr, changing: Iterable[AppliedUndef]) -> bool:
     terms = [cast("sp.Expr", x) for x in sp.Add.make_args(bounded.expand(expr))]
     powers = [x for x in terms if not _functions(x, symbols)]
     if not _functions(expr, symbols):
-        return len(powers) == 1 and powers[0].is_number is False and _degree(powers, symbols) > 1  # θ² = 0
+        return len(powers) == 1 and powers[0].is_number is False and 1 < _degree(powers, symbols) <= HIGHEST
     degree = max(1, _degree(powers, symbols))
     if degree > HIGHEST:
         return False

@@ -84,7 +84,7 @@ def _slopes(text: str, functions: Iterable[str], *, latex: bool) -> Iterator[Edi
         top = rf"{d}\\?{name}\s?(?:\(\s?\\?{of}\s?\))?"
         forms = [rf"(?<![\w\\]){name}['’′]\s?\(\s?\\?{of}\s?\)"]
         if not re.search(
-            rf"{d}{name}\s?\}}?\s?[/{{]\s?{d}(?!{by})|(?<![\w\\]){name}\s?&?=", text
+            rf"{d}{name}\s?\}}?\s?[/{{]\s?{d}(?!\s?{by})|(?<![\w\\]){name}\s?&?=", text
         ):  # no Lagrangian, too
             forms += [rf"(?<!\w){top}/\s?{d}{by}", rf"\\[dt]?frac\s?\{{{top}\}}\s?\{{{d}{by}\s?\}}"]
         new = rf"\frac{{\partial {name}_{{{of}}}}}{{\partial {of}}}" if latex else f"∂{name}_{of}/∂{of}"
