@@ -141,6 +141,7 @@ def test_every_misconception_is_a_file_with_words() -> None:
     assert sorted(names) == sorted(files)
     for module in MISCONCEPTIONS:
         assert module.__doc__ and 0 <= module.STEP <= 6 and len(str(module.WHY)) > 30, module
+        assert not any(x in str(module.WHY) for x in ("½k", "kx", "bξ", "bδ", "bL")), "a hint is no correction"
 
 
 @pytest.mark.slow

@@ -1,11 +1,14 @@
 """Answers for systems with constraints: multipliers of any sign and scale, and equations without multipliers."""
 
+from dataclasses import replace
+
 import pytest
 import sympy as sp
 
 import lagrangian as lg
 from lagrangian.check import Status, check, lines_of
 from lagrangian.check.reading import parse_answer
+from lagrangian.page.formula import text
 
 
 @pytest.fixture(scope="module")
@@ -74,6 +77,16 @@ def test_sign_and_scale_of_a_multiplier_are_free(pendulum: lg.Derivation, answer
 def test_the_reading_of_a_multiplier_is_told(pendulum: lg.Derivation) -> None:
     notes = [str(n) for n in pendulum.check(RIGHT[1]).notes]
     assert any("'S' was read as -lambda_rod" in n for n in notes)
+
+
+def test_below_the_terms_no_note_holds_the_missing_factor(pendulum: lg.Derivation) -> None:
+    found = pendulum.check("m*x'' = lambda*x\nm*y'' + m*g = -lambda*y")
+    note = text("'lambda' was read as ", sp.Symbol("h") * sp.Symbol("lambda"), ".")
+    sign = text("'S' was read as ", -sp.Symbol("lambda"), ".")
+    for hint, told in ((1, [str(sign)]), (2, [str(sign)]), (3, [str(note), str(sign)])):
+        verdict = replace(found, notes=(note, sign), hint=hint)
+        assert not verdict.right and verdict.to_dict()["notes"] == told
+        assert ("'lambda' was read as" in verdict.to_text()) == (hint == 3)
 
 
 @pytest.mark.parametrize("name", ["lambda", "S", "lambda_rod"])

@@ -7,6 +7,7 @@ from enum import StrEnum
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.page.formula import Text
 from lagrangian.page.plain import plain
@@ -187,6 +188,11 @@ class Verdict:
         return self.mistakes[0] if self.mistakes else None
 
     @property
+    def told(self) -> tuple[Text, ...]:
+        """The notes that the hint level allows: below 3, none of a wrong answer with a formula beyond ±a name."""
+        return self.notes if self.right or self.hint >= 3 else tuple(filter(_names_only, self.notes))
+
+    @property
     def first_wrong(self) -> Finding | None:
         """The first line that is wrong; if none is, the first that says nothing."""
         left = [f for f in self.findings if not f.status.right]
@@ -198,7 +204,7 @@ class Verdict:
         if self.hint >= 1:
             data["lines"] = [_at(f.to_dict(), self.hint) for f in self.findings]
             data["motion"] = self.motion or self.right
-            data["notes"] = [str(n) for n in self.notes]
+            data["notes"] = [str(n) for n in self.told]
             data["change"] = {plain(k): plain(v) for k, v in self.change.items()}
             data["combination"] = (
                 [[plain(x) for x in row] for row in self.combination] if self.combination is not None else None
@@ -208,6 +214,13 @@ class Verdict:
             data["mistakes"] = [m.to_dict(self.hint) for m in self.mistakes]
             data["alternatives"] = [m.to_dict() for m in self.alternatives] if self.hint >= 3 else []
         return data
+
+
+def _names_only(note: Text) -> bool:
+    """Whether all formulas of a note are names, with a sign or without: others may hold what is missing."""
+    formulas = [x for x in note.parts if isinstance(x, sp.Expr)]
+    unsigned = [-x if x.could_extract_minus_sign() else x for x in formulas]
+    return all(isinstance(x, (sp.Symbol, sp.Number, sp.Derivative, AppliedUndef)) for x in unsigned)
 
 
 def _at(finding: dict[str, Any], hint: int) -> dict[str, Any]:

@@ -56,7 +56,7 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
         yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
     if any(f.follows for f in verdict.findings):
         yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
-    yield from verdict.notes
+    yield from verdict.told
 
 
 def _headline(verdict: Verdict) -> tuple[str | Left, ...]:

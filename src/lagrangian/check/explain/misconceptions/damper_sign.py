@@ -8,7 +8,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, n
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("A damper takes energy out: its Ξ is −bξ̇ on the right, or +bξ̇ on the left, like the spring in its place.")
+WHY = text("Does this damper take energy out, or put it in? Its force is against the motion of its ends.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -8,7 +8,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, h
 from lagrangian.page.formula import Name, text
 
 STEP = 2
-WHY = text("Every mass has ½m(ẋ² + ẏ²): all components of its velocity count.")
+WHY = text("All components of the velocity of a mass count in its energy.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

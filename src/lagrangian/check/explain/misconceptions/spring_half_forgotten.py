@@ -10,7 +10,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 3
-WHY = text("A spring stores ½k(x − x₀)²: the ½ makes its force kx.")
+WHY = text("The force of a spring is the slope of its energy: is a factor missing in the energy, or one too much?")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

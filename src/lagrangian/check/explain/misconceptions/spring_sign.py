@@ -8,7 +8,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 3
-WHY = text("A stretched or compressed spring stores energy: ½kx² is positive, and its force pulls back.")
+WHY = text("A stretched or compressed spring stores energy, and its force pulls back.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
