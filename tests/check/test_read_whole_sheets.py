@@ -121,3 +121,13 @@ def test_the_slopes_of_a_lagrangian_with_multipliers_have_them() -> None:
     assert not bead.check(own.replace("r^2 β'^2/2", "r^2 β'^2")).right
     assert not bead.check(own.replace("m g r sin β", "2 m g r sin β")).right
     assert not bead.check(own.replace("m r^2 β'' +", "m r^2 β'' -")).right
+
+
+@pytest.mark.parametrize(
+    "said", [" with J_A = J + m l^2", ",  J_A = J + m l^2", ", where J_A = J + m l^2 (about the pin)"]
+)
+def test_what_goes_on_below_a_letter_that_is_explained_belongs_to_the_equation(said: str) -> None:
+    first = "1/2 (M + m) x'^2 + m l x' theta' cos theta"
+    above = f"T = {first} + 1/2 J_A theta'^2{said}\n  = {first}"
+    assert right(f"{above} + 1/2 (J + m l^2) theta'^2")
+    assert not right(f"{above} + 1/2 (J - m l^2) theta'^2")

@@ -98,6 +98,7 @@ _STOP = (
     r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
     r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )
+_ENDS = re.compile(r"[;,]")
 _EQUALS = re.compile(r"(?<![=<>:!])=(?![=>])")
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLUMN}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
@@ -129,6 +130,9 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
                 head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"
+            if (at := _explained_from(head, bare)) is not None:  # T = A with J = B, and "= C" below it
+                rows.insert(-1, AnswerRow(open_row.start + at, head[at:]))
+                head = head[:at].rstrip(";, \t")
             gap = offset - open_row.start - len(head)
             rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, numbers))
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
@@ -271,6 +275,20 @@ def _continues(above: str, line: str) -> bool:
     if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
     return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+
+
+def _explained_from(above: str, line: str) -> int | None:
+    """Where an equation that goes on below it says what a letter in it is: T = m v²/2 + J w²/2 with J = m a²/3."""
+    if not line.lstrip().startswith("="):
+        return None
+    for match in _ENDS.finditer(above):
+        named = _NAME_NEXT.match(above, match.end())
+        if named is None or "=" not in above[: match.start()]:
+            continue
+        name = re.escape(named.group().split("=")[0].strip())
+        if re.search(rf"(?<![^\W_]){name}(?![^\W_'’′])", above[above.index("=") : match.start()]):
+            return match.end()
+    return None
 
 
 def _begins(above: str, line: str) -> bool:
