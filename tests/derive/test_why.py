@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from math import cos, sin
 
 import pytest
 import sympy as sp
@@ -133,7 +135,26 @@ def test_the_pull_of_a_pendulums_rod() -> None:
     rate = d.model.coordinates[0].rate
     pull = -x * sp.sin(theta) + y * sp.cos(theta)  # from the bob to the pivot
     assert vanishes(pull - s["m"] * (s["g"] * sp.cos(theta) + s["L"] * rate**2))
-    assert "S = m L θ̇² + m g cos θ" in d.why.to_text()
+    said = d.why.to_text(width=400)
+    assert "S = m L θ̇² + m g cos θ   (S is the pull of the rod, string or round track, towards the pivot at" in said
+    assert "This one is the pull S." in said
+
+
+def test_the_numbers_can_be_computed_again_from_what_the_page_says() -> None:
+    """(R_x, R_y) from the state, the acceleration and the letters of the page."""
+    said = derivation("pendulum").why.to_text(width=400).replace("−", "-").split("The same in numbers")[1]
+    value = {a: float(x) for a, x in re.findall(r"(θ̇|θ̈|θ|m|L|g) = (-?\d+\.\d+)", said)}
+    (pair,) = re.findall(r"Particle m +\((.+), (.+)\)", said)
+    m, L, g, turn, rate, growth = (value[a] for a in ("m", "L", "g", "θ", "θ̇", "θ̈"))
+    x = m * L * (growth * cos(turn) - rate**2 * sin(turn))
+    y = m * L * (growth * sin(turn) + rate**2 * cos(turn)) + m * g
+    assert (x, y) == pytest.approx((float(pair[0]), float(pair[1])), abs=1e-3)
+    assert "in N·m if it is an angle" in said
+
+
+def test_the_exception_to_forces_without_work_comes_first() -> None:
+    said = derivation("pendulum").why.to_text(width=400).split("The constraint forces do no work\n")[1]
+    assert said.index("First the exception") < said.index("the constraint forces vanish")
 
 
 def test_the_string_of_atwoods_machine() -> None:

@@ -41,12 +41,13 @@ from lagrangian.page.report import Part
 def constraint_work(why: Reasoning) -> Part:
     """Σ R·δr = 0: the reasons, and the sum."""
     items: list[Item] = [
+        *_exception(why),
         text(
             "Multiply F = ma of every mass by its ",
             Partial(PLACE, Name("xi", "j")),
             " (a dot product) and add over the whole system. In the sum the constraint forces vanish, because of "
             "what they are:",
-        )
+        ),
     ]
     items += _reasons(why)
     if why.derived.shares.rows:
@@ -114,10 +115,18 @@ def _reasons(why: Reasoning) -> Iterator[Item]:
             rows.append((text(hold.body.title), by, because))
     header = (text("mass"), text("held by"), text("why no work"))
     yield Table(header, tuple(rows))
+
+
+def _exception(why: Reasoning) -> Iterator[Item]:
+    """What is in R without being a constraint force."""
     if titles := list(dict.fromkeys(item.element.title for item in why.applied.passed)):
         yield text(
-            f"What is only passed on from {and_(titles)} is not a constraint force: it is taken out of the sum here "
-            "and counted below."
+            "First the exception: what ",
+            Name("R"),
+            f" contains of {and_(titles)} may do work. It is not a constraint force, so it is taken out of the sum here "
+            "and counted below. What follows is true for the rest of ",
+            Name("R"),
+            ".",
         )
 
 

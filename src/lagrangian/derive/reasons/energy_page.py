@@ -44,6 +44,8 @@ from lagrangian.page.formula import (
     text,
 )
 from lagrangian.page.report import Part
+from lagrangian.quantities.quantity import si_unit
+from lagrangian.write.numerals import unit
 
 MOST_COORDINATES = 5
 """With more coordinates, the tables of numbers are left out."""
@@ -76,10 +78,10 @@ def kinetic(why: Reasoning) -> Part:
         items.append(formula(left, short(why, found.inertia, LONG)))
     items.append(text("Both sums on the right are derivatives of the energy of step 2, ", T, ":"))
     if len(why.laws) > MOST_SUMMED:
-        which = text("equations 7 and 8, for every coordinate")
+        which = text("equation 7 is d/dt of this; for every coordinate")
         by_rate, by_place = Partial(T, Name("xi", "j", 1)), Partial(T, Name("xi", "j"))
         items.append(formula(Product((SUM, MASS, VELOCITY, BY_XI)), by_rate, note=which))
-        items.append(formula(Product((SUM, MASS, VELOCITY, BY_RATE)), by_place))
+        items.append(formula(Product((SUM, MASS, VELOCITY, BY_RATE)), by_place, note=text("equation 8")))
     for c, found in _pairs(why):
         items += _sums(why, c, found)
     if any(m.turning for m in why.moving):
@@ -108,7 +110,9 @@ def _sums(why: Reasoning, c: Coordinate, found: Law) -> Iterator[Formula]:
     """Σ m ṙ·∂r/∂ξ = ∂T/∂ξ̇ and Σ m ṙ·∂ṙ/∂ξ = ∂T/∂ξ of one coordinate."""
     T = Name("T*")
     momentum = Product((SUM, MASS, VELOCITY, Partial(PLACE, c.symbol)))
-    yield formula(momentum, Partial(T, c.rate), short(why, found.by_rate, LONG), note=text("equation 7"))
+    yield formula(
+        momentum, Partial(T, c.rate), short(why, found.by_rate, LONG), note=text("equation 7 is d/dt of this")
+    )
     slope = Product((SUM, MASS, VELOCITY, Partial(VELOCITY, c.symbol)))
     yield formula(slope, Partial(T, c.symbol), short(why, found.by_place, LONG), note=text("equation 8"))
 
@@ -186,13 +190,30 @@ def in_numbers(why: Reasoning) -> Part:
         items.append(text(f"{words}. There are too many numbers to show; all of them were compared."))
     else:
         listed: list[str | Left] = []
-        for c in coordinates:
-            listed += [", ", c.symbol, f" = {figure(n.state.get(c.symbol))}", ", ", c.rate]
-            listed += [f" = {figure(n.state.get(c.rate))}"]
-        items += [text(words, ": ", *listed[1:], "."), _works(why, n)]
+        for c, acceleration in zip(coordinates, n.accelerations, strict=True):
+            for symbol in (c.symbol, c.rate):
+                listed += [", ", symbol, f" = {figure(n.state.get(symbol))}"]
+            listed += [", ", c.acceleration, f" = {figure(acceleration)}"]
+        items += [text(words, ": ", *listed[1:], "."), *_letters(why, n)]
+        items.append(text("A force times ", Partial(PLACE, Name("xi", "j")), WORK_UNITS))
+        items.append(_works(why, n))
     worst = f"to {min(n.digits, 50)} of 50 digits"
     what = text("F = ma, both sides of (3) to (12), and the work of the constraint forces")
     return Part(title, tuple(items), (Check(what, n.agree, f"agree {worst}; {AGREE} are asked for"),))
+
+
+WORK_UNITS = " is in N if this coordinate is a length, and in N·m if it is an angle."
+
+
+def _letters(why: Reasoning, n: NumbersAt) -> Iterator[Item]:
+    """The values of the parameters and inputs, without which nobody could compute the numbers again."""
+    known = [x for x in (*why.derived.model.parameters, *why.derived.model.inputs) if x.symbol in n.state]
+    listed: list[str | Left] = []
+    for x in known:
+        measure = f" {unit(si_unit(x.unit) or x.unit)}" if x.unit else ""
+        listed += [", ", x.symbol, f" = {figure(n.state[x.symbol])}{measure}"]
+    if listed:
+        yield text("The letters stand for ", *listed[1:], ".")
 
 
 def _works(why: Reasoning, n: NumbersAt) -> Table:
@@ -257,8 +278,27 @@ def spared_part(why: Reasoning) -> Part:
             Name("R"),
             " never has to be calculated.",
         ),
+        *_known(why),
     ]
     return Part(text("What Lagrange spared you"), tuple(items))
+
+
+def _known(why: Reasoning) -> Iterator[Item]:
+    """Why fewer components of R are unknown than there are equations."""
+    s, rods = why.spared, [hold for hold in why.holds if hold.kind == "rod"]
+    free = s.equations - s.forces
+    if not 0 < s.forces < s.equations:
+        return
+    turns = " and the moments have" if s.rigid_bodies else " has"
+    way = "the one way" if free == 1 else f"the {free} ways"
+    only = (" This one is the pull ", Name("pull"), ".") if len(rods) == len(why.holds) == s.forces == 1 else ()
+    yield text(
+        Name("R"),
+        f"{turns} {_counted(s.equations, 'component')}. In {way} in which the masses can move, nothing holds them: so "
+        f"{_counted(free, 'component')} {'is' if free == 1 else 'are'} known, and {s.forces} "
+        f"{'is' if s.forces == 1 else 'are'} unknown.",
+        *only,
+    )
 
 
 def _counted(number: int, what: str, many: str = "") -> str:

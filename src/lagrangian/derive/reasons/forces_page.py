@@ -197,8 +197,9 @@ def _pull(why: Reasoning, hold: Holding) -> Iterator[Item]:
         return
     index = index_of(why, hold.body, "pull")
     if hold.kind == "rod":
-        words = text("along the line to ", *hold.on, ": the pull of the rod, string or round track")
-        yield formula(Name("pull", index), short(why, hold.force), note=words)
+        letter = Name("pull", index)
+        words = text(letter, " is the pull of the rod, string or round track, towards the pivot at ", *hold.on)
+        yield formula(letter, short(why, hold.force), note=words)
     elif len([m for m in why.moving if m.body is hold.body]) == 1:
         yield formula(Name("push", index), short(why, hold.force), note=text("across its path: the push of the track"))
 
@@ -213,7 +214,9 @@ def _passed_on(why: Reasoning) -> Iterator[Item]:
         f"{capital(and_(titles))} act{'s' if one else ''}, at one end at least, on a part without mass (a lever, a "
         "rod, a shaft). Such a part needs no force to be accelerated, so it passes on in full what acts on it: ",
         Name("R"),
-        " contains that, too.",
+        " contains that, too. This part of ",
+        Name("R"),
+        " is known, and it may do work.",
     )
 
 
@@ -224,8 +227,8 @@ def wiggle(why: Reasoning) -> Part:
     """δr = Σ ∂r/∂ξ δξ, and δφ = Σ ∂ω/∂ξ̇ δξ."""
     items: list[Item] = [
         text(
-            "Equations (2) and (3): stop the clock (δt = 0) and wiggle the coordinates a little. Every mass moves with "
-            "them, by"
+            "Equations (2) and (3): hold the time fixed (δt = 0) and change the coordinates a little. The lecture calls "
+            "this a virtual displacement, this page a wiggle. Every mass moves with them, by"
         ),
         formula(
             Variation(PLACE),
