@@ -123,7 +123,7 @@ def _exception(why: Reasoning) -> Iterator[Item]:
         yield text(
             "First the exception: what ",
             Name("R"),
-            f" contains of {and_(titles)} may do work. It is not a constraint force, so it is taken out of the sum here "
+            f" contains of {and_(titles)} may do work. It is not a constraint force: it is taken out of the sum here "
             "and counted below. What follows is true for the rest of ",
             Name("R"),
             ".",

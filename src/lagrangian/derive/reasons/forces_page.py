@@ -227,7 +227,7 @@ def wiggle(why: Reasoning) -> Part:
     """δr = Σ ∂r/∂ξ δξ, and δφ = Σ ∂ω/∂ξ̇ δξ."""
     items: list[Item] = [
         text(
-            "Equations (2) and (3): hold the time fixed (δt = 0) and change the coordinates a little. The lecture calls "
+            "Equations (2) and (3): hold time fixed (δt = 0) and change the coordinates a little. The lecture calls "
             "this a virtual displacement, this page a wiggle. Every mass moves with them, by"
         ),
         formula(
