@@ -14,6 +14,7 @@ from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
+from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
@@ -281,7 +282,9 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    typed_in = without_crossed_out(without_terminators(without_maxima(TracedText(text))), names.notes)
+    typed_in = without_crossed_out(
+        without_terminators(without_maxima(with_drawn_pieces(TracedText(text)))), names.notes
+    )
     shown = with_shown_values(without_long_names(without_tags(typed_in)))
     prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
