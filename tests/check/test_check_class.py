@@ -72,6 +72,14 @@ def test_points_by_part_and_by_line() -> None:
     assert earned(half) == {"half": 2}
 
 
+def test_an_equation_that_is_written_twice_counts_once() -> None:
+    first, second = EQUATIONS.splitlines()
+    wrong = second.replace("+ k", "- k")
+    answers = {"once": f"{first}\n{wrong}", "echo": f"{first}\n{first}\n{wrong}\n{wrong}"}
+    for row in carts().check_class(answers, points={"equations": 4}).rows:
+        assert [(m["points"], m["why"]) for m in row.marks] == [(2, "1 not right")], row.file
+
+
 def test_what_follows_from_a_wrong_line_costs_nothing_again() -> None:
     answers = {"ann": NO_HALF, "bob": NO_HALF.partition("\n")[2]}  # bob does not state T*
     for row in carts().check_class(answers, points={"V": 2, "L": 2, "equations": 4}).rows:

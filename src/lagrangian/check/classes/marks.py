@@ -134,6 +134,7 @@ def _line_share(lines: Sequence[Finding], derivation: Derived, base: str, coordi
 def _lines_share(verdict: Verdict, derivation: Derived, base: str, lines: Sequence[Finding]) -> tuple[float, str]:
     """The share of lines that are right, of those that are needed or given, whichever are more."""
     n = len(derivation.equations)
+    lines = _once(lines) if base != "Xi" else lines
     earned = [f for f in lines if _earned(f)]
     if base == "Xi":
         acted = set(_acted_on(derivation))
@@ -157,6 +158,15 @@ def _lines_share(verdict: Verdict, derivation: Derived, base: str, lines: Sequen
     said = [f"{wrong} not right"] if wrong else []
     said += [f"{missing} not given"] if missing > 0 else []
     return right / needed, ", ".join(said)
+
+
+def _once(lines: Sequence[Finding]) -> list[Finding]:
+    """The lines without those that say again what another says: the right ones of a coordinate, or the wrong ones."""
+    said: dict[object, Finding] = {}
+    for f in lines:
+        about = f.coordinate or f.line.name or f.line.expr
+        said.setdefault((f.line.kind, about, f.status is Status.INCOMPLETE, _earned(f)), f)
+    return list(said.values())
 
 
 def _earned(finding: Finding) -> bool:
