@@ -165,7 +165,9 @@ def _once(lines: Sequence[Finding]) -> list[Finding]:
     said: dict[object, Finding] = {}
     for f in lines:
         about = f.coordinate or f.line.name or f.line.expr
-        said.setdefault((f.line.kind, about, f.status is Status.INCOMPLETE, _earned(f)), f)
+        key = (f.line.kind, about, f.status is Status.INCOMPLETE, f.status.right)
+        if key not in said or not _earned(f):
+            said[key] = f
     return list(said.values())
 
 
