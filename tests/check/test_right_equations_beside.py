@@ -38,7 +38,9 @@ def test_fewer_equations_or_a_wrong_one_at_the_end_are_not_right(rows: str) -> N
     assert not verdict.motion and "equations of motion are right" not in said(verdict)
 
 
-def test_equations_with_a_multiplier_are_right_beside_a_wrong_energy() -> None:
+@pytest.fixture(scope="module")
+def yoke() -> lg.Derivation:
+    """A crank whose pin runs in the slot of a yoke."""
     s = lg.System("yoke")
     theta, x = s.coordinates("theta x")
     J, M, r = s.parameters("J M r")
@@ -48,7 +50,31 @@ def test_equations_with_a_multiplier_are_right_beside_a_wrong_energy() -> None:
     s.particle(M, at=s.point("yoke", (x, 0)), name="yoke")
     s.torque(tau, on=crank)
     s.constraint(x - r * sp.cos(theta), name="pin")
-    d = s.derive()
+    return s.derive()
+
+
+F = "x - r cos(theta) = 0"
+
+
+@pytest.mark.parametrize(
+    ("answer", "right"),
+    [
+        (f"J theta'' = tau - lambda r sin(theta)\nM x'' = lambda\n{F}", [False, True, True]),
+        (f"J theta'' = tau + lambda r\nM x'' = lambda\n{F}", [False, True, True]),
+        (f"J theta'' = tau + lambda r sin(theta)\nM x'' = -lambda\n{F}", [True, False, True]),
+        (f"{{J theta'' = lambda r sin(theta) - tau, M x'' = lambda, {F}}}", [False, True, True]),
+    ],
+)
+def test_the_stated_constraint_fixes_the_multiplier(yoke: lg.Derivation, answer: str, right: list[bool]) -> None:
+    """Of f = 0 comes λ ∂f/∂ξ: no other λ makes a wrong equation right, also where all stand in one line."""
+    verdict = yoke.check(answer)
+    assert [f.status.right for f in verdict.findings] == right and len(verdict.mistakes) == 1
+    opposite = yoke.check(answer.replace("lambda", "(-mu)"))
+    assert [f.status.right for f in opposite.findings].count(False) == 1
+
+
+def test_equations_with_a_multiplier_are_right_beside_a_wrong_energy(yoke: lg.Derivation) -> None:
+    d = yoke
     found = d.check(f"T = J theta'^2/2 + M x'^2\n{YOKE}")
     assert found.motion and "right. Line 1 (T*) does not agree with them" in said(found)
     wrong = d.check(f"T = J theta'^2/2 + M x'^2\n{YOKE.replace('= tau -', '= tau +')}")

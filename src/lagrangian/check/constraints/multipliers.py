@@ -19,6 +19,7 @@ from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.records import dataclass
@@ -39,13 +40,16 @@ WHY = text(
 class ReadMultipliers:
     """An answer whose multipliers are read: its lines, with right multipliers in all equations, and how they were read.
 
-    ``mistakes`` say where the multipliers had stood wrong, in the lines with the numbers ``wrong``.
+    ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong, in
+    the given lines ``wrong``. ``own`` are the names of the answer's multipliers.
     """
 
     lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...]
     mistakes: tuple[Mistake, ...]
     wrong: frozenset[int]
+    sources: tuple[int, ...]
+    own: tuple[Any, ...]
 
 
 def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> ReadMultipliers | None:
@@ -68,6 +72,10 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     possible = list(islice(_readings(truth, rows, names, own), MOST_READINGS))
     matches = [_matched(truth, exprs, x, own) for x in possible]
     scores = [_score(found) for found in matches]
+    fixed = [_read(truth, lines, rows, x) for x in _of_stated(truth, lines, names, own)]
+    right = min(fixed, key=lambda x: len(x.mistakes), default=None)
+    if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
+        return right
     found = _read(truth, lines, rows, possible[scores.index(max(scores))])
     if not any(map(_is_odd, found.mistakes)):
         return found
@@ -76,6 +84,23 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     others = [_read(truth, lines, rows, possible[k]) for k in plain_ones]
     kept = (x for x in others if len(x.mistakes) <= len(found.mistakes))  # never two for one
     return next((x for x in kept if not any(map(_is_odd, x.mistakes))), found)
+
+
+def _of_stated(
+    truth: Reference, lines: Sequence[AnsweredLine], names: Sequence[Any], own: Sequence[Any]
+) -> Iterator[_Reading]:
+    """How λ is read where the answer states f = 0 itself: with c f for our f, λ/c in all equations, or all with −."""
+    if len(names) != 1 or len(own) != 1:
+        return
+    f = next((row.position for row in rows_of(truth.model) if row.position is not None), None)
+    for line in lines if f is not None else ():
+        left, equals, right = line.text.rpartition("=")
+        if line.kind != "equation" or not equals or not right.strip().startswith("0") or not left.strip():
+            continue
+        c = bounded.cancel(line.expr / truth.expand(f))
+        if c.is_number and c != 0:
+            yield from ({names[0]: (own[0], cast("sp.Expr", sign / c))} for sign in (1, -1))
+            return
 
 
 def _against(truth: Reference, exprs: Sequence[sp.Expr], found: Sequence[_Match]) -> int:
@@ -115,10 +140,11 @@ def _read(
             if right is None or right == 0 or bounded.cancel(rest := written * c - right) == 0:
                 continue
             read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
-            wrong.add(line.number)
+            wrong.add(next(j for j, x in enumerate(lines) if x is line))
             mistakes.append(_mistake(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
-    kept = [read.get(id(line), line) for line in lines if line.kind != "equation" or id(line) in read]
-    return ReadMultipliers(tuple(kept), tuple(told), tuple(mistakes), frozenset(wrong))
+    sources = [j for j, line in enumerate(lines) if line.kind != "equation" or id(line) in read]
+    kept = tuple(read.get(id(lines[j]), lines[j]) for j in sources)
+    return ReadMultipliers(kept, tuple(told), tuple(mistakes), frozenset(wrong), tuple(sources), tuple(best))
 
 
 _Reading = Mapping[Any, "tuple[Any, sp.Expr]"]

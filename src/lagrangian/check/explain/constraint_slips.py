@@ -81,7 +81,7 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
         if above is not None:
             found.append(replace(above, finding=f, follows=True))
             continue
-        if not expr.has(*moving) and any(x in f.line.text for x in ("∂", "partial")):
+        if not expr.has(*moving) and any(x in f.line.text.partition("=")[0] for x in ("∂", "partial", "/d")):
             found.append(WrongConstraint(f, _slope(truth, f.line), SLOPE))
             continue
         slip = _slip(truth, f.line)

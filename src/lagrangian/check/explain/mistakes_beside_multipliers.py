@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeAlias
@@ -30,27 +31,49 @@ def named_beside_multipliers(
     if verdict.status is not Status.WRONG:
         return verdict
     wrong = wrong_constraints(truth, verdict.findings)
-    aside = {x.key: x.follows for x in wrong}
-    lines = [line for line in lines if (line.number, line.text) not in aside]
+    keys = _keys([f.line for f in verdict.findings])
+    aside = {k: x for k, f in zip(keys, verdict.findings, strict=True) for x in wrong if x.finding is f}
+    kept = [(k, x) for k, x in zip(_keys(lines), lines, strict=True) if k not in aside]
+    lines = [x for _, x in kept]
     read = with_own_multipliers(truth, lines)
     if read is None and not wrong:
         return verdict
     if read is None:
-        found = tuple(replace(f, follows=aside.get((f.line.number, f.line.text), f.follows)) for f in verdict.findings)
+        found = tuple(
+            replace(f, follows=aside[k].follows if k in aside else f.follows)
+            for k, f in zip(keys, verdict.findings, strict=True)
+        )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
     judged = judge(read.lines)
     named = _named(truth, read.lines, judged)
     told = (*named.told, *beside_constraints(truth, lines, wrong, judged, read.mistakes))
     if not told:
         return verdict
-    better = {f.line.number: f for f in judged}
-    better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in read.wrong}
-    for x in wrong:
-        better[x.finding.line.number] = replace(x.finding, follows=x.follows)
-    findings = tuple(_without_forces(truth, better.get(f.line.number, f)) for f in verdict.findings)
+    origin = {k: kept[j][0] for k, j in zip(_keys(read.lines), read.sources, strict=True)}
+    better = {origin[k]: f for k, f in zip(_keys([f.line for f in judged]), judged, strict=True)}
+    amiss = {kept[j][0] for j in read.wrong}
+    better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in amiss}
+    better |= {k: replace(x.finding, follows=x.follows) for k, x in aside.items()}
+    forces = [*(m.symbol for m in truth.derivation.multipliers.values()), *read.own]
+    for k, f in zip(keys, verdict.findings, strict=True):
+        if f.line.kind == "equation" and f.status.right and not f.line.expr.has(*forces):
+            better[k] = f  # true without any multiplier, however these are read
+    findings = tuple(_without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True))
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
+
+
+def _keys(lines: Lines) -> list[tuple[int, str, int]]:
+    """What identifies each line: its number, its text, and which it is of those that stand in the same text."""
+    seen: Counter[tuple[int, str, bool]] = Counter()
+    found: list[tuple[int, str, int]] = []
+    for line in lines:
+        judged = line.kind not in ("definition", "statement")
+        seen[line.number, line.text, judged] += 1
+        count = seen[line.number, line.text, judged]
+        found.append((line.number, line.text, count if judged else -count))
+    return found
 
 
 def _without_forces(truth: Reference, finding: Finding) -> Finding:
