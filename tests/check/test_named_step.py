@@ -168,3 +168,24 @@ rest = "l"
 def test_titles_of_steps_in_sentences_keep_the_capitals_of_names() -> None:
     assert [step_title(step) for step in (3, 4, 5)] == ["potential energy", "Lagrangian", "left-hand sides"]
     assert all(step_title(step).lower() == title.lower() for step, title in STEPS.items())
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "said"),
+    [
+        ("pendulum", "V = m*g*L*(1 - cos(theta))", "right: V may differ by a constant"),
+        (
+            "pendulum",
+            "T = m*L^2*theta'^2\nV = -m*g*L*cos(theta)\nL = m*L^2*theta'^2 + m*g*L*cos(theta)",
+            "line 3 (ℒ) not right, but only because of line 1 (T*)",
+        ),
+        (
+            "rolling-cylinder",
+            "T = 1/2*m*x'^2 + 3*J*x'^2/R^2",
+            "Is the moment of inertia about the centre of mass? This belongs to step 2, kinetic co-energy; it concerns "
+            "the cylinder.",
+        ),
+    ],
+)
+def test_a_verdict_speaks_to_a_student_in_plain_words(name: str, answer: str, said: str) -> None:
+    assert said in " ".join(str(derivation(name).check(answer, hint=2)).split())

@@ -247,7 +247,7 @@ def test_of_a_far_fetched_explanation_what_differs_is_said_first() -> None:
     verdict = derivation("cart-pole").check(f"{first}\n{POLE} = 0")
     words = str(verdict)
     assert not verdict.sure
-    assert words.index("What differs in line 1 comes from rigid body 'pole'") < words.index("This would explain it")
+    assert words.index("What differs in line 1 comes from the pole") < words.index("This would explain it")
     plain = derivation("cart-pole").check(f"{CART.replace('b*x', '2*b*x')} = F\n{POLE} = 0")
     assert plain.sure and "This would explain it" not in str(plain)
 

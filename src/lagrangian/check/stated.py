@@ -266,7 +266,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
     if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
         if rest.has(*[c.rate for c in coordinates]):
             return None
-        return text("up to a constant: the height or length from which it is counted is yours to choose")
+        return text("V may differ by a constant")
     if line.kind not in ("L", "T", "D"):
         return None
     if line.kind != "D":
@@ -278,7 +278,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
         if line.kind == "T" and held:
             return None
         words = "the time derivative of a function" if held else "a constant"
-        return text(f"up to {words}, which changes no equation")
+        return text(f"{line.kind} may differ by {words}: no equation changes")
     if line.kind == "D" and all(zero_everywhere(truth, rest.diff(c.rate)) for c in coordinates):
         return text("up to what no rate changes")
     return None

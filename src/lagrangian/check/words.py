@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
@@ -110,17 +110,21 @@ def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
 
 def _lines(verdict: Verdict) -> Table:
     rows: list[tuple[Text, ...]] = []
+    roots: list[str] = []
     for f in verdict.findings:
-        words: list[str | Left] = [_word(f)]
+        words: list[str | Left] = [_word(f, roots)]
         if f.note is not None:
             words += [": ", *f.note.parts]
         rows.append((text(f.line.title), text(*words)))
+        if f.status is Status.WRONG and not f.follows and f.line.title not in roots:
+            roots.append(f.line.title)
     return Table((text("line"), text("verdict")), tuple(rows))
 
 
-def _word(finding: Finding) -> str:
+def _word(finding: Finding, roots: Sequence[str]) -> str:
+    """The verdict on a line; ``roots`` are the titles of the lines above that are wrong and follow from none."""
     if finding.follows:
-        return "not right, but it follows from a line above"
+        return f"not right, but only because of {roots[0] if len(roots) == 1 else 'the lines above'}"
     if finding.status is Status.WRONG:
         return "not right"
     return {Status.INCOMPLETE: "says nothing", Status.SAME_MOTION: "true"}.get(finding.status, "right")
@@ -177,16 +181,36 @@ def _right_and_differing(finding: Finding) -> Iterator[Item]:
     names = {element for element, _ in differing}
     fine = [e for e in finding.elements if e not in names]
     if fine and differing:
-        yield text(f"Right in {finding.line.title}: what comes from {listed(fine)}.")
+        yield text(f"Right in {finding.line.title}: what comes from {listed([*map(_called, fine)])}.")
     if differing:
-        places = [f"{element}, step {step} ({step_title(step)})" for element, step in differing]
+        places = [f"{_called(element)}, step {step} ({step_title(step)})" for element, step in differing]
         yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
+
+
+BODIES = ("particle", "rigid body")
+"""Kinds of elements that are called by a name that is a word: the wheel."""
+PLACES = {
+    "first", "second", "third", "last", "left", "right", "upper", "lower", "inner", "outer", "top", "bottom", "front",
+    "rear", "back", "middle", "small", "large",
+}  # fmt: skip
+"""Words that name no thing by themselves: the left particle."""
+
+
+def _called(title: str) -> str:
+    """An element as it is called in a sentence: rigid body 'wheel' is the wheel, and damper 'damper' the damper."""
+    kind, quote, name = title.removesuffix("'").partition(" '")
+    words = name.split()
+    if not quote or not all(w.isalpha() and w.isascii() and len(w) > 2 for w in words):
+        return title
+    if kind in words or (kind in BODIES and words[-1] not in PLACES):
+        return f"the {name}"
+    return f"the {name} {kind}" if words[-1] in PLACES else title
 
 
 def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
     """The step of a mistake, and its element or those whose terms differ because of it."""
     elements = [mistake.element] if mistake.element else _concerned(mistake, verdict)
-    concerns = f"; it concerns {listed(elements)}" if elements else ""
+    concerns = f"; it concerns {listed([*map(_called, elements)])}" if elements else ""
     return (f"This belongs to step {mistake.step}, {step_title(mistake.step)}{concerns}.",)
 
 
@@ -240,7 +264,7 @@ def _source(d: TermDifference) -> tuple[str | Left, ...]:
         return (".",)
     if not d.origins:
         return (".",)
-    listed = " and ".join(dict.fromkeys(o.element for o in d.origins))
+    origins = " and ".join(dict.fromkeys(_called(o.element) for o in d.origins))
     steps = sorted({o.step for o in d.origins})
     verb = "It comes from" if d.kind != "extra" else "Such a term comes from"
-    return (f". {verb} {listed} in step{'s' if len(steps) > 1 else ''} {' and '.join(map(str, steps))}.",)
+    return (f". {verb} {origins} in step{'s' if len(steps) > 1 else ''} {' and '.join(map(str, steps))}.",)

@@ -15,7 +15,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.verdict import Mistake
-from lagrangian.model import Model, Spring
+from lagrangian.model import Model, RigidBody, Spring
 from lagrangian.page.formula import Left, Text, text
 from lagrangian.records import dataclass
 
@@ -29,7 +29,14 @@ class KindWords:
     why: str
 
 
-PLURALS = ("the terms", "the products", "the weights", "the energies", "the kinetic energy and the weight")
+PLURALS = (
+    "the terms",
+    "the velocity terms",
+    "the products",
+    "the weights",
+    "the energies",
+    "the kinetic energy and the weight",
+)
 """How the words of a site begin that ask for a verb in the plural."""
 
 LETTERS = "Keep to the letters of the sketch: every element has its own length, mass, stiffness and damping."
@@ -37,11 +44,13 @@ UNITS = "Compare the units of this term with those of its neighbours in the same
 ANGLES = "Look where the angle is measured from, and try a special position, such as an angle of zero."
 
 WHY_PART = {
-    2: "Every body has its ½mv² and, if it turns, its ½Jω²; the total velocity counts.",
+    2: "Every body has its ½mv² and, if it turns, its ½Jω². Take the total velocity, seen from the ground.",
     3: "Every spring and every weight has its own potential energy; heights are counted upwards.",
     5: "Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.",
-    6: "Ξ = Σ F·∂r/∂ξ: what a force does to a coordinate is its power divided by the rate of the coordinate.",
+    6: "Change only this coordinate a little. Does the point where the force acts move, and how far?",
 }
+WHY_NUMBER = "Check the factor in front of the mass or moment of inertia."
+WHY_INERTIA = f"{WHY_NUMBER} Is the moment of inertia about the centre of mass?"
 WAY = "Go along the way from the fixed point to the body: every piece of it counts, with its direction."
 VELOCITY = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
 MEASURE = "Look at the sketch: how far is it, and does the number belong to this length or to another one?"
@@ -236,6 +245,8 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     else:
         name, what, brief = _part(change, site, times)
         why = WHY_PART.get(site.step, WHY_PART[5])
+        if name == "wrong_number" and site.step == 2:
+            why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER
     if why == MEASURE and isinstance(site.element, Spring):
         why = DEFLECTION
     if why == UNITS and _has_no_unit(change):
@@ -280,7 +291,7 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
         return name, _text(*_unsigned(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
     number = 1 + times
     name = "factor_of_a_term" if site.single else "wrong_number"
-    hint = _text(*brief, *where, f" {have} a wrong number.")
+    hint = _text(*brief, *where, f" {have} a wrong factor.")
     if number in (2, Fraction(1, 2)):
         return name, _text(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
     said = sp.Rational(number.numerator, number.denominator)

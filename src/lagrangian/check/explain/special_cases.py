@@ -85,7 +85,7 @@ def _cases(truth: Reference) -> Iterator[_Case]:
     """Rest, and the absence of gravity, of each input, spring and damper that has a letter of its own."""
     model = truth.model
     rest = {c.rate: 0.0 for c in model.coordinates}
-    yield _Case(rest, ("at rest, but not in motion",), ("are the terms with rates",), WHY_RATES, 5)
+    yield _Case(rest, ("at rest, but not in motion",), ("are the velocity terms",), WHY_RATES, 5)
     for u in model.inputs:
         yield _Case({u.symbol: 0.0}, ("with ", u.symbol, " = 0"), ("are the terms with ", u.symbol), WHY_ELEMENT, 6)
     for element in model.elements:

@@ -389,5 +389,5 @@ class Sites:
             if slope and moved:
                 both = self.ring.fold(plus(slope, moved))
                 if both:
-                    words = ("the terms with rates", *of, " in the equation of ", q)
+                    words = ("the velocity terms", *of, " in the equation of ", q)
                     yield Site(words=words, brief=words, rows={i: both}, **step)

@@ -10,7 +10,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 5
-WHY = text("The box of a parent includes all its children: what is carried along has to be moved, too.")
+WHY = text("Everything that is carried along must be accelerated too: add all masses that move with this coordinate.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -13,8 +13,8 @@ from lagrangian.page.formula import Name, text
 
 STEP = 2
 WHY = text(
-    "Be careful: the total velocity counts. A body on a relative coordinate is carried by its parent, and its "
-    "velocity is the sum of the parent's and its own."
+    "T* needs the total velocity, seen from the ground. What carries the body moves too, and the velocity of the body "
+    "is the sum of both."
 )
 
 

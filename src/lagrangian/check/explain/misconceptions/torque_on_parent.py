@@ -9,8 +9,9 @@ from lagrangian.page.formula import Name, text
 
 STEP = 6
 WHY = text(
-    "The box of the parent includes its children: both ends of a force between parent and child are inside it, so "
-    "the force cancels. The parent's Ξ contains the reaction only if the coordinates are absolute."
+    "Change only this coordinate a little. What the force or torque acts on does not move, or both its ends move "
+    "together: it does no work, so it is not in this Ξ. A reaction on the ground does no work either, as the ground "
+    "does not move."
 )
 
 

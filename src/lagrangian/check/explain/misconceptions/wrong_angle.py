@@ -25,7 +25,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 if changed == energy:
                     continue
                 name = Name("T*" if key == "T" else "V")
-                what = text("In ", name, " stands ", other, " in place of the angle ", angle, ".")
+                what = text(name, " contains the angle ", other, " where ", angle, " belongs.")
                 if key == "T":
                     yield Variant(what=what, T=changed - energy)
                 else:
