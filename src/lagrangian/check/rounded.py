@@ -1,7 +1,8 @@
 """Reads the decimals of an answer in numbers as rounded: 1.8126156 for m cos(25°) = 1.81261557…
 
 A number is read as a coefficient of the right equations if it is this coefficient, rounded to its last digit. The
-answer is then compared exactly, so that a coefficient in a wrong place stays wrong.
+answer is then compared exactly, so that a coefficient in a wrong place stays wrong. With three digits many numbers are
+near some coefficient: such a line is read as rounded only if it is a right one, term by term.
 """
 
 from __future__ import annotations
@@ -23,6 +24,9 @@ from lagrangian.page.formula import Text, text
 FEWEST_DIGITS = 4
 """The fewest significant digits of a number that may be rounded."""
 
+FEWEST_IN_RIGHT_LINE = 3
+"""The fewest significant digits in a line in which every number is a right one or rounded from the right one."""
+
 LONGEST = 1_000
 """The largest number of operations of an equation whose coefficients are sought."""
 
@@ -35,34 +39,71 @@ MAX_SOLVED = 4
 
 def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """The lines with rounded numbers replaced by the coefficients that they stand for, and a note about them."""
-    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational)}
-    rounded = {x: unit for x in numbers if (unit := _last_digit(x)) is not None}
-    if not rounded or not truth.values:
+    if not truth.values:
         return tuple(lines), ()
+    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational)}
+    rounded = {x: unit for x in numbers if (unit := _last_digit(x, FEWEST_DIGITS)) is not None}
     table: dict[sp.Basic, sp.Expr] = {}
-    known = coefficients(truth)
+    known = coefficients(truth) if rounded else ()
     for x, unit in rounded.items():
         near = [(abs(value - float(x)), exact) for value, exact in known if abs(value - float(x)) <= 0.5000001 * unit]
         if near and all(exact != x for _, exact in near):
             meant = min(near, key=lambda pair: pair[0])[1]
             table |= {x: meant, -x: -meant}
-    if not table:
+    sizes = {float(abs(cast("Any", x))) for x in table}
+    put: list[AnsweredLine] = []
+    for line in lines:
+        expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)))
+        put.append(replace(line, expr=expr))
+        sizes |= few
+    told = sorted(sizes)
+    if not told:
         return tuple(lines), ()
-    put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in lines)
-    told = sorted({float(abs(cast("Any", x))) for x in table})
-    many = len(told) > 1
-    note = text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if many else 'was'} read as rounded.")
-    return put, (note,)
+    note = text(f"{', '.join(f'{x:.12g}' for x in told)} {'were' if len(told) > 1 else 'was'} read as rounded.")
+    return tuple(put), (note,)
 
 
-def _last_digit(x: Any) -> float | None:
+def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
+    """The right line that a line is if every number that differs is rounded from what stands there, and the sizes of
+    these numbers; otherwise the line itself and none."""
+    units = {abs(x): unit for x in expr.atoms(sp.Rational) if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+    if not units or bounded.operations(expr) > LONGEST:
+        return expr, set()
+    own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
+    if not all(map(_is_finite, own.values())):
+        return expr, set()
+    for right in _right_lines(truth):
+        if right.keys() != own.keys():
+            continue
+        exact = (own[k] / right[k] for k in own if abs(own[k]) not in units and right[k])
+        for scale in dict.fromkeys((sp.S.One, sp.S.NegativeOne, *exact)):
+            meant = {k: scale * x for k, x in right.items()}
+            off = {abs(x): abs(float(x - meant[k])) for k, x in own.items() if not _same(x, meant[k])}
+            if off and all(size in units and far <= 0.5000001 * units[size] for size, far in off.items()):
+                return sp.Add(*(k * x for k, x in meant.items())), {float(x) for x in off}
+    return expr, set()
+
+
+def _same(a: sp.Expr, b: sp.Expr) -> bool:
+    return abs(float(a - b)) <= 1e-12 * abs(float(b))
+
+
+@lru_cache(maxsize=32)
+def _right_lines(truth: Reference) -> tuple[dict[sp.Expr, sp.Expr], ...]:
+    """The numbers by which what moves is multiplied in each of the right equations and energies."""
+    exprs = (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi)
+    found = [{k: x for k, x in _sums(form).items() if x} for expr in exprs for form in _forms(expr)]
+    return tuple(own for own in found if own and all(_is_finite(x) for x in own.values()))
+
+
+def _last_digit(x: Any, fewest: int) -> float | None:
     """The unit of the last decimal of a number with enough digits; None for another one."""
     below, power = int(x.q), {2: 0, 5: 0}
     for prime in power:
         while below % prime == 0:
             below, power[prime] = below // prime, power[prime] + 1
     decimals = max(power.values())
-    if below != 1 or decimals > 30 or len(str(abs(x.p) * 10**decimals // x.q)) < FEWEST_DIGITS:
+    if below != 1 or decimals > 30 or len(str(abs(x.p) * 10**decimals // x.q)) < fewest:
         return None
     return 10.0**-decimals
 
@@ -92,13 +133,22 @@ def _forms(expr: sp.Expr) -> Iterator[sp.Expr]:
         yield bounded.expand(cast("sp.Expr", expr.xreplace(sums)))
 
 
-def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
-    """The numbers by which what moves is multiplied in an expanded expression."""
+def _sums(expr: sp.Expr) -> dict[sp.Expr, sp.Expr]:
+    """The factors of what moves in an expanded expression."""
     sums: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(expr):
         number, moving = term.as_independent(AppliedUndef, sp.Derivative, time, sp.Symbol, as_Add=False)
         sums[moving] = sums.get(moving, sp.S.Zero) + number
-    return {x: float(x) for x in sums.values() if x.is_number and x.is_finite and x.is_real}
+    return sums
+
+
+def _is_finite(x: sp.Expr) -> bool:
+    return bool(x.is_number and x.is_finite and x.is_real)
+
+
+def _coefficients(expr: sp.Expr) -> dict[sp.Expr, float]:
+    """The numbers by which what moves is multiplied in an expanded expression."""
+    return {x: float(x) for x in _sums(expr).values() if _is_finite(x)}
 
 
 def _solved(truth: Reference) -> list[sp.Expr]:
