@@ -10,7 +10,7 @@ import pytest
 
 import lagrangian as lg
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 from student_answers import CART, POLE, right
 
 
@@ -281,3 +281,17 @@ def test_a_matrix_drawn_with_its_name_on_a_middle_line_is_read() -> None:
 
     assert right(drawn("J + m*l^2"))
     assert not right(drawn("J - m*l^2"))
+
+
+def test_words_behind_a_gap_are_no_product_though_letters_of_the_system_spell_them() -> None:
+    sys = System("rod on a pin")
+    theta = sys.coordinates("theta")
+    m, k, b, e, l = sys.parameters("m k b e l")
+    sys.kinetic(m * (e + l) ** 2 * theta.diff() ** 2 / 2)
+    sys.potential(k * b * theta**2 / 2)
+    derived = sys.derive()
+    said = "rho = e + l*sin(theta)      distance of a ball from the axis\n"
+    right_energy = "T = m*(rho - l*sin(theta) + l)^2*theta'^2/2"
+    assert derived.check(said + right_energy).right
+    wrong = derived.check(said + right_energy.replace("/2", "/3"))
+    assert not wrong.right and not any("th e" in note for note in wrong.notes)
