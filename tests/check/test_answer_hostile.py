@@ -109,6 +109,7 @@ REFUSED = [
     ("x1 = 0\nm*(g + L = 0", "E701", 2, 3, "closed"),
     ("m*theta'' + = 0", "E701", 1, 13, "one side"),
     ("= 3", "E701", 1, 1, "one side"),
+    ("help", "E701", 1, 1, "no equation"),
     ("m*θ''' = 0", "E701", 1, 3, "3 dots"),
     ("sin = 3", "E701", 1, 1, "argument"),
     ("sin^-1(θ) = 3", "E701", 1, 1, "asin"),

@@ -167,6 +167,10 @@ def test_moodles_worksheet_is_filled_in_and_kept(tmp_path: Path) -> None:
     assert "stranger.txt belongs to nobody" in str(found) and not found.absent
     with pytest.raises(ModelError, match="no points"):
         carts().check_class({"ann": WHOLE}).to_moodle()
+    half = {MOODLE: EQUATIONS.replace("+ k", "- k")}  # 1.5 of 3 points
+    found = carts().check_class(half, points={"equations": 3}, roster=tmp_path / "worksheet.csv")
+    assert list(csv.reader(io.StringIO(found.to_moodle())))[1][4] == "5.00"
+    assert "3 points are its maximum grade 10" in str(found)
 
 
 def test_moodle_can_import_without_a_list_and_comments_are_no_markup() -> None:

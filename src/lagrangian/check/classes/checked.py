@@ -15,7 +15,7 @@ from lagrangian.check.classes.judge import FeedbackFormat, Judging
 from lagrangian.check.classes.marks import PartMark
 from lagrangian.check.classes.rows import ClassRow
 from lagrangian.check.classes.students import Roster, Student, unanswered
-from lagrangian.check.classes.tables import gradescope_csv, harmless, moodle_csv, to_csv
+from lagrangian.check.classes.tables import gradescope_csv, harmless, maximum_of, moodle_csv, to_csv
 from lagrangian.errors import Error, ModelError
 from lagrangian.records import dataclass
 from lagrangian.viewed import cut
@@ -115,14 +115,24 @@ class CheckedClass:
         lines += [f"no answer of {s.full_name or s.identifier or s.email or s.number}" for s in self.absent]
         if self.roster is not None:
             lines += [f"{row.file} belongs to nobody in the list" for row in self.rows if row.student is None]
+        lines += self._scaled()
         if self.damaged:
-            lines.append(f"{self.damaged} stored verdicts were damaged and not used")
+            are = "verdict was" if self.damaged == 1 else "verdicts were"
+            lines.append(f"{self.damaged} stored {are} damaged and not used")
         last = ""
         for count in self.statistics:
             lines += [""] if count.kind != last else []
             lines.append(count.sentence)
             last = count.kind
         return "\n".join(lines) + "\n"
+
+    def _scaled(self) -> list[str]:
+        """What is said if Moodle's worksheet has another maximum grade than the sum of the points."""
+        total = self.judging.scheme.total
+        if self.roster is None or not total:
+            return []
+        found = {maximum_of(self.roster.header, line) for line in self.roster.lines} - {None, total}
+        return [f"grades for Moodle: {number(total)} points are its maximum grade {number(x)}" for x in found if x]
 
     def _line(self, row: ClassRow, wide: int) -> str:
         points = f"{number(row.points):>6}" if row.most and row.points is not None else " " * 6 if row.most else ""

@@ -27,7 +27,10 @@ Source: Moodle's `mod/assign/feedback/offline/importer.php` needs "Identifier", 
 and reads the columns of the feedback plugins, "Feedback comments" among them.
 """
 
-GRADE, COMMENTS = "Grade", "Feedback comments"
+GRADE, MOST, COMMENTS = "Grade", "Maximum grade", "Feedback comments"
+
+LONGEST_NUMBER = 15
+"""Characters from which the digits of a cell are no grade."""
 
 GRADESCOPE = ("First Name", "Last Name", "SID", "Email", "Total Score", "Max Points", "Status")
 """The columns with which Gradescope's table of scores begins; one for every question follows."""
@@ -51,7 +54,8 @@ def moodle_csv(rows: Sequence[ClassRow], roster: Roster | None) -> str:
     """Return the grades and comments as Moodle's grading worksheet.
 
     With the worksheet that Moodle exported as ``roster`` its lines are kept, and only the grade and the comment are
-    filled in. An answer that could not be judged gets a comment and no grade.
+    filled in. The grade is the share of the points times the worksheet's maximum grade, if that is a number above 0.
+    An answer that could not be judged gets a comment and no grade.
     """
     if roster is None:
         return to_csv(MOODLE, [_moodle_line(row) for row in rows], end="\r\n")
@@ -64,18 +68,30 @@ def moodle_csv(rows: Sequence[ClassRow], roster: Roster | None) -> str:
     for row in rows:
         if row.student is not None and row.student.row is not None:
             line = lines[row.student.row]
-            line[grade], line[comments] = _grade(row), _marked_up(row)
+            line[grade] = _grade(row, maximum_of(header, line) or row.most)
+            line[comments] = _marked_up(row)
     return to_csv(header, lines, end="\r\n")
 
 
 def _moodle_line(row: ClassRow) -> list[str]:
     own = row.student or student_of(row.file)
     known = [harmless(x) for x in (own.identifier, own.full_name, own.number, own.email)]
-    return [*known, _grade(row), number(row.most), "-", _marked_up(row)]
+    return [*known, _grade(row, row.most), number(row.most), "-", _marked_up(row)]
 
 
-def _grade(row: ClassRow) -> str:
-    return "" if row.points is None else f"{row.points:.2f}"
+def _grade(row: ClassRow, most: float) -> str:
+    """The points of an answer where its most is another number."""
+    return "" if row.points is None else f"{row.points * most / (row.most or 1):.2f}"
+
+
+def maximum_of(header: Sequence[str], line: Sequence[str]) -> float | None:
+    """The maximum grade in a line of Moodle's worksheet, with a point or comma; None if it has none above 0."""
+    if MOST not in header:
+        return None
+    whole, _, part = line[header.index(MOST)].strip().replace(",", ".").partition(".")
+    if not (whole.isdecimal() and (not part or part.isdecimal()) and len(whole + part) < LONGEST_NUMBER):
+        return None
+    return float(f"{whole}.{part or 0}") or None
 
 
 def _marked_up(row: ClassRow) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-from lagrangian.check.reading.answer import Answer
+from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents, with_own_functions
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
@@ -201,7 +201,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     choice, signed = bool(bullets(text)), text
     text = listed(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
-    minus = text == signed
+    listing = text == signed if choice else None
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE)
     own = {key(name) for name in model.symbols}
@@ -219,7 +219,6 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
-        listing = minus if choice else None
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
     try:
@@ -227,6 +226,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     finally:
         if reading == LIKELIEST and lines.failed:
             others += marked_readings(marked(), lines.failed)
+    _check_number(rows if _states_anything(made, lines) else [], source, written)
     again = [partial(_answer, given, model, place, x, []) for x in others]
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
@@ -272,6 +272,13 @@ def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLate
         at = at if latex is None else latex.origin(at)
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, at, fix="give the answer in several parts", code="E703")
+
+
+def _states_anything(made: Sequence[AnswerLine], lines: Lines) -> bool:
+    """Whether a line equates something or holds a name of the system: "help" and "pdf" are names of nothing."""
+    own = {u.symbol for u in lines.names.unknown.values()}
+    alone = [x.kind == "equation" and "=" not in x.text and x.residual in own for x in made]
+    return not alone or not all(alone)
 
 
 def _without_notations(typed: Source, lines: Lines) -> TracedText:
