@@ -137,3 +137,29 @@ def test_a_damper_in_front_of_a_name_with_primes_is_a_factor() -> None:
     assert s.derive().check("J phi'' + dphi' + kphi = 0").right
     assert not s.derive().check("J phi'' + dphi'' + kphi = 0").right
     assert s.derive().check("dphi = phi'\nJ dphi' + d dphi + kphi = 0").right  # here it is a name
+
+
+def test_expressions_beside_every_generalized_force_are_left_hand_sides() -> None:
+    cart = "x: (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta"
+    pole = "theta: (J + m l^2) theta'' + m l x'' cos theta - m g l sin theta"
+    for rows in (f"{cart}\n{pole}", f"{pole}\n{cart}"):
+        sheet = f"5) left-hand sides\n{rows}\n6) Xi_x = F - b x'\nThe equations are 5) = 6)."
+        assert right(sheet)
+        assert not right(sheet.replace("- m g l", "+ m g l"))
+        assert not right(sheet.replace("F - b", "F + b"))
+        assert not right(sheet.replace("6) Xi_x = F - b x'\n", ""))
+        assert not right(sheet.replace("sin theta\n", "sin theta = 0\n"))
+
+
+def test_a_letter_e_of_the_answer_is_not_the_base_of_powers() -> None:
+    s = System("spring between two blocks")
+    x, y = s.coordinates("x y")
+    m, k = s.parameters("m k")
+    s.particle(m, at=s.point("A", (x, 0)))
+    s.particle(m, at=s.point("B", (y, 0)))
+    s.spring(k, deflection=y - x)
+    d = s.derive()
+    rows = r"m \ddot x - k e &= 0 \\ m \ddot y + k e &= 0"
+    sheet = rf"With $e = y - x$, \begin{{align}} V &= \frac{{1}}{{2}} k e^2 \\ {rows} \end{{align}}"
+    assert d.check(sheet).right
+    assert not d.check(sheet.replace("e^2", "e^3")).right

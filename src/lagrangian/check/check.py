@@ -33,7 +33,7 @@ from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, 
 from lagrangian.check.numbers_beside import with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
-from lagrangian.check.stated_apart import with_energies_apart, without_first_parts
+from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
@@ -57,11 +57,12 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
     judged, added = with_energies_apart(truth, judged)
+    judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
     written = filled(truth, judged)
     verdict = _checked(truth, judged, written, hint, explain)
     general = untrue_in_general(truth, written)
-    verdict = replace(verdict, notes=(*unjudged, *added, *parts, *verdict.notes, *general))
+    verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")

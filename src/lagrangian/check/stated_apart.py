@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, permutations
+from typing import cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.reading import generalized_force
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import listed as listed_in_words
 from lagrangian.model import Gravity, Inductor, Spring
 from lagrangian.model.elements.branch import CircuitBranch
-from lagrangian.page.formula import Text, text
+from lagrangian.page.formula import Name, Text, text
 
 MOST_PARTS, MOST_ADDED = 8, 3
 """The most definitions that are tried, and the most that are added up."""
+MOST_PERMUTED = 4
+"""The largest number of coordinates for which all orders of equations are tried."""
 
 
 def with_energies_apart(
@@ -61,6 +67,35 @@ def without_first_parts(
             whole[id(line)] = after[-1]
     notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
     return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))
+
+
+def with_forces_apart(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The lines, with left-hand sides d/dt ∂L/∂ξ̇ − ∂L/∂ξ that are written without "=", beside every Ξ, as equations.
+
+    They are such if there is one for every coordinate, and no letter in them that only Ξ has. With a note that says so.
+    """
+    model, n = truth.model, truth.n
+    bare = [x for x in lines if x.kind == "equation" and x.text and not re.search("[=≈≡]", x.text)]
+    acting = {c.name for c, own in zip(model.coordinates, truth.Xi, strict=True) if own != 0}
+    forces = sp.Tuple(*truth.Xi).atoms(sp.Symbol, AppliedUndef) - sp.Tuple(truth.T, truth.V).atoms(
+        sp.Symbol, AppliedUndef
+    )
+    stated = {x.name for x in lines if x.kind == "Xi"}
+    if len(bare) != n or n > MOST_PERMUTED or truth.derivation.multipliers or not forces or not acting <= stated:
+        return tuple(lines), ()
+    if any(x.expr.has(*forces) for x in bare) or not all(
+        x.expr.has(*(c.acceleration for c in model.coordinates)) for x in bare
+    ):
+        return tuple(lines), ()
+    left = [cast("sp.Expr", row + own) for row, own in zip(truth.rows, truth.Xi, strict=True)]
+    same = [[zero_everywhere(truth, truth.expand(x.expr) - own) for own in left] for x in bare]
+    order = max(permutations(range(n)), key=lambda p: sum(same[j][i] for j, i in enumerate(p)))
+    names = {id(x): model.coordinates[i].name for x, i in zip(bare, order, strict=True)}
+    read = (replace(x, expr=x.expr - generalized_force(names[id(x)])) if id(x) in names else x for x in lines)
+    told = f"{listed_in_words([x.title for x in bare])} were read as left-hand sides: what they are equal to is "
+    return tuple(read), (text(told[:1].upper() + told[1:], Name("Xi"), "."),)
 
 
 def _terms(truth: Reference, expr: sp.Expr) -> frozenset[sp.Basic]:

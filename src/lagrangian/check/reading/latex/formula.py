@@ -213,7 +213,7 @@ class LatexParser(LatexFractions):
             return diagonal(start, matrix_entries(made) or [made])
         if base == "delta" and self.next.kind in ("letters", "symbol", "upright", "(") and not self._is_letter(base):
             return wrapped("variation", start, self._symbol_in_brackets())
-        if base == "e" and self.next.kind == "^" and not self.known("e"):
+        if base == "e" and self.next.kind == "^" and not self._is_letter(base):
             self.take()
             return node("call", start, leaf("NAME", "exp", start), self._argument())
         exponent: Node = None
