@@ -5,7 +5,7 @@ return [v, (F - k*x)/m]         x' = v,  v' = (F - k*x)/m
 
 function f!(dz, z, p, t)        the same in Julia
 function dz = f(t, z)           z(2) is v, or by default the coordinates and then their rates
-dz = [z(2); (F - k*z(1))/m]
+dz = [z(2); (F - k*z(1))/m]     also dzdt = [z[1], …] with return dzdt
 
 % z = [x; v]                    the states in a comment, as z(1) = x, z(2) = v or in a list
 dz(2) = (F - k*z(1))/m          without the function's first line
@@ -24,7 +24,7 @@ from lagrangian.records import dataclass, field
 _NAME = r"[^\W\d]\w*"
 _HEADER = re.compile(
     rf"^[ \t]*+(?:def[ \t]++{_NAME}[ \t]*+\((?P<python>[^()\n]*+)\)[^:\n]*+:"
-    rf"|function[ \t]++(?:(?P<out>{_NAME})[ \t]*+=[ \t]*+{_NAME}[ \t]*+\((?P<matlab>[^()\n]*+)\)[ \t]*+;?"
+    rf"|function[ \t]++(?:(?P<out>{_NAME}['’′]?)[ \t]*+=[ \t]*+{_NAME}[ \t]*+\((?P<matlab>[^()\n]*+)\)[ \t]*+;?"
     rf"|{_NAME}!?[ \t]*+\([ \t]*+(?P<given>d\w*+)[ \t]*+,(?P<julia>[^()\n]*+)\)))[ \t]*+$",
     re.MULTILINE,
 )
@@ -45,9 +45,14 @@ _SLICES = re.compile(
 """The rates of positions, which are the velocities: dx(1:2) = x(3:4)."""
 _LIST = r"(?:(?:np|numpy|jnp)\.(?:array|asarray|hstack)[ \t]*\([ \t]*)?[\[(]"
 _RETURNED = re.compile(rf"^[ \t]*+return[ \t]++(?P<list>{_LIST})", re.MULTILINE)
+_NAMED = re.compile(
+    rf"^[ \t]*+return[ \t]++(?:(?:np|numpy|jnp)\.(?:array|asarray)\()?(?P<name>{_NAME}['’′]?)\)?{_END}", re.MULTILINE
+)
+"""What returns the rates that have a name: return dydt."""
+_BY_TIME = re.compile(r"[dD](?P<of>[^\W\d_]\w*?)_?dt\Z|(?P<primed>\w++)['’′]\Z")
 _NOTHING = re.compile(
-    rf"^[ \t]*+(?:end|return|return[ \t]++{_NAME}"
-    rf"|{_NAME}[ \t]*=[ \t]*(?:np\.)?(?:zeros|empty)(?:_like)?\([\w(), ]*\)){_END}",
+    rf"^[ \t]*+(?:end|return|return[ \t]++{_NAME}['’′]?"
+    rf"|{_NAME}['’′]?[ \t]*=[ \t]*(?:np\.)?(?:zeros|empty)(?:_like)?\([\w(), ]*\)){_END}",
     re.MULTILINE,
 )
 _CLOSED = {"(": ")", "[": "]"}
@@ -67,7 +72,7 @@ _LISTED_STATES = r"(?<!\w)STATE[ \t]*+(?:=|:|is)[ \t]*+[\[(](?P<names>[^\[\]()]*
 
 @dataclass
 class _Function:
-    """A function: the name of its state, of what it returns, the names of the states by index, and where it ends."""
+    """A function: the name of its state, an expression for that of what it returns, the names of the states by index."""
 
     state: str | None
     out: str | None
@@ -81,8 +86,9 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     written = _with_round_indices(written)
     text = written.text
     headers = list(_HEADER.finditer(text))
-    loose = _without_header(text) if not headers and not _RETURNED.search(text) else None
-    if len(headers) != 1 and loose is None and not (not headers and _RETURNED.search(text)):
+    returns = _RETURNED.search(text) is not None or _named(text) is not None
+    loose = _without_header(text) if not headers and not returns else None
+    if len(headers) != 1 and loose is None and not (not headers and returns):
         return written
     function = loose or _function(text, headers)
     function.names = _commented(text, function.state, coordinates) | function.names
@@ -127,13 +133,29 @@ def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:
     state = next((m["of"] for m in (*unpacked, *indexed)), None) or next(
         (x for x in others if x not in ("t", "")), None
     )
-    found = _Function(state, next((m["out"] or m["given"] for m in headers), None))
+    out = next((m["out"] or m["given"] for m in headers), None)
+    found = _Function(state, _named(text) if out is None else _spellings(out))
     found.others = [x for x in others if x]
     for match in [m for m in unpacked if m["of"] == state][:1]:
         found.names = dict(enumerate(x.strip() for x in match["names"].split(",")))
     for match in indexed:
         found.names[_place(match)] = match["name"]
     return found
+
+
+def _spellings(out: str) -> str:
+    """An expression for the name of rates, where dydt may have become y' already."""
+    by_time = _BY_TIME.match(out)
+    of = by_time["of"] or by_time["primed"] if by_time is not None else None
+    return rf"(?:[dD]{of}_?dt|{of}['’′])" if of is not None else out
+
+
+def _named(text: str) -> str | None:
+    """The spellings of a name that is returned, which a list or entries give above; None if there is none."""
+    match = _NAMED.search(text)
+    out = _spellings(match["name"]) if match is not None else None
+    given = rf"^[ \t]*+{out}(?:{_INDEX}[ \t]*=(?!=)|[ \t]*=[ \t]*{_LIST})"
+    return out if out is not None and re.search(given, text, re.MULTILINE) else None
 
 
 def _place(match: re.Match[str]) -> int:
@@ -210,7 +232,7 @@ def _slices(text: str, function: _Function, states: Sequence[str]) -> Iterator[E
 
 def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
     """The equations in the place of a list that is returned: each entry is the rate of its state."""
-    given = re.compile(rf"^[ \t]*+{function.out}[ \t]*=[ \t]*(?P<list>\[)", re.MULTILINE)
+    given = re.compile(rf"^[ \t]*+{function.out}[ \t]*=[ \t]*(?P<list>{_LIST})", re.MULTILINE)
     for match in (_RETURNED if function.out is None else given).finditer(text):
         spans = _entries(text, match.end("list") - 1)
         if spans is None or len(spans) != len(states):
