@@ -72,7 +72,7 @@ _LISTED_STATES = r"(?<!\w)STATE[ \t]*+(?:=|:|is)[ \t]*+[\[(](?P<names>[^\[\]()]*
 
 @dataclass
 class _Function:
-    """A function: the name of its state, an expression for that of what it returns, the names of the states by index."""
+    """A function: the name of its state, an expression for that of what it returns, and the states by index."""
 
     state: str | None
     out: str | None
