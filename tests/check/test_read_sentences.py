@@ -294,4 +294,15 @@ def test_words_behind_a_gap_are_no_product_though_letters_of_the_system_spell_th
     right_energy = "T = m*(rho - l*sin(theta) + l)^2*theta'^2/2"
     assert derived.check(said + right_energy).right
     wrong = derived.check(said + right_energy.replace("/2", "/3"))
-    assert not wrong.right and not any("th e" in note for note in wrong.notes)
+    assert not wrong.right and "th e" not in wrong.to_text()
+
+
+@pytest.mark.parametrize(
+    "place", ["theta = 0 is alpha = pi/2", "theta = 0 (upright) means alpha = pi/2", "alpha = pi/2"]
+)
+def test_one_position_of_an_angle_of_the_answer_is_no_value_of_it(place: str) -> None:
+    said = f"alpha = pi/2 - theta is the angle from the ground, and {place}.\n"
+    cart = "(M + m) x'' - m l alpha'' sin alpha - m l alpha'^2 cos alpha + b x' = F"
+    twins(
+        f"{said}{cart}\n(J + m l^2) alpha'' - m l x'' sin alpha + m g l cos alpha = 0", "pi/2 - theta", "pi/2 + theta"
+    )

@@ -140,8 +140,12 @@ class Names:
     # -- meaning -----------------------------------------------------------------------------------------------------
 
     def define(self, written: str, value: Value) -> None:
-        """Give a name of the answer its meaning."""
+        """Give a name of the answer its meaning; a number beside a value that moves is only one position."""
         base = key(undotted(written)[0])
+        above = self.own.get(base)
+        if above is not None and above[1].atoms(AppliedUndef) and isinstance(value, sp.Expr) and value.is_number:
+            self.notes.setdefault(f"'{written} = {value}' was not judged: {written} moves, this is one position.")
+            return
         self.own[base] = (str(written), value)
         self.redefined.define(base, value, self.statement)
 
