@@ -85,7 +85,7 @@ def test_a_question_sheet_says_what_is_given_and_asks_for_seven_steps() -> None:
     assert "A cart on a horizontal track; a pole hinged on the cart." in flat
     assert "Force F is positive to the right." in flat
     assert "pole, from upright, positive where it leans forward" in flat
-    assert "pole (mass) 0.2 kg" in flat and "0.006 kg·m²" in flat and "acceleration of gravity 9.81 m/s²" in flat
+    assert "pole (mass) 0.2 kg" in flat and "0.006 kg·m²" in flat and "gravitational acceleration 9.81 m/s²" in flat
     assert [line[0] for line in words.splitlines() if re.match(r"[0-6]   ", line)] == list("0123456")
     assert "ẍ" not in words  # nothing of the solution
 
@@ -207,3 +207,42 @@ def test_the_manuals_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     assert (tmp_path / "pendulum-questions.html").exists()
     with pytest.raises(Error, match="exists already"):
         sheet("pendulum", None).save(tmp_path, "pendulum")
+
+
+SPOOL = """name = "weight on a thread"
+[coordinates]
+x = "drum, turned clockwise; its rim moves by r*x"
+y = "weight, downwards"
+[parameters]
+m = { value = "1 kg", description = "mass of the drum" }
+M = { value = "2 kg", description = "weight" }
+r = { value = "0.1 m", description = "radius of the drum" }
+k = { value = "9 N/m", description = "thread" }
+J1 = { value = "0.1 kg*m^2", description = "crank" }
+[[kinetic]]
+name = "crank"
+value = "J1*x'^2/2"
+[[particle]]
+name = "drum"
+mass = "m"
+at = ["r*x", "0"]
+[[particle]]
+name = "weight"
+mass = "M"
+at = ["3", "-y"]
+[[spring]]
+name = "thread"
+k = "k"
+deflection = "y - 2*r*x"
+[[constraint]]
+name = "slot"
+expression = "sin(x) - y/r"
+"""
+
+
+def test_a_sheet_states_what_no_picture_shows() -> None:
+    """The constraint, what a thread joins and how far it is stretched, an energy that is given."""
+    flat = " ".join(lg.loads(SPOOL).worksheet().question().split())
+    assert "Spring 'thread' joins the drum and the weight." in flat
+    assert "The extension of spring thread is y − 2 r x." in flat
+    assert "The constraint 'slot' is" in flat and "The kinetic co-energy 'crank' is given" in flat

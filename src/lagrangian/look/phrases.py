@@ -27,9 +27,17 @@ def capital(text: str) -> str:
 def said(element: Element) -> str:
     """An element by its kind and name: ``spring k``, ``the damper`` where these are the same."""
     kind, name = element.kind.replace("_", " "), short(element.name)
+    if name.endswith(f" {kind}"):
+        return f"the {name}"
     if name.startswith(kind):
         return name if name != kind else f"the {kind}"
     return f"{kind} {name}" if name else f"a {kind}"
+
+
+def called(body: Element) -> str:
+    """A body as it is mentioned: ``the spool``, ``particle m1``."""
+    name = short(body.name)
+    return f"the {name}" if len(name) > 2 and all(w.isalpha() for w in name.split()) else body.title
 
 
 def cut(words: list[str], rest: str) -> list[str]:

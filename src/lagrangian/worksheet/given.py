@@ -8,21 +8,27 @@ from collections.abc import Iterator
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.errors import listed
+from lagrangian.look.phrases import called, said
 from lagrangian.model import (
     Body,
     Capacitor,
+    Constraint,
     Damper,
     Element,
     Force,
     Gravity,
     Inductor,
+    Kinetic,
     Model,
     MutualInductance,
+    Potential,
     Resistor,
     RigidBody,
     Spring,
     Torque,
     Transducer,
+    VelocityConstraint,
     VoltageSource,
 )
 from lagrangian.page.formula import Item, Left, Name, Table, Text, text
@@ -73,11 +79,22 @@ def given(model: Model, seen: str) -> Iterator[Item]:
         yield text(_quoted(model, seen))
     for element in model.elements:
         if isinstance(element, Spring):
+            yield from _deflected(model, element, seen)
             yield from _relaxed(model, element)
-        elif isinstance(element, Damper) and not seen and element.deflection is not None:
-            yield text(f"{_capital(element)} resists the rate of ", element.deflection, ".")
+        elif isinstance(element, Damper):
+            yield from _deflected(model, element, seen)
         elif isinstance(element, Force | Torque):
             yield from _positive(model, element)
+        elif isinstance(element, Constraint | VelocityConstraint):
+            named = f" '{element.name}'" if element.name else ""
+            distance = getattr(element, "distance", None)
+            if element.expression is not None:
+                yield text(f"The constraint{named} is ", element.expression, " = 0.")
+            elif distance is not None:
+                yield text(f"The constraint{named} holds two points at the distance ", distance, ".")
+        elif isinstance(element, Kinetic | Potential):
+            what = "kinetic co-energy" if isinstance(element, Kinetic) else "potential energy"
+            yield text(f"The {what} '{element.name}' is given: ", element.value, ".")
     yield _coordinates(model)
     if rows := [*_letters(model)]:
         yield Table((text("letter"), text("what it is"), text("value")), tuple(rows))
@@ -92,7 +109,36 @@ def _quoted(model: Model, words: str) -> str:
 
 
 def _capital(element: Element) -> str:
-    return element.title[:1].upper() + element.title[1:]
+    words = said(element) if said(element).startswith("the ") else element.title
+    return words[:1].upper() + words[1:]
+
+
+def _deflected(model: Model, element: Spring | Damper, seen: str) -> Iterator[Item]:
+    """What a spring or damper joins and its deflection, unless the picture shows between what it is."""
+    shown = seen.casefold()
+    phrase = said(element).casefold()
+    if element.deflection is None or any(f"{phrase} {word} " in shown for word in ("between", "at")):
+        return
+    joined = _joined(model, element.deflection)
+    if len(joined) == 2:
+        yield text(f"{_capital(element)} joins {listed([called(b) for b in joined])}.")
+    if isinstance(element, Spring):
+        yield text(f"The extension of {said(element)} is ", element.deflection, ".")
+    else:
+        yield text(f"{_capital(element)} resists the rate of ", element.deflection, ".")
+
+
+def _joined(model: Model, deflection: sp.Expr) -> list[Body]:
+    """The bodies whose coordinates a deflection has, if each of these coordinates moves one body only."""
+    found: list[Body] = []
+    for c in model.coordinates:
+        if not model.expand(deflection).has(c.symbol):
+            continue
+        moved = [b for b in model.bodies if any(model.expand(x).has(c.symbol) for x in model.position(b.at))]
+        if len(moved) != 1:
+            return []
+        found += [b for b in moved if b not in found]
+    return found
 
 
 def _relaxed(model: Model, spring: Spring) -> Iterator[Item]:
@@ -182,7 +228,7 @@ ROLES: tuple[tuple[type[Element], str, str, str], ...] = (
     (Resistor, "R", "resistance", "resistance of {}"),
     (VoltageSource, "value", "voltage", "voltage of a source"),
     (Transducer, "k", "constant", "constant of {}: effort per current, and voltage per speed"),
-    (Gravity, "g", "acceleration of gravity", "acceleration of gravity"),
+    (Gravity, "g", "gravitational acceleration", "gravitational acceleration"),
     (Force, "value", "force", "{}"),
     (Torque, "value", "torque", "{}"),
 )
