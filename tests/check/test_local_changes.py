@@ -126,6 +126,10 @@ def test_a_hint_of_level_2_holds_no_term(name: str) -> None:
             assert not any(term in told for term in terms if len(term) > 6)
 
 
+PENDULUM_WITH_A_SIGN = """m*r'' - m*r*theta'^2 + k*(r - L_0) - m*g*cos(theta) = 0
+m*r^2*theta'' - 2*m*r*r'*theta' + m*g*r*sin(theta) = 0"""
+
+
 def test_terms_are_told_in_the_scale_of_the_answer() -> None:
     answer = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0\n"
     answer += "(1+M/m)*x'' + l*cos(theta)*theta'' + l*sin(theta)*theta'^2 + b*x'/m = F/m"
@@ -133,6 +137,10 @@ def test_terms_are_told_in_the_scale_of_the_answer() -> None:
     told = str(verdict.mistakes[0].what)
     assert told.startswith("The term l*sin(theta)*theta'^2 of the equation of x has the wrong sign")
     assert told.endswith("on the left-hand side it should be -l*sin(theta)*theta'^2.")
+    verdict = check_answer(derivation("elastic-pendulum"), PENDULUM_WITH_A_SIGN)
+    told = str(verdict.mistakes[0].what)  # a term that is written with a minus
+    assert told.startswith("The term -2*m*r*r'*theta' of"), told
+    assert told.endswith("should be 2*m*r*r'*theta'.")
 
 
 def test_lengths_and_ratios_are_known_by_their_units() -> None:

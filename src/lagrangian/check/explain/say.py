@@ -288,7 +288,7 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     if times == -2:
         name = "sign_of_a_term" if site.single else "wrong_sign"
         hint = _text("There is a wrong sign: ", *site.brief, *where, ".")
-        return name, _text(*_unsigned(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
+        return name, _text(*_as_written(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
     number = 1 + times
     name = "factor_of_a_term" if site.single else "wrong_number"
     hint = _text(*brief, *where, f" {have} a wrong factor.")
@@ -298,9 +298,12 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     return name, _text(*whole, f" {count} ", said, " times", *where, "."), hint
 
 
-def _unsigned(words: Words, site: Site) -> Words:
-    """The words of a site with its single term without the sign, which is not the one that was written."""
-    if not site.single or not isinstance(words[1], sp.Expr) or not words[1].could_extract_minus_sign():
+def _as_written(words: Words, site: Site) -> Words:
+    """The words of a site with its single term as it was written: in an equation with the other sign, else with
+    none."""
+    if not site.single or not isinstance(words[1], sp.Expr):
+        return words
+    if not site.rows and not words[1].could_extract_minus_sign():
         return words
     return (words[0], -words[1], *words[2:])
 
