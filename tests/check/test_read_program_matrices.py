@@ -199,3 +199,30 @@ def test_the_rate_of_a_column_is_no_single_quantity() -> None:
         derivation("cart-pole").check(wrong)
     verdict = derivation("cart-pole").check(wrong + "\n".join(ROWS_BY_HAND))
     assert verdict.right and "Line 2 could not be read" in verdict.to_text()
+
+
+HEAD = """def rhs(t, y):
+    x, theta, xd, thetad = y
+    A = np.array([[M+m, m*l*np.cos(theta)], [m*l*np.cos(theta), J+m*l**2]])
+    r = np.array([F - b*xd + m*l*np.sin(theta)*thetad**2, m*g*l*np.sin(theta)])
+"""
+
+
+@pytest.mark.parametrize(
+    ("end", "right"),
+    [
+        ("acc = np.linalg.solve(A, r)\n    return [xd, thetad, acc[0], acc[1]]", True),
+        ("xdd, thetadd = np.linalg.solve(A, r)\n    return [xd, thetad, xdd, thetadd]", True),
+        ("acc = np.linalg.inv(A) @ r\n    return np.concatenate(([xd, thetad], acc))", True),
+        ("acc = np.linalg.solve(A, -r)\n    return [xd, thetad, acc[0], acc[1]]", False),
+        ("acc = np.linalg.solve(A, r)\n    return [xd, thetad, acc[1], acc[0]]", False),
+        ("thetadd, xdd = np.linalg.solve(A, r)\n    return [xd, thetad, xdd, thetadd]", False),
+    ],
+)
+def test_accelerations_that_a_function_solves_for_are_read(end: str, right: bool) -> None:
+    assert derivation("cart-pole").check(f"{HEAD}    {end}\n").right == right
+
+
+def test_the_order_of_the_states_is_that_of_the_accelerations() -> None:
+    turned = HEAD.replace("x, theta, xd, thetad = y", "theta, x, thetad, xd = y")
+    assert not derivation("cart-pole").check(f"{turned}    acc = np.linalg.solve(A, r)\n    return acc\n").right

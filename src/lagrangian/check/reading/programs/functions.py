@@ -55,6 +55,8 @@ _NOTHING = re.compile(
     rf"|{_NAME}['’′]?[ \t]*=[ \t]*(?:np\.)?(?:zeros|empty)(?:_like)?\([\w(), ]*\)){_END}",
     re.MULTILINE,
 )
+_ACCELERATIONS = re.compile(rf"^[ \t]*+{_NAME}\*(?P<name>q?acc|q?accel|q?accelerations?)[ \t]*+=(?!=)", re.MULTILINE)
+"""The equations of motion that a program solves, M*acc = f."""
 _CLOSED = {"(": ")", "[": "]"}
 _RATES = re.compile(
     rf"^[ \t]*+(?P<out>[dD](?P<of>[^\W\d_]\w*?)(?:_?dt)?|(?P<dotted>[^\W\d_]\w*?)_?(?:dot|prime))[ \t]*+"
@@ -104,6 +106,9 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     states = [name or default[i] for i, name in enumerate(names)]
     if len(function.names) > 1 and set(function.names) == set(range(len(function.names))):
         states = states[: len(function.names)]  # the current and not the charge
+    order = [name for name in states if name in coordinates]
+    if set(order) == set(coordinates):
+        edits += _solved(text, order)
     if function.state is not None:
         edits += [*_indices(text, function.state, states), *_slices(text, function, states)]
     if function.out is not None:
@@ -111,6 +116,19 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         edits += [(*m.span(), f"{states[at]}'") for m, at in rates if 0 <= at < len(states)]
     edits += _returned(text, function, states)
     return written.edited(apart(edits))
+
+
+def _solved(text: str, order: Sequence[str]) -> Iterator[Edit]:
+    """The second derivatives of the coordinates, in their order as states, in the place of accelerations that a program
+    solves for."""
+    match = _ACCELERATIONS.search(text)
+    if match is None:
+        return
+    rates = [f"{name}''" for name in order]
+    yield *match.span("name"), f"[{'; '.join(rates)}]"
+    for entry in re.finditer(rf"(?<!\w){match['name']}{_INDEX}", text):
+        if 0 <= _place(entry) < len(rates):
+            yield *entry.span(), rates[_place(entry)]
 
 
 def _with_round_indices(written: TracedText) -> TracedText:

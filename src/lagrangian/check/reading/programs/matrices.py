@@ -3,6 +3,7 @@
 M = [a, 0; ...⏎ 0, b]              M = [a, 0;  0, b]            a statement of MATLAB that goes on
 np.array([[a, 0],⏎ [0, b]])        np.array([[a, 0],  [0, b]])
 qdd = np.linalg.solve(M, f)        M*qdd = f                    also inv(M) @ f and M.LUsolve(f)
+xdd, ydd = np.linalg.solve(M, f)   M*[xdd; ydd] = f
 M =⏎⏎ [a, 0]⏎ [0, b]               M = [a, 0; 0, b]             what MATLAB prints
 h =⏎⏎  b*dx⏎   k*x                 h = [b*dx; k*x]
 % q = [x; y], M(q)*qdd + h = f     q = [x; y]; M*qdd + h = f    an equation that only a comment states
@@ -29,7 +30,7 @@ _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", 
 _MARK = re.compile(r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)")
 _FACTOR = r"[^\W\d]\w{0,23}+|\([^()\n=]{1,200}\)"
 _SOLVED = re.compile(
-    rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}})[ \t]*+=[ \t]*+(?:"
+    rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}}(?:[ \t]*+,[ \t]*+{_NAME}){{0,8}})[ \t]*+=[ \t]*+(?:"
     rf"(?:(?:\w{{1,6}}\.){{0,3}}solve\([ \t]*+|(?=\w{{1,24}}\.LUsolve))(?P<of>{_NAME})(?:[ \t]*+,|\.LUsolve\()"
     r"[ \t]*+(?P<by>(?:[^()\n=;,]|\([^()\n=;]{0,80}\)){1,200})\)"
     rf"|(?:(?:\w{{1,6}}\.){{0,3}}inv\([ \t]*+(?P<inverse>{_NAME})[ \t]*+\)|(?P<own>{_NAME})\.inv\(\))"
@@ -116,7 +117,8 @@ def _arrays(text: str) -> Iterator[Edit]:
 def _product(match: re.Match[str], given: set[str]) -> str:
     """The product that equals what is solved for; the text as it is if the matrix is not given."""
     of = match["of"] or match["inverse"] or match["own"]
-    return f"{of}*{match['left']} = {match['by'] or match['factor']}" if of in given else match.group()
+    left = match["left"] if "," not in match["left"] else f"[{match['left'].replace(',', ';')}]"
+    return f"{of}*{left} = {match['by'] or match['factor']}" if of in given else match.group()
 
 
 def _shown(text: str) -> Iterator[tuple[str, list[Edit]]]:
