@@ -16,7 +16,7 @@ from lagrangian.check import Status
 from lagrangian.cli import main
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.worksheet.dice import Dice
-from lagrangian.worksheet.letters import new_letters
+from lagrangian.worksheet.letters import new_letters, relabelled
 from lagrangian.worksheet.proof import sheet_checks
 
 
@@ -246,3 +246,12 @@ def test_a_sheet_states_what_no_picture_shows() -> None:
     assert "Spring 'thread' joins the drum and the weight." in flat
     assert "The extension of spring thread is y − 2 r x." in flat
     assert "The constraint 'slot' is" in flat and "The kinetic co-energy 'crank' is given" in flat
+
+
+def test_descriptions_follow_the_letters_of_a_variant() -> None:
+    names = {"phi": "gamma", "R": "d", "x": None, "mass": "M", "m": "M"}
+    said = "turn of the spool, clockwise; the centre moves by R*phi"
+    assert relabelled(said, names) == "turn of the spool, clockwise; the centre moves by d*gamma"
+    assert relabelled("spring, relaxed at x = 0", names) == "spring"
+    assert relabelled("mass of a spool, 2 m long", names) == "mass of a spool, 2 m long"
+    assert relabelled("drum, R = 2*m", names, other_values=True) == "drum"

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+
+from sympy.core.alphabets import greeks
 
 from lagrangian.derive.coordinates import measured
 from lagrangian.model import Model, Parameter
@@ -30,6 +32,8 @@ INPUTS: tuple[tuple[str, tuple[str, ...]], ...] = (
     (r"N\*?m", ("tau", "u")),
 )
 """The letters of inputs by unit; M, C and G are the matrices of every derivation."""
+
+GREEK = frozenset(greeks)
 
 KEPT = {"g"}
 """Letters that everybody knows and no variant changes."""
@@ -88,6 +92,29 @@ def parameter_letters(model: Model, dice: Dice) -> dict[str, str]:
     rest = [x.name for x in (*model.parameters, *model.inputs) if x.name not in mine]
     others = [x.name for x in (*model.coordinates, *model.definitions)]
     return new_letters(known, [*rest, *others, "t", "e", "g"], dice)
+
+
+def relabelled(description: str, names: Mapping[str, str | None], *, other_values: bool = False) -> str:
+    """A description with the new names of its letters; a part with a letter whose new name is None is left out.
+
+    A letter is one character, a Greek name, has an index, or stands in a formula; other words stay, as do a, A and I.
+    With ``other_values`` an equality of letters, or with a number other than 0, may not hold any more and is left out.
+    """
+    parts = [_relabelled(part, names, other_values) for part in re.split(r"(?=[,;:])", description)]
+    return "".join(x for x in parts if x is not None).lstrip(",;: ")
+
+
+def _relabelled(part: str, names: Mapping[str, str | None], other_values: bool) -> str | None:
+    formula = any(x in part for x in "*^=/+")
+    words = set(re.findall(r"\w+", part))
+    told = {w for w in words if w in names and (formula or _is_letter(w))}
+    if any(names[w] is None for w in told) or (other_values and "=" in part and (told or re.search("[1-9]", part))):
+        return None
+    return re.sub(r"(?<!\d )(?<!\w)\w+", lambda found: str(names[found[0]]) if found[0] in told else found[0], part)
+
+
+def _is_letter(word: str) -> bool:
+    return word not in ("a", "A", "I") and (len(word) == 1 or not word.isalpha() or word in GREEK)
 
 
 def _pool(unit: str | None, pools: Sequence[tuple[str, tuple[str, ...]]]) -> tuple[str, ...]:

@@ -22,7 +22,7 @@ from lagrangian.records import dataclass
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.viewed import Brief
 from lagrangian.worksheet.dice import Dice
-from lagrangian.worksheet.letters import coordinate_letters, new_value, parameter_letters
+from lagrangian.worksheet.letters import coordinate_letters, new_value, parameter_letters, relabelled
 from lagrangian.worksheet.measure import Remeasured, remeasured
 from lagrangian.worksheet.sides import Moved, moves
 
@@ -112,7 +112,8 @@ def _running(model: Model, *kept: str) -> Model:
 def _in_coordinates(model: Model, remade: Sequence[Remeasured]) -> Model:
     table = {r.coordinate.name: r.expression for r in remade if r.expression != r.coordinate.symbol}
     made = carried(model, table, name=model.name).model() if table else model
-    return _lettered(made, {}, {}, {r.name: r.description for r in remade}, None)
+    plainly = {r.coordinate.name: r.name if r.expression.is_Function else None for r in remade}
+    return _lettered(made, {}, {}, {r.name: r.description for r in remade}, None, plainly)
 
 
 def _tried(make: Any) -> Model | None:
@@ -171,43 +172,45 @@ class _Letterer(Carrier):
         values: Mapping[str, float | None],
         words: Mapping[str, str],
         moved: Moved | None,
+        said: Mapping[str, str | None],
     ) -> None:
         super().__init__(model, change, model.name)
-        self.names, self.values, self.words = names, values, words
+        self.names, self.values, self.words, self.said = names, values, words, said
         self.moved = moved.elements if moved is not None else {}
         self.told = moved.described if moved is not None else {}
         self._vague = {n for e in model.elements if id(e) in self.moved for n in _letters_of(e)}
 
     def declare(self) -> None:
         """Declare everything under its new name, with its new value."""
-        known = [*self.model.parameters, *self.model.inputs, *self.model.coordinates]
-        mentioned = {x.name for x in known if len(x.name) > 1 or x.name not in "aAI"}
         for c in self.model.coordinates:
             words = self.words.get(c.name, c.description)
-            self.builder.coordinate(c.name, description=words, unit=c.unit, positive=c.positive)
+            self.builder.coordinate(
+                c.name,
+                description=relabelled(words, self.said, other_values=bool(self.names)),
+                unit=c.unit,
+                positive=c.positive,
+            )
         for p in self.model.parameters:
             value = self.values.get(p.name, p.value)
             name = self.names.get(p.name, p.name)
-            self.builder.parameter(name, value, unit=p.unit, description=self._described(p, mentioned))
+            self.builder.parameter(name, value, unit=p.unit, description=self._described(p))
         for u in self.model.inputs:
             name = self.names.get(u.name, u.name)
-            self.builder.input(name, description=self._described(u, mentioned), unit=u.unit)
+            self.builder.input(name, description=self._described(u), unit=u.unit)
 
-    def _described(self, symbol: Any, mentioned: set[str]) -> str:
-        """The description without the parts that contain letters, or name a place that something has left."""
+    def _described(self, symbol: Any) -> str:
+        """The description in the new letters, without the parts that name a place that something has left."""
         if symbol.name in self.told:
             return self.told[symbol.name]
         if symbol.name in self._vague:
             return ""
-        parts = symbol.description.split(", ")
-        if not self.names:
-            return symbol.description
-        kept = [x for x in parts if not re.search(r"[*^=/+]", x) and not set(re.findall(r"\w+", x)) & mentioned]
-        return ", ".join(kept)
+        return relabelled(symbol.description, self.said, other_values=bool(self.names))
 
     def elements(self, element: Element) -> Iterator[Element]:
         """The element at its new place; one that is named after its letter has the new letter's name."""
         for made in super().elements(self.moved.get(id(element), element)):
+            if id(element) in self.moved and made.kind not in made.name and made.name.isalpha() and len(made.name) > 2:
+                made = made.named("")  # a name such as "table" tells its old place
             yield made.named(self.names[made.name]) if made.name in self.names else made
 
     def settle(self) -> None:
@@ -235,6 +238,7 @@ def _lettered(
     values: Mapping[str, float | None],
     words: Mapping[str, str],
     moved: Moved | None,
+    measured: Mapping[str, str | None] | None = None,
 ) -> Model:
     """The model in other letters, with other values, descriptions of coordinates, and places of elements."""
     letters: dict[Any, Any] = {}
@@ -244,7 +248,7 @@ def _lettered(
         letters[u.symbol] = moving_symbol(names.get(u.name, u.name))
     table = {c.symbol: c.symbol for c in model.coordinates}
     change = _Lettering(model.coordinates, model.coordinates, table, letters=letters)
-    return _Letterer(model, change, names, values, words, moved).built().model()
+    return _Letterer(model, change, names, values, words, moved, {**(measured or {}), **names}).built().model()
 
 
 def _named(model: Model, name: str) -> Model:
