@@ -43,8 +43,8 @@ class Place:
         return ":".join([self.file, *(str(x) for x in known if x is not None)])
 
     def excerpt(self) -> str:
-        """Return the line with a caret under the column, or an empty text if the line is unknown."""
-        if self.text is None:
+        """Return the line with a caret under the column, or an empty text if the line is unknown or blank."""
+        if self.text is None or not self.text.strip():
             return ""
         text, column = self.text, self.column
         if len(text) > 100:  # of a very long line, show only what surrounds the column

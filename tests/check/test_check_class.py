@@ -103,6 +103,13 @@ def test_other_coordinates_can_be_excluded() -> None:
     assert carts().check_class(answers, points=POINTS, coordinates="given", other=0).rows[0].points == 0
 
 
+def test_what_cannot_be_read_is_told_without_advice_on_models() -> None:
+    answers = {"empty": "", "words": "I do not know", "long": "x = 1\n" * 20_000, "binary": "a\0b"}
+    for row in carts().check_class(answers).rows:
+        (told,) = row.comment
+        assert not row.read and not any(x in told for x in ("model", "[define]", "^", "1 | Fix")), told
+
+
 def test_schemes_of_the_command(tmp_path: Path) -> None:
     assert scheme_of("step2=2, V=1,Xi_x2r=3").points == {"T": 2, "V": 1, "Xi_x2r": 3}
     file = tmp_path / "points.toml"

@@ -173,9 +173,9 @@ def test_files_of_windows_are_read(written: str, encoding: str) -> None:
         ("φL = 2".encode("cp1253"), "not UTF-8"),
         ("T = ½*m".encode("cp850"), "not UTF-8"),
         ("Lösung: T = 1".encode("mac-roman"), "not UTF-8"),
-        (b"\xff\xfeT\0 \xd8", "begins as UTF-16"),
-        (b"\xff\xfe\0\xd8T\0", "begins as UTF-16"),
-        (b"\x7fELF\0\0\0\0", "zero byte"),
+        (b"\xff\xfeT\0 \xd8", "damaged"),
+        (b"\xff\xfe\0\xd8T\0", "damaged"),
+        (b"\x7fELF\0\0\0\0", "equations as text"),
         (b"T = 1\0\0\0", "zero byte"),
     ],
 )

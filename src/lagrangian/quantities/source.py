@@ -59,8 +59,11 @@ class Source:
         """Return a `ParseError` whose place is that of ``offset``."""
         return ParseError(message, element=self.what or None, place=self.at(offset), fix=fix, code=code)
 
-    def check_text(self, limit: int, example: str) -> None:
-        """Raise an error if the text is not a string, is empty, or has more than ``limit`` characters."""
+    def check_text(self, limit: int, example: str, *, shorter: str | None = None) -> None:
+        """Raise an error if the text is not a string, is empty, or has more than ``limit`` characters.
+
+        ``shorter`` says how it becomes shorter.
+        """
         if not isinstance(self.text, str):
             kind = type(self.text).__name__
             raise ParseError(f"this must be text (got {kind})", element=self.what, place=self.place, code="E406")
@@ -69,7 +72,7 @@ class Source:
                 f"the text has {len(self.text)} characters; at most {limit} are read",
                 element=self.what,
                 place=self.place,
-                fix="give parts of it names under [define]" if limit > 1000 else f"write it briefly, such as {example}",
+                fix=shorter or f"write it briefly, such as {example}",
                 code="E703",
             )
         if not self.text.strip():

@@ -32,7 +32,7 @@ def parse(source: Source) -> Tree:
 
     Raises `ParseError` with line, column, what was found there and how to fix it.
     """
-    source.check_text(MAX_CHARACTERS, "an expression, such as m*g*L")
+    source.check_text(MAX_CHARACTERS, "an expression, such as m*g*L", shorter="give parts of it names under [define]")
     _check_depth(source)
     try:
         return _parser().parse(source.text)

@@ -16,7 +16,6 @@ from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
-from lagrangian.read import MAX_BYTES
 from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
@@ -73,8 +72,6 @@ class Judge:
         """Return the record of one answer; a text that cannot be read is a record as well."""
         read = False
         try:
-            if len(content) > MAX_BYTES:
-                raise Error(f"the answer has more than {MAX_BYTES} bytes", fix="shorten it", code="E703")
             answer = parse_answer(decode_answer(content, file), self.derivation.model, name=file)
             read = True
             return self._told(file, check_answer(self.derivation, answer))
@@ -109,11 +106,17 @@ class Judge:
         }
 
     def _untold(self, file: str, error: Error, *, read: bool) -> Record:
-        record = untold(file, " ".join(str(error).split()), read=read)
+        record = untold(file, _in_a_line(error), read=read)
         if self.judging.feedback:
             report = words_report(self.derivation.model, record["comment"])
             record["feedback"] = write_report(report, self.judging.feedback)
         return record
+
+
+def _in_a_line(error: Error) -> str:
+    """A message without the line of its caret, which points at nothing where the message is one line."""
+    lines = [x for x in str(error).splitlines() if x.strip(" |^")]
+    return " ".join(" ".join(lines).split())
 
 
 def untold(file: str, trouble: str, *, read: bool) -> Record:

@@ -32,15 +32,29 @@ _MANY = 0.3
 
 def decode_answer(data: bytes, name: str) -> str:
     """Return the text of an answer's file; raises `ParseError` with its place if it is no text that can be told."""
-    if len(data) <= MAX_BYTES:
-        for mark, encoding in _MARKED:
-            if data.startswith(mark):
-                return _decoded(data, encoding, name)
-        if (encoding := _unmarked(data)) is not None:
+    if len(data) > MAX_BYTES:
+        raise _too_large(name)
+    for mark, encoding in _MARKED:
+        if data.startswith(mark):
             return _decoded(data, encoding, name)
-        if b"\0" not in data and (text := _of_windows(data)) is not None:
-            return text
+    if (encoding := _unmarked(data)) is not None:
+        return _decoded(data, encoding, name)
+    if b"\0" not in data and (text := _of_windows(data)) is not None:
+        return text
+    if b"\0" in data:
+        raise ParseError(
+            "the file is no text: a picture, a PDF or a document (it contains a zero byte)",
+            place=Place(name, data.count(b"\n", 0, data.index(b"\0")) + 1, 1),
+            fix="give the equations as text, typed or in LaTeX",
+            code="E702",
+        )
     return decode(data, name)
+
+
+def _too_large(name: str) -> ParseError:
+    """The error for a file of more than the most that is read."""
+    what = f"the file has more than {MAX_BYTES} bytes, and an answer has a few thousand"
+    return ParseError(what, place=Place(name), fix="give the equations alone, as text", code="E703")
 
 
 def _decoded(data: bytes, encoding: str, name: str) -> str:
@@ -48,7 +62,10 @@ def _decoded(data: bytes, encoding: str, name: str) -> str:
         return data.decode(encoding)
     except UnicodeDecodeError:
         raise ParseError(
-            f"the file begins as {encoding.upper()} and is not", place=Place(name), fix="save it as UTF-8", code="E702"
+            f"the file is damaged: it begins as text in {encoding.upper()}, and does not go on so",
+            place=Place(name),
+            fix="save it again as text in UTF-8",
+            code="E702",
         ) from None
 
 

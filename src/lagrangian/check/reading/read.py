@@ -118,7 +118,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     statements cannot be read, the error lists all of them.
     """
     place = Place(name) if name else None
-    Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
+    Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     said = declarations(text, model)
     if not said.names:
         found = _parsed(said.text, model, place)
@@ -203,7 +203,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = listed(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if choice else None
     source = plain.source(typed, text)
-    source.check_text(MAX_ANSWER, EXAMPLE)
+    source.check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     own = {key(name) for name in model.symbols}
     lines.names.dependents = dependents(text, lambda name: key(name) in own)
     words = _words(lines, text)
