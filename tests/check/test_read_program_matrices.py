@@ -226,3 +226,19 @@ def test_accelerations_that_a_function_solves_for_are_read(end: str, right: bool
 def test_the_order_of_the_states_is_that_of_the_accelerations() -> None:
     turned = HEAD.replace("x, theta, xd, thetad = y", "theta, x, thetad, xd = y")
     assert not derivation("cart-pole").check(f"{turned}    acc = np.linalg.solve(A, r)\n    return acc\n").right
+
+
+@pytest.mark.parametrize("name", ["acc", "qdd"])
+def test_accelerations_below_velocities_are_the_rest_of_the_state(name: str) -> None:
+    written = f"""function dy = rhs(t, y)
+  x = y(1); theta = y(2); xd = y(3); thetad = y(4);
+  A = [M+m, m*l*cos(theta); m*l*cos(theta), J+m*l^2];
+  r = [F - b*xd + m*l*sin(theta)*thetad^2; m*g*l*sin(theta)];
+  {name} = A\\r;
+  dy = [xd; thetad; {name}];
+end
+"""
+    judge = derivation("cart-pole")
+    assert judge.check(written).right
+    assert not judge.check(written.replace("; m*g*l*", "; -m*g*l*")).right
+    assert not judge.check(written.replace("dy = [xd; thetad", "dy = [thetad; xd")).right

@@ -55,7 +55,10 @@ _NOTHING = re.compile(
     rf"|{_NAME}['’′]?[ \t]*=[ \t]*(?:np\.)?(?:zeros|empty)(?:_like)?\([\w(), ]*\)){_END}",
     re.MULTILINE,
 )
-_ACCELERATIONS = re.compile(rf"^[ \t]*+{_NAME}\*(?P<name>q?acc|q?accel|q?accelerations?)[ \t]*+=(?!=)", re.MULTILINE)
+_ACCELERATIONS = re.compile(
+    rf"^[ \t]*+{_NAME}\*(?P<name>\(?(?:(?P<column>qdd|ddq|qddot)|q?acc|q?accel|q?accelerations?)\)?)[ \t]*+=(?!=)",
+    re.MULTILINE,
+)
 """The equations of motion that a program solves, M*acc = f."""
 _CLOSED = {"(": ")", "[": "]"}
 _RATES = re.compile(
@@ -94,11 +97,6 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         return written
     function = loose or _function(text, headers)
     function.names = _commented(text, function.state, coordinates) | function.names
-    edits: list[Edit] = [(m.start(), m.end(), "") for m in headers]
-    edits += [(m.start(), m.end(), "") for m in _NOTHING.finditer(text)]
-    unpacked = {function.state, *function.others}
-    edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
-    edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     names = [function.names.get(i) for i in range(2 * len(coordinates))]
     default = [*coordinates, *(f"{name}'" for name in coordinates)]
     if function.state is not None and _alternates(text, function, len(coordinates)):
@@ -108,7 +106,13 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         states = states[: len(function.names)]  # the current and not the charge
     order = [name for name in states if name in coordinates]
     if set(order) == set(coordinates):
-        edits += _solved(text, order)
+        written = written.edited(apart(list(_solved(text, order))))
+        text, headers = written.text, list(_HEADER.finditer(written.text))
+    edits: list[Edit] = [(m.start(), m.end(), "") for m in headers]
+    edits += [(m.start(), m.end(), "") for m in _NOTHING.finditer(text)]
+    unpacked = {function.state, *function.others}
+    edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
+    edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     if function.state is not None:
         edits += [*_indices(text, function.state, states), *_slices(text, function, states)]
     if function.out is not None:
@@ -125,10 +129,14 @@ def _solved(text: str, order: Sequence[str]) -> Iterator[Edit]:
     if match is None:
         return
     rates = [f"{name}''" for name in order]
-    yield *match.span("name"), f"[{'; '.join(rates)}]"
-    for entry in re.finditer(rf"(?<!\w){match['name']}{_INDEX}", text):
+    if match["column"] is None:
+        yield *match.span("name"), f"[{'; '.join(rates)}]"
+    name = match["name"].strip("()")
+    for entry in re.finditer(rf"(?<!\w){name}{_INDEX}", text):
         if 0 <= _place(entry) < len(rates):
             yield *entry.span(), rates[_place(entry)]
+    for last in re.finditer(rf"(?P<comma>[,;])[ \t]*+\*?{name}[ \t]*+(?=[\])])", text):
+        yield *last.span(), "".join(f"{last['comma']} {rate}" for rate in rates)
 
 
 def _with_round_indices(written: TracedText) -> TracedText:
