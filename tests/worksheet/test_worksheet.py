@@ -255,3 +255,29 @@ def test_descriptions_follow_the_letters_of_a_variant() -> None:
     assert relabelled("spring, relaxed at x = 0", names) == "spring"
     assert relabelled("mass of a spool, 2 m long", names) == "mass of a spool, 2 m long"
     assert relabelled("drum, R = 2*m", names, other_values=True) == "drum"
+
+
+def test_a_damper_in_a_hinge_is_between_what_the_hinge_joins() -> None:
+    cart = lg.loads("""name = "cart with a pendulum"
+[coordinates]
+x = "cart"
+beta = "pendulum, from hanging down"
+[parameters]
+m = "1 kg"
+M = "2 kg"
+l = "0.5 m"
+b = "0.1 N*m*s"
+[[particle]]
+name = "cart"
+mass = "M"
+at = ["x", "0"]
+[[particle]]
+name = "bob"
+mass = "m"
+at = ["x + l*sin(beta)", "-l*cos(beta)"]
+[[damper]]
+name = "hinge"
+b = "b"
+deflection = "beta"
+""")
+    assert "amper hinge between the cart and the rod of the bob" in " ".join(cart.worksheet().question().split())

@@ -258,7 +258,7 @@ class _Sentences:
                 spring = any(t.way == "telescope" and t.b == k and t.element.kind == "spring" for t in self.ties)
                 return f"on {'a spring' if spring else 'a line of changing length'} from {from_where}"
             case HoldKind.WIRE:
-                return "on a curve"
+                return "moving on a curve"
             case _:
                 return self._free
 
@@ -298,12 +298,20 @@ class _Sentences:
             case "joint" | "arm":
                 if self.space and tie.a is None and isinstance(tie.b, Turn) and tie.b.frame is not None:
                     return self.carrier(self.stage.frames[tie.b.frame]), self.of_turn(tie.b)
-                return self.of_turn(tie.a), self.of_turn(tie.b)
+                return (self._bearer(tie.b) if tie.a is None else self.of_turn(tie.a)), self.of_turn(tie.b)
             case _:
                 return None, None
 
     def _end(self, k: int | Turn | None) -> str:
         return GROUND if k is None else self.of_turn(k) if isinstance(k, Turn) else self.owner(k)
+
+    def _bearer(self, turn: object) -> str:
+        """What bears the joint of a turn, as long as it does not turn itself; else the ground."""
+        if self.space or not isinstance(turn, Turn) or self.motions.still(turn.joint):
+            return GROUND
+        found = next((p for p in self.parts if p.point == turn.joint and p.name != turn.name), None)
+        steady = found is not None and (found.frame is None or not self.motions.turns(found.frame))
+        return self.body(found) if found is not None and steady else GROUND
 
     def rods(self) -> list[str]:
         """The rods between bodies that are held by something else."""
