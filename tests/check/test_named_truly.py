@@ -289,3 +289,36 @@ def test_of_two_terms_the_one_with_a_factor_too_much_is_told() -> None:
     s.force(F, deflection=L * theta, name="jet")
     name, words = only(s.derive(), "J*theta'' = L^2*F")
     assert name in {"squared", "force_arm", "foreign_factor"} and "multiplied" not in words, words
+
+
+def test_a_change_of_alike_bodies_together_comes_before_seven_times_one_of_them() -> None:
+    s = lg.System("platform on cranks")
+    a, x = s.coordinates("a x")
+    m, J, l, M, k = s.parameters("m J l M k")
+    for name, at in (("left", 0), ("right", 1)):
+        frame = s.frame(a, origin=s.origin + (at, 0))
+        s.rigid_body(m, J, at=frame.point(l / 2, 0), frame=frame, name=name)
+    s.particle(M, at=s.point("P", (x, 0)), name="block")
+    s.spring(k, deflection=x)
+    s.spring(k, deflection=a, name="torsion spring")
+    verdict = s.derive().check("(2*J + 2*m*l^2)*a'' + k*a = 0\nM*x'' + k*x = 0")
+    (mistake,) = verdict.mistakes
+    assert "½mv² of" in str(mistake.what) and "left" in str(mistake.what) and "count 4 times" in str(mistake.what)
+
+
+def test_an_exchanged_sine_and_the_sign_of_a_spring_are_two_mistakes() -> None:
+    s = lg.System("eccentric")
+    x, phi = s.coordinates("x phi")
+    m, M, e, k = s.parameters("m M e k")
+    s.particle(M, at=s.point("A", (x, 0)), name="plank")
+    s.particle(m, at=s.point("B", (x + e * sp.cos(phi), e * sp.sin(phi))), name="bob")
+    s.gravity()
+    s.spring(k, deflection=x)
+    rows = (
+        "(M + m)*x'' - m*e*sin(phi)*phi'' - m*e*cos(phi)*phi'^2 + k*x = 0\n"
+        "m*e^2*phi'' - m*e*sin(phi)*x'' + m*g*e*cos(phi) = 0"
+    )
+    derived = s.derive()
+    assert derived.check(rows).right
+    verdict = derived.check(rows.replace("+ k*x", "- k*x").replace("m*g*e*cos", "m*g*e*sin"))
+    assert {m.element for m in verdict.mistakes} == {"spring 'k'", "gravity 'g'"}, [str(m.what) for m in verdict.mistakes]

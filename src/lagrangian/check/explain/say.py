@@ -35,6 +35,7 @@ PLURALS = (
     "the products",
     "the weights",
     "the energies",
+    "the kinetic energies",
     "the kinetic energy and the weight",
 )
 """How the words of a site begin that ask for a verb in the plural."""

@@ -16,7 +16,10 @@ MOST_SHARES = 5
 
 
 def bodies(
-    listed: Sequence[Any], kinetic: Mapping[Any, Sum], weights: Mapping[Any, tuple[Element, Sum]]
+    listed: Sequence[Any],
+    kinetic: Mapping[Any, Sum],
+    translations: Mapping[Any, Sum],
+    weights: Mapping[Any, tuple[Element, Sum]],
 ) -> Iterator[Site]:
     """Several bodies of the same mass together, if there are others."""
     groups: dict[Any, list[Any]] = {}
@@ -29,6 +32,11 @@ def bodies(
             own = tuple(kinetic[b] for b in group)
             made = {"words": words, "brief": words, "element": group[0], "members": own}
             yield Site(**made, step=2, T=plus(*own), surcharge=0.1, sign_cost=0.9)
+            moved = tuple(translations[b] for b in group)
+            if moved != own and all(moved):
+                words = (f"the kinetic energies ½mv² of {names}",)
+                made |= {"words": words, "brief": words, "members": moved}
+                yield Site(**made, step=2, T=plus(*moved), surcharge=0.1, sign_cost=0.9)
             own = tuple(weights[b][1] for b in group if b in weights)
             words = (f"the weights of {names}",)
             made |= {"words": words, "brief": words, "members": own}

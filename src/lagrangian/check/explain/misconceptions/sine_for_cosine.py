@@ -26,7 +26,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element, V, words in pieces:
         for other in _swapped(V):
             yield Variant(what=text(f"Sine and cosine are exchanged in {words}."), V=other - V, element=element)
-    for other in _swapped(s.V):
+    several = sum(V.has(sp.sin, sp.cos) for _, V, _ in pieces) != 1
+    for other in _swapped(s.V) if several else ():
         yield Variant(what=text("Sine and cosine are exchanged in ", Name("V"), "."), V=other - s.V)
     yield from _in_rows(s)
     for element in s.acting:
@@ -55,5 +56,6 @@ def _in_rows(s: Ingredients) -> Iterator[Variant]:
 
 def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     """The expression with sine and cosine exchanged, also with the opposite sign; nothing if it contains neither."""
-    changed = put(expr, {f: partner(f) for f in expr.atoms(sp.sin, sp.cos)})
-    return (changed, -changed) if changed != expr else ()
+    functions = expr.atoms(sp.sin, sp.cos)
+    changed = put(expr, {f: partner(f) for f in functions})
+    return (changed, put(expr, {f: -partner(f) for f in functions})) if changed != expr else ()
