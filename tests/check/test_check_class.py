@@ -180,6 +180,13 @@ def test_moodles_worksheet_is_filled_in_and_kept(tmp_path: Path) -> None:
     assert "3 points are its maximum grade 10" in str(found)
 
 
+def test_a_name_of_two_students_is_told(tmp_path: Path) -> None:
+    roster = tmp_path / "list.csv"
+    roster.write_text("Full name,ID number\nAnna Lee,1\nAnna Lee,2\n", encoding="utf-8")
+    found = carts().check_class({"Anna Lee.txt": WHOLE}, roster=roster)
+    assert "Anna Lee.txt fits 2 students of the list" in str(found) and "nobody" not in str(found)
+
+
 def test_moodle_can_import_without_a_list_and_comments_are_no_markup() -> None:
     found = carts().check_class({MOODLE: WHOLE, "=cmd.txt": "<b> = ="}, points=POINTS)
     rows = list(csv.DictReader(io.StringIO(found.to_moodle())))
@@ -276,6 +283,15 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
     code = main(["check", "-e", "lecture-3b", *arguments])
     out = capsys.readouterr()
     return code, out.out, out.err
+
+
+def test_what_is_no_file_among_answers_is_told(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "ann.txt").write_text(WHOLE, encoding="utf-8")
+    (tmp_path / "late").mkdir()
+    (tmp_path / "lost.txt").symlink_to(tmp_path / "gone.txt")
+    os.mkfifo(tmp_path / "pipe")
+    assert [row.file for row in carts().check_class(tmp_path).rows] == ["ann.txt"]
+    assert all(x in caplog.text for x in ("'late' is a folder", "'lost.txt' is a link to nothing", "'pipe' is no file"))
 
 
 def test_the_command_for_a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -114,7 +114,8 @@ class CheckedClass:
                 lines.append(f"{mean} of {number(self.judging.scheme.total)} points on average")
         lines += [f"no answer of {s.full_name or s.identifier or s.email or s.number}" for s in self.absent]
         if self.roster is not None:
-            lines += [f"{row.file} belongs to nobody in the list" for row in self.rows if row.student is None]
+            fits = {row.file: len(self.roster.fitting(row.file)) for row in self.rows if row.student is None}
+            lines += [f"{file} {_belongs(count)}" for file, count in fits.items()]
         lines += self._scaled()
         if self.damaged:
             are = "verdict was" if self.damaged == 1 else "verdicts were"
@@ -173,6 +174,15 @@ class CheckedClass:
     def __str__(self) -> str:
         """Return the class as text."""
         return self.to_text()
+
+
+def _belongs(count: int) -> str:
+    """What is said of an answer to whose name so many students of the list fit, none or several."""
+    return (
+        f"fits {count} students of the list: put the ID number into its name"
+        if count
+        else "belongs to nobody in the list"
+    )
 
 
 def feedback_files(folder: Path, files: Sequence[str], format: FeedbackFormat) -> list[Path]:

@@ -61,6 +61,17 @@ def answer_files(folder: Path) -> list[AnswerFile]:
     return found
 
 
+def _tell_others(folder: Path) -> None:
+    """Warn of what lies in a folder of answers and is not read: other folders, links to nothing, pipes."""
+    for path in sorted(p for p in folder.iterdir() if not p.name.startswith(".")):
+        if path.is_dir() and not MOODLE_FILE.fullmatch(path.name):
+            _log.warning("'%s' is a folder, and what is in it is not read", path.name)
+        elif path.is_symlink() and not path.exists():
+            _log.warning("'%s' is a link to nothing, and is not read", path.name)
+        elif not path.is_dir() and not path.is_file():
+            _log.warning("'%s' is no file, and is not read", path.name)
+
+
 def _submitted(folder: Path) -> AnswerFile:
     files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
     if len(files) == 1:
@@ -79,7 +90,9 @@ def _content(path: Path, name: str) -> AnswerFile:
 def given_answers(answers: str | Path | Mapping[str, str]) -> list[AnswerFile]:
     """The answers of a folder, or those given as texts by name; raises `Error` if there are none."""
     if isinstance(answers, str | Path):
-        return answer_files(Path(answers))
+        found = answer_files(Path(answers))
+        _tell_others(Path(answers))
+        return found
     if not isinstance(answers, Mapping) or not all(isinstance(x, str) for item in answers.items() for x in item):
         what = "the answers of a class are a folder, or texts by name"
         raise ModelError(what, fix='check_class("answers/"), or check_class({"ann": "m*x\'\' = F"})', code="E406")

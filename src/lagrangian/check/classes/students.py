@@ -62,14 +62,21 @@ class Roster(Brief):
 
         A file belongs to whom its name names: participant number, ID number, email address, or full name.
         """
+        found = self.fitting(file)
+        return found[0] if len(found) == 1 else None
+
+    def fitting(self, file: str) -> list[Student]:
+        """All students to whom a file may belong, by the first kind of name that fits one; else those by any."""
         own = student_of(file)
+        several: list[Student] = []
         named = {_plain(x) for x in (own.name, own.identifier, _stem(file)) if x}
         for which in ("identifier", "number", "email", "full_name"):
             found = [s for s in self.students if (value := _plain(str(getattr(s, which)))) and value in named]
             if len(found) == 1:
-                return found[0]
+                return found
+            several = several or found
         found = [s for s in self.students if s.email and _plain(s.email.partition("@")[0]) in named]
-        return found[0] if len(found) == 1 else None
+        return found if len(found) == 1 else several or found
 
 
 def student_of(file: str) -> Student:
