@@ -72,6 +72,12 @@ def test_points_by_part_and_by_line() -> None:
     assert earned(half) == {"half": 2}
 
 
+def test_every_row_of_matrices_is_told_with_its_coordinate() -> None:
+    told = carts().check("[m1 + m2, m2; m2, m2]*[x1''; x2r''] = [0; F + k*x2r]").to_text()
+    assert "line 1, the equation of x" in told.partition("Line by line")[2]
+    assert "1 of 2 lines is right" in told
+
+
 def test_an_equation_that_is_written_twice_counts_once() -> None:
     first, second = EQUATIONS.splitlines()
     wrong = second.replace("+ k", "- k")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
@@ -39,7 +40,7 @@ def report(verdict: Verdict, model: Model) -> Report:
     """Return the verdict as a report."""
     parts = [Part(text("Is it right?"), tuple(_summary(verdict, model)))]
     if verdict.hint >= 1 and verdict.findings:
-        parts.append(Part(text("Line by line"), (_lines(verdict),)))
+        parts.append(Part(text("Line by line"), (_lines(verdict, model),)))
     if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
         parts.append(Part(text("What went wrong"), tuple(_why(verdict))))
     if verdict.hint >= 3 and (found := tuple(_terms(verdict))):
@@ -82,7 +83,7 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
                 return ("Not right yet.",)
             if verdict.motion:
                 return _beside_right_equations(verdict)
-            return (f"Not right yet: {lines - wrong} of {lines} lines are right.",)
+            return (f"Not right yet: {lines - wrong} of {lines} lines {'is' if lines - wrong == 1 else 'are'} right.",)
 
 
 def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
@@ -108,14 +109,17 @@ def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
     return (", the equation of ", symbols.get(finding.coordinate, finding.coordinate))
 
 
-def _lines(verdict: Verdict) -> Table:
+def _lines(verdict: Verdict, model: Model) -> Table:
+    """A row for every line; of several equations in one line, as of matrices, each with its coordinate."""
+    often = Counter(f.line.title for f in verdict.findings)
     rows: list[tuple[Text, ...]] = []
     roots: list[str] = []
     for f in verdict.findings:
         words: list[str | Left] = [_word(f, roots)]
         if f.note is not None:
             words += [": ", *f.note.parts]
-        rows.append((text(f.line.title), text(*words)))
+        of = _of(f, model) if often[f.line.title] > 1 else ()
+        rows.append((text(f.line.title, *of), text(*words)))
         if f.status is Status.WRONG and not f.follows and f.line.title not in roots:
             roots.append(f.line.title)
     return Table((text("line"), text("verdict")), tuple(rows))

@@ -71,7 +71,7 @@ def comment(verdict: CheckedAnswer, lacks: Sequence[str], earned: Sequence[PartM
         after = [f.line.title for f in wrong if f.follows]
         yield f"Not right: {listed(own or after)}."
         if own and after:
-            yield f"{listed(after)} {'follows' if len(after) == 1 else 'follow'} from that."
+            yield f"Only because of that: {listed(after)}."
     if verdict.hint >= 2:
         for m in verdict.mistakes:
             place = f"step {m.step}, {step_title(m.step)}" + (f", {m.element}" if m.element else "")
