@@ -41,3 +41,10 @@ def test_what_sympy_draws_without_unicode_is_read(form: str) -> None:
     judge = derivation("cart-pole")
     assert judge.check(answer(1)).right
     assert not judge.check(answer(-1)).right
+
+
+def test_a_drawing_that_is_cut_does_not_go_on_from_a_whole_one_above() -> None:
+    judge = derivation("elastic-pendulum")
+    first, second = (sp.Eq(e.lhs - e.rhs, 0) for e in judge.equations)
+    assert judge.check(f"{drawn(first, False)}\n\n{drawn(second, False)}").right
+    assert not judge.check(f"{drawn(first, False)}\n\n{drawn(sp.Eq(second.lhs + 1, 0), False)}").right

@@ -127,6 +127,8 @@ def _made(drawings: Sequence[_Drawing], at: int, space: _Space) -> tuple[str | N
         arrows = all(x.rstrip().endswith(_ARROW) for x in pieces[-1].lines)
         if len(following.lines) != len(rows) or not (arrows or _DRAWN.search("".join(rows))):
             break
+        if not arrows and all(x.rstrip().endswith(_ARROW) for x in following.lines):  # arrows would be here, too
+            break
         if not arrows and (_is_plain_matrix(rows) or not _is_drawn(following.lines)):
             break
         if not arrows and not _goes_on(made, _one(following.lines, space), rows):
