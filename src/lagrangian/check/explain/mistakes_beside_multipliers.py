@@ -52,7 +52,11 @@ def named_beside_multipliers(
     origin = {k: kept[j][0] for k, j in zip(_keys(read.lines), read.sources, strict=True)}
     better = {origin[k]: f for k, f in zip(_keys([f.line for f in judged]), judged, strict=True)}
     amiss = {kept[j][0] for j in read.wrong}
-    better |= {k: replace(better[k], status=Status.WRONG, follows=False) for k in amiss}
+    follow = bool(wrong) and not any(x is y for x in read.mistakes for y in told)  # a wrong constraint explains them
+    better |= {
+        k: replace(better[k], status=Status.WRONG, follows=follow and wrong[0].finding.line.number < k[0])
+        for k in amiss
+    }
     better |= {k: replace(x.finding, follows=x.follows) for k, x in aside.items()}
     forces = [*(m.symbol for m in truth.derivation.multipliers.values()), *read.own]
     for k, f in zip(keys, verdict.findings, strict=True):
