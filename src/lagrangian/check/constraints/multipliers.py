@@ -93,7 +93,9 @@ def _of_stated(
     if len(names) != 1 or len(own) != 1:
         return
     f = next((row.position for row in rows_of(truth.model) if row.position is not None), None)
-    for line in lines if f is not None else ():
+    if f is None:
+        return
+    for line in lines:
         left, equals, right = line.text.rpartition("=")
         if line.kind != "equation" or not equals or not right.strip().startswith("0") or not left.strip():
             continue
