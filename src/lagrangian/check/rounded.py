@@ -66,7 +66,9 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
 def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
     """The right line that a line is if every number that differs is rounded from what stands there, and the sizes of
     these numbers; otherwise the line itself and none."""
-    units = {abs(x): unit for x in expr.atoms(sp.Rational) if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+    units: dict[sp.Expr, float] = {
+        abs(x): unit for x in expr.atoms(sp.Rational) if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))
+    }
     if not units or bounded.operations(expr) > LONGEST:
         return expr, set()
     own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}

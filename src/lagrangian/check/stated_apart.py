@@ -17,7 +17,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import listed as listed_in_words
-from lagrangian.model import Gravity, Inductor, Spring
+from lagrangian.model import Gravity, Inductor, RigidBody, Spring
 from lagrangian.model.elements.branch import CircuitBranch
 from lagrangian.page.formula import Name, Text, text
 
@@ -122,7 +122,8 @@ def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
 
 def _inertias(truth: Reference) -> set[sp.Basic]:
     """The masses, moments of inertia and inductances that are single letters."""
-    listed = [x for b in truth.model.bodies for x in (b.mass, *(b.inertia.flat() if b.axes is not None else ()))]
+    bodies = truth.model.bodies
+    listed = [b.mass for b in bodies] + [x for b in bodies if isinstance(b, RigidBody) for x in b.inertia.flat()]
     listed += [e.L for e in truth.model.elements if isinstance(e, Inductor)]
     return {x for x in listed if isinstance(x, sp.Symbol)}
 
