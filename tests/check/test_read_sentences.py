@@ -306,3 +306,24 @@ def test_one_position_of_an_angle_of_the_answer_is_no_value_of_it(place: str) ->
     twins(
         f"{said}{cart}\n(J + m l^2) alpha'' - m l x'' sin alpha + m g l cos alpha = 0", "pi/2 - theta", "pi/2 + theta"
     )
+
+
+def test_what_was_done_to_an_equation_is_no_factor_of_it() -> None:
+    twins(
+        f"2 (M + m) x'' + 2 m l theta'' cos theta - 2 m l theta'^2 sin theta + 2 b x' = 2 F   (times 2)\n{POLE}",
+        "2 F",
+        "F",
+    )
+    twins(f"{CART}\n{POLE} (divided by nothing)", "m g l", "m g")
+
+
+def test_a_name_of_the_system_is_never_split_in_latex() -> None:
+    sys = System("shaft")
+    phi = sys.coordinates("phi")
+    J, kt, k, t = sys.parameters("J kt k tau")
+    sys.kinetic(J * phi.diff() ** 2 / 2)
+    sys.potential((kt + k * t) * phi**2 / 2)
+    derived = sys.derive()
+    row = r"J \ddot\phi + \left(kt + k \tau\right) \phi{\left(t \right)} = 0"
+    assert derived.check(row).right
+    assert not derived.check(row.replace("kt", "k t")).right

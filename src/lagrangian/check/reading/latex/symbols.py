@@ -73,7 +73,7 @@ class LatexSymbols(Parser):
             ending = self.ahead().text
         elif self.ahead().kind == "lowered":
             ending = normal(self.ahead().text)
-        if self.names.misspelled(run):
+        if run + ending in self.names.model.symbols or self.names.misspelled(run):
             return len(run)
         found = splits(run, lambda part, last, _: self.known(part + ending if last else part))
         if len(found) > 1:

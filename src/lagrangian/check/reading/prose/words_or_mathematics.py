@@ -30,8 +30,10 @@ _INSIDE = re.compile(
     r"\((?:(?:with|where|mit|wobei|let|and|so|denn|because|also|da)\b|i\.e\.|d\.h\.|\s|,)*"
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
-_REASON = re.compile(r"\(\s*+(?:using|use|since|because|recall|note|by|weil|da|denn|car)\b", re.IGNORECASE)
-"""How a bracket begins that says why, with an identity: (using 2 cos² = 1 + cos 2φ)."""
+_REASON = re.compile(
+    r"\(\s*+(?:using|use|since|because|recall|note|by|weil|da|denn|car|times|multiplied|divided|mal|geteilt)\b", re.I
+)
+"""How a bracket begins that says why, with an identity, or what was done: (using 2 cos² = 1 + cos 2φ), (times r²)."""
 _EQUAL = re.compile(r"=(?![=>])")
 _BEHIND = re.compile(r"[ \t]*(?:[.,;:!)]|\n|\Z)")
 """What stands behind a bracket that is no factor."""
@@ -62,7 +64,7 @@ _DERIVED = re.compile(
 """Words that say how often a statement was differentiated, not what its value is multiplied by."""
 _EXPLAINED = re.compile(r"(?<=[\w)\]'’′″²³])\s*:\s+([^\W\d_][^=:+*/^]*)\Z")
 """What a definition means: ψ = θ − β : angle between pendulum and normal."""
-_AFTER_GAP = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]){2,16}[^\W\d_]{1,24})[.,;:!]?\s*\Z")
+_ASIDE = re.compile(r"(?<=[\w)\]'’′″²³])[ \t]{2,}((?:[^\W\d_]{1,24}[ \t]){2,16}[^\W\d_]{1,24})[.,;:!]?\s*\Z")
 """Words alone behind a gap: ρ = e + l sin θ      distance of a ball from the axis."""
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*+[.,;:]?\s*+\Z")
 _NUMBER_ALONE = re.compile(r"\s*+[(\[]?\s*+\d{0,3}[a-z]?\s*+[)\]]?\s*+[.,;:]?\s*+\Z")
@@ -269,8 +271,9 @@ def without_tail(text: str, words: Words, *, led: bool = False) -> str:
         text = blank(text, meant.start(), len(text))
     if (said := _EXPLAINED.search(text)) is not None and _explains(said[1], words):
         text = blank(text, said.start(), len(text))
-    if (said := _AFTER_GAP.search(text)) is not None and 2 * _words_in(said[1], words) > len(said[1].split()):
-        text = blank(text, said.start(), len(text))
+    if (said := _ASIDE.search(text)) is not None:  # "the" is a word, though letters of the system may spell it
+        spoken = [_is_word(x, words) or (len(x) > 1 and x.lower() in LINKING) for x in said[1].split()]
+        text = blank(text, said.start(), len(text)) if 2 * sum(spoken) > len(spoken) else text
     end, count, linked, below = len(text), 0, False, ""
     while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
         links = _links(match[1], words)
@@ -303,11 +306,6 @@ def _explains(said: str, words: Words) -> bool:
     """Whether words explain what stands before them: they begin with a word that is no name."""
     listed = _WORD.findall(said)
     return bool(listed) and (_is_word(listed[0], words) or (_links(listed[0], words) and len(listed) > 1))
-
-
-def _words_in(said: str, words: Words) -> int:
-    """How many words are no letters of formulas, though letters of the system may spell them: the, from."""
-    return sum(_is_word(x, words) or (len(x) > 1 and x.lower() in LINKING) for x in said.split())
 
 
 def _links(written: str, words: Words) -> bool:
