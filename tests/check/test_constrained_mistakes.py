@@ -248,3 +248,19 @@ def test_mistakes_in_an_angle_of_the_answer_are_those_of_a_system_without_constr
     (mistake,) = verdict.mistakes
     assert said in str(mistake.what), str(mistake.what)
     assert "Read with x = l sin θ, y = −l cos θ." in str(verdict)
+
+
+def test_a_factor_of_a_multiplier_may_have_another_form() -> None:
+    s = lg.System("slotted lever")
+    theta, x = s.coordinates("theta x")
+    J, m, h, k = s.parameters("J m h k")
+    s.kinetic((J * theta.diff() ** 2 + m * x.diff() ** 2) / 2)
+    s.potential(k * x**2 / 2)
+    s.constraint(x - h * sp.tan(theta), name="slot")
+    lever, carriage = "J*theta'' = -N*h/cos(theta)^2", "m*x'' + k*x = N"
+    assert s.derive().check(f"{lever}\n{carriage}").right
+    verdict = s.derive().check(f"{lever}\n{carriage.replace('+ k', '- k')}")
+    assert [f.status.right for f in verdict.findings] == [True, False]
+    assert not any(mistake.name.startswith("multiplier") for mistake in verdict.mistakes)
+    verdict = s.derive().check(f"{lever.replace('h/cos', '2*h/cos')}\n{carriage}")
+    assert [mistake.name for mistake in verdict.mistakes] == ["multiplier_factor"]

@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model.rows import rows_of
@@ -139,7 +140,7 @@ def _read(
         for s, (x, c) in best.items():
             right = _right(truth, found, x)
             written = cast("sp.Expr", line.expr.diff(s))
-            if right is None or right == 0 or bounded.cancel(rest := written * c - right) == 0:
+            if right is None or right == 0 or zero_everywhere(truth, rest := written * c - right):
                 continue
             read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
             wrong.add(next(j for j, x in enumerate(lines) if x is line))
@@ -246,7 +247,7 @@ def _mistake(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, right: 
     title = multiplier.element.title
     if written == 0:
         kind, what = "multiplier_missing", text("The multiplier ", s, " is missing in the equation of ", q, ".")
-    elif bounded.cancel(written + right) == 0:
+    elif zero_everywhere(truth, written + right):
         words = " has the wrong sign in the equation of "
         kind, what = "multiplier_sign", text("The multiplier ", s, words, q, ", beside the other equations.")
     else:
