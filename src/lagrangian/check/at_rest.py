@@ -35,6 +35,21 @@ def at_rest(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = ()) -> b
     return True if True in found else False if False in found and None not in found else None
 
 
+def still_of(truth: Reference) -> dict[Any, Any]:
+    """Every rate and acceleration as 0."""
+    return {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
+
+
+def letters_of_inputs(truth: Reference) -> dict[Any, Any]:
+    """Every input as a constant."""
+    return {u.symbol: sp.Symbol(u.name) for u in truth.model.inputs}
+
+
+def numbers_for(names: Sequence[Any]) -> dict[Any, Any]:
+    """A different number for every name."""
+    return {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
+
+
 def _given(truth: Reference, given: Sequence[sp.Expr]) -> dict[Any, Any]:
     """The values of inputs, coordinates and parameters that lines state, F = m g, θ = 0."""
     symbols = [*(u.symbol for u in truth.model.inputs), *(c.symbol for c in truth.model.coordinates)]
@@ -57,13 +72,10 @@ def _inputs(truth: Reference, put: Mapping[Any, Any], expr: sp.Expr) -> Iterator
 
 def _holds(truth: Reference, expr: sp.Expr, put: Mapping[Any, Any]) -> bool | None:
     coordinates = [c.symbol for c in truth.model.coordinates]
-    still: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
-    listed = [cast("sp.Expr", x.xreplace(still).xreplace(dict(put))) for x in (*truth.rows, expr)]
-    letters = {u.symbol: sp.Symbol(u.name) for u in truth.model.inputs}
-    listed = [cast("sp.Expr", x.xreplace(letters)) for x in listed]
+    still, letters = still_of(truth), letters_of_inputs(truth)
+    listed = [cast("sp.Expr", x.xreplace(still).xreplace(dict(put)).xreplace(letters)) for x in (*truth.rows, expr)]
     names = sorted(set().union(*(x.free_symbols for x in listed)) - {time}, key=str)
-    inputs = {sp.Symbol(u.name) for u in truth.model.inputs}
-    names.sort(key=lambda x: x not in inputs)  # an input is rather chosen than a parameter
+    names.sort(key=lambda x: x not in letters.values())  # an input is rather chosen than a parameter
     numbers, chosen = _numbers(listed[:-1], coordinates, names)
     if numbers is None or (not chosen and not listed[-1].has(*coordinates)):
         return None  # there is no rest, or any parameters are possible
@@ -80,7 +92,7 @@ def _numbers(
     rows: Sequence[sp.Expr], coordinates: Sequence[AppliedUndef], names: Sequence[Any]
 ) -> tuple[dict[Any, Any] | None, bool]:
     """Values of the letters with which there is rest, None if there are none, and whether one had to be chosen."""
-    table: dict[Any, Any] = {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
+    table = numbers_for(names)
 
     def gaps(values: Mapping[Any, Any]) -> _Row:
         found = (_linear(cast("sp.Expr", x.xreplace(dict(values))), coordinates) for x in rows)

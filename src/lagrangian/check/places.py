@@ -9,7 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.at_rest import DIGITS, at_rest
+from lagrangian.check.at_rest import DIGITS, at_rest, letters_of_inputs, numbers_for, still_of
 from lagrangian.check.reference import Reference
 from lagrangian.model import time
 
@@ -171,13 +171,12 @@ def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
         return False  # k x = 0 may be meant as an equation of motion
     if not all(isinstance(f, (sp.sin, sp.cos, sp.tan)) for f in _functions(expr, [place])):
         return False
-    still: dict[Any, Any] = {x: sp.S.Zero for c in truth.model.coordinates for x in (c.rate, c.acceleration)}
-    still |= {u.symbol: sp.Symbol(u.name) for u in truth.model.inputs}
+    still = still_of(truth) | letters_of_inputs(truth)
     rows = [cast("sp.Expr", row.xreplace(still)) for row in truth.rows]
     rows = [row for row in rows if row.atoms(AppliedUndef) == {place}]
     own = cast("sp.Expr", expr.xreplace(still))
     names = sorted(own.free_symbols.union(*(row.free_symbols for row in rows)) - place.free_symbols, key=str)
-    table = {x: sp.Rational(3 * k + 4, 2 * k + 3) for k, x in enumerate(names)}
+    table = numbers_for(names)
     f, *balance = (cast("sp.Expr", x.xreplace(table)) for x in (own, *rows))
     if any(_proportional(f, row, place) for row in balance):
         return True

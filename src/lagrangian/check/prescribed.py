@@ -32,11 +32,9 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     number = _number_of(line.expr, rate)
     if zero_everywhere(truth, rest):
         return replace(line, kind="statement", expr=sp.S.Zero)
-    return (
-        line
-        if number is None
-        else replace(line, kind="identity", expr=rest / number, name=f"{z.func}{chr(39) * order}")
-    )
+    if number is None:
+        return line
+    return replace(line, kind="identity", expr=rest / number, name=str(z.func) + order * "'")
 
 
 def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:

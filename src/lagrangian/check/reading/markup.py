@@ -44,6 +44,11 @@ _CLOSED = {"[": "]", "{": "}", "(": ")"}
 _WHOLE_LINE = re.compile(r"^[ \t]*(?:In\[\d+\]:?=|Out\[\d+\]=|>>>|\.\.\.(?= )|>>)", re.MULTILINE)
 
 
+def blanked(text: str, start: int, end: int) -> str:
+    """Return the text with [start, end) replaced by as many spaces and the same line breaks."""
+    return text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+
+
 def blank(text: str, start: int, end: int) -> str:
     """Return the text with [start, end) replaced by as many spaces, so that all places stay the same."""
     return text[:start] + " " * (end - start) + text[end:]

@@ -9,6 +9,7 @@ import re
 from collections import Counter
 
 from lagrangian.check.reading.latex.layout import closing
+from lagrangian.check.reading.markup import blanked
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.records import dataclass
@@ -102,7 +103,7 @@ def _definitions(text: str, source: Source) -> tuple[str, dict[str, Macro]]:
             body = rf"\operatorname{{{body}}}"
         count = int(match["count"] or len(match["hashes"] or "") // 2)
         macros[match["name"]] = Macro(body, count, match["first"])
-        text = text[: match.start()] + re.sub(r"[^\n]", " ", text[match.start() : end]) + text[end:]
+        text = blanked(text, match.start(), end)
         at = end
     raise source.error(f"more than {MAX_MACROS} macros", at, fix="write the formulas out", code="E703")
 

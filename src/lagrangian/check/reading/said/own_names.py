@@ -16,6 +16,7 @@ import re
 from collections.abc import Collection, Iterator, Sequence
 from itertools import islice
 
+from lagrangian.check.reading.markup import blanked
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
@@ -181,8 +182,8 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
         notes.append(f"As you write, {told}.")
     text = _blanked(text, [x.span for x in kept.values()])
     for start, first, end in relations:
-        head, stands = re.sub(r"[^\n]", " ", text[start : first - 1]), text[first:end].rstrip(" .!\n)")
-        text = f"{text[:start]}{head};{stands};".ljust(end) + text[end:]
+        stands = text[first:end].rstrip(" .!\n)")
+        text = f"{blanked(text[: first - 1], start, first - 1)};{stands};".ljust(end) + text[end:]
     return DeclaredLetters({own: x.new for own, x in kept.items()}, text, tuple(notes))
 
 
@@ -292,7 +293,7 @@ def _bare(name: str) -> str:
 
 def _blanked(text: str, spans: Sequence[tuple[int, int]]) -> str:
     for start, end in spans:
-        text = text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+        text = blanked(text, start, end)
     return text
 
 
