@@ -1,5 +1,6 @@
 """Mistakes made by hand are named; every misconception is a file with a name, words, and systems to be made in."""
 
+import re
 from collections import Counter
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import pytest
 import built_in
 import lagrangian as lg
 from built_in import derivation as derived
-from lagrangian.check.explain import candidates, misconceptions
+from lagrangian.check.explain import candidates, constraint_slips, misconceptions, say, special_cases
 from lagrangian.check.explain.misconceptions import MISCONCEPTIONS, Ingredients
 from size import also_in_full, cases
 
@@ -141,7 +142,23 @@ def test_every_misconception_is_a_file_with_words() -> None:
     assert sorted(names) == sorted(files)
     for module in MISCONCEPTIONS:
         assert module.__doc__ and 0 <= module.STEP <= 6 and len(str(module.WHY)) > 30, module
-        assert not any(x in str(module.WHY) for x in ("½k", "kx", "bξ", "bδ", "bL")), "a hint is no correction"
+
+
+LECTURE = ("d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ", "d/dt ∂L/∂ξ̇", "∂L/∂ξ̇", "∂L/∂ξ", "Ξ = F·∂r/∂ξ", "Ξ = Σ F·∂r/∂ξ", "unit of ξ", "ξ_i")
+"""Formulas of the lecture that hold for all systems and give no term away."""
+GIVEN_AWAY = re.compile("[½²·+]|[a-zA-Zθφξ][\u0307\u0308′″]|\\d")
+
+
+def test_no_reason_is_a_correction() -> None:
+    """A hint of level 2 tells the reason too: in words, and with no formula but the lecture's own."""
+    reasons = [str(m.WHY) for m in MISCONCEPTIONS if m.__name__.rsplit(".", 1)[1] != "small_angle"]
+    reasons += [kind.why for kind in say.KINDS.values()] + list(say.WHY_PART.values())
+    reasons += [str(t) for t in constraint_slips.WHY] + [str(special_cases.WHY_RATES)]
+    for reason in reasons:
+        words = reason
+        for formula in LECTURE:
+            words = words.replace(formula, "")
+        assert GIVEN_AWAY.search(words) is None, reason
 
 
 @pytest.mark.slow

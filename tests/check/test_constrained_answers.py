@@ -89,6 +89,18 @@ def test_below_the_terms_no_note_holds_the_missing_factor(pendulum: lg.Derivatio
         assert ("'lambda' was read as" in verdict.to_text()) == (hint == 3)
 
 
+def test_below_the_terms_nothing_of_a_wrong_answer_holds_a_formula(pendulum: lg.Derivation) -> None:
+    found = pendulum.check("m*x'' = lambda*x\nm*y'' + m*g = -lambda*y")
+    first, *others = found.findings
+    note, m = text("the equation of x, times ", 1 / sp.Symbol("m")), sp.Symbol("m")
+    for hint in (1, 2, 3):
+        findings = (replace(first, status=Status.WRONG, note=note), *others)
+        verdict = replace(found, findings=findings, change={m: m**2}, combination=((m**2,),), hint=hint)
+        data = verdict.to_dict()
+        assert [data["change"], data["combination"]] == ([{"m": "m^2"}, [["m^2"]]] if hint == 3 else [{}, None])
+        assert (data["lines"][0]["note"] is not None) == ("times 1/m" in verdict.to_text()) == (hint == 3)
+
+
 @pytest.mark.parametrize("name", ["lambda", "S", "lambda_rod"])
 @pytest.mark.parametrize("scale", ["", "-", "2*"])
 def test_a_force_that_is_only_a_result_is_judged(pendulum: lg.Derivation, name: str, scale: str) -> None:

@@ -138,20 +138,31 @@ class Finding(Brief):
     elements: tuple[str, ...] = ()
     """The elements that add to the right equation, for a wrong one."""
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data."""
-        return {
+    def told(self, hint: int) -> Text | None:
+        """The note that a hint level allows: below 3, none of a wrong line with a formula beyond ±a name."""
+        shown = self.note is None or self.status.right or hint >= 3 or _names_only(self.note)
+        return self.note if shown else None
+
+    def to_dict(self, hint: int = 3) -> dict[str, Any]:
+        """Return plain data; below hint level 3 without the terms that differ."""
+        note = self.told(hint)
+        data: dict[str, Any] = {
             "line": self.line.number,
             "kind": self.line.kind,
             "name": self.line.name,
             "text": self.line.text,
             "verdict": self.status.value,
             "right": self.status.right,
-            "note": str(self.note) if self.note is not None else None,
+            "note": str(note) if note is not None else None,
             "coordinate": self.coordinate,
             "follows": self.follows,
-            "differences": [d.to_dict() for d in self.differences],
         }
+        if hint >= 3:
+            return data | {"differences": [d.to_dict() for d in self.differences]}
+        if hint == 2:
+            origins = [o for d in self.differences for o in d.origins]
+            data |= {"elements": sorted({o.element for o in origins}), "steps": sorted({o.step for o in origins})}
+        return data
 
 
 @dataclass(frozen=True)
@@ -202,13 +213,13 @@ class Verdict:
         """Return plain data for JSON; the hint level limits how much it reveals."""
         data: dict[str, Any] = {"right": self.right, "verdict": self.status.value, "hint": self.hint}
         if self.hint >= 1:
-            data["lines"] = [_at(f.to_dict(), self.hint) for f in self.findings]
+            shown = self.right or self.hint >= 3
+            rows = self.combination if shown else None
+            data["lines"] = [f.to_dict(self.hint) for f in self.findings]
             data["motion"] = self.motion or self.right
             data["notes"] = [str(n) for n in self.told]
-            data["change"] = {plain(k): plain(v) for k, v in self.change.items()}
-            data["combination"] = (
-                [[plain(x) for x in row] for row in self.combination] if self.combination is not None else None
-            )
+            data["change"] = {plain(k): plain(v) for k, v in self.change.items()} if shown else {}
+            data["combination"] = [[plain(x) for x in row] for row in rows] if rows is not None else None
         if self.hint >= 2:
             data["sure"] = self.sure
             data["mistakes"] = [m.to_dict(self.hint) for m in self.mistakes]
@@ -221,14 +232,3 @@ def _names_only(note: Text) -> bool:
     formulas = [x for x in note.parts if isinstance(x, sp.Expr)]
     unsigned = [-x if x.could_extract_minus_sign() else x for x in formulas]
     return all(isinstance(x, (sp.Symbol, sp.Number, sp.Derivative, AppliedUndef)) for x in unsigned)
-
-
-def _at(finding: dict[str, Any], hint: int) -> dict[str, Any]:
-    """A finding without the parts that a lower hint level does not reveal."""
-    if hint >= 3:
-        return finding
-    kept = {k: v for k, v in finding.items() if k != "differences"}
-    if hint == 2:
-        kept["elements"] = sorted({o["element"] for d in finding["differences"] for o in d["origins"]})
-        kept["steps"] = sorted({o["step"] for d in finding["differences"] for o in d["origins"]})
-    return kept

@@ -116,8 +116,8 @@ def _lines(verdict: Verdict, model: Model) -> Table:
     roots: list[str] = []
     for f in verdict.findings:
         words: list[str | Left] = [_word(f, roots)]
-        if f.note is not None:
-            words += [": ", *f.note.parts]
+        if (note := f.told(verdict.hint)) is not None:
+            words += [": ", *note.parts]
         of = _of(f, model) if often[f.line.title] > 1 else ()
         rows.append((text(f.line.title, *of), text(*words)))
         if f.status is Status.WRONG and not f.follows and f.line.title not in roots:

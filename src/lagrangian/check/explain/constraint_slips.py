@@ -30,9 +30,7 @@ NAMES = (("constraint_wrong", ""), ("constraint_rate_wrong", "first "), ("constr
 WHY = (
     text("Put in a position that the sketch shows, and see whether the line holds there."),
     text("Differentiate by time, term by term: every coordinate in a product or a function has its own rate."),
-    text(
-        "Differentiate the rates and what multiplies them: d/dt of 2 x x′ is 2 x′² + 2 x x″, so squares of rates stay."
-    ),
+    text("Differentiate the rates and what multiplies them: the product rule leaves squares and products of rates."),
 )
 """Why, for a constraint, its first and its second derivative."""
 WHY_SLOPE = text(

@@ -45,7 +45,8 @@ UNITS = "Compare the units of this term with those of its neighbours in the same
 ANGLES = "Look where the angle is measured from, and try a special position, such as an angle of zero."
 
 WHY_PART = {
-    2: "Every body has its ½mv² and, if it turns, its ½Jω². Take the total velocity, seen from the ground.",
+    2: "Every body has the kinetic energy of its translation and, if it turns, that of its rotation. Take the total "
+    "velocity, seen from the ground.",
     3: "Every spring and every weight has its own potential energy; heights are counted upwards.",
     5: "Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.",
     6: "Change only this coordinate a little. Does the point where the force acts move, and how far?",
@@ -191,7 +192,7 @@ KINDS: Mapping[str, KindWords] = {
     "inertia_added": KindWords(
         "In {site} there is {times}{right} too much as an inertia for {written}.",
         "There is an inertia too much in {brief}.",
-        "Each body has ½mv² of its centre of mass and ½Jω² about it, and nothing else.",
+        "Each body has the kinetic energy of its centre of mass and that of its rotation about it, and nothing else.",
     ),
     "deflection": KindWords("{Site} is taken as {written}; it is {right}.", "{Brief} is not right.", DEFLECTION),
     "deflection_left_out": KindWords(
@@ -203,7 +204,7 @@ KINDS: Mapping[str, KindWords] = {
     "inner_derivative": KindWords(
         "In {site} the inner derivative is {right}, not {written}.",
         "The chain rule was not followed in {brief}.",
-        "∂/∂ξ of ½kδ² is kδ·∂δ/∂ξ.",
+        "The derivative of a square is twice what is squared, times the derivative of what is squared.",
     ),
     "share_repeated": KindWords(
         "{Site} does not belong there: that share belongs to the equation of {right}.",

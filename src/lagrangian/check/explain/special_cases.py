@@ -28,7 +28,7 @@ SAME = 1e-7
 """The relative difference of two quotients that is rounding."""
 WHY_RATES = text(
     "A rate that is differentiated gives an acceleration, and so does the direction that turns with it: squares of "
-    "rates, such as l θ′² towards the middle of a circle, belong to the accelerations."
+    "rates belong to the accelerations, such as that towards the middle of a circle."
 )
 WHY_ELEMENT = text("Go through what this element adds to every equation once more, with its arms and its signs.")
 

@@ -35,7 +35,8 @@ def bodies(
             moved = tuple(translations[b] for b in group)
             if moved != own and all(moved):
                 words = (f"the kinetic energies ½mv² of {names}",)
-                made |= {"words": words, "brief": words, "members": moved}
+                brief = (f"the kinetic energies of the translation of {names}",)
+                made |= {"words": words, "brief": brief, "members": moved}
                 yield Site(**made, step=2, T=plus(*moved), surcharge=0.1, sign_cost=0.9)
             own = tuple(weights[b][1] for b in group if b in weights)
             words = (f"the weights of {names}",)
@@ -93,7 +94,8 @@ def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[
             mixed = {m: c for m, c in energy.items() if sum(a in rates for a, _ in m) > 1}
             if 1 < len(mixed) < len(energy) and (what != "½mv²" or energy != whole):
                 words: Words = (f"the products of different rates in {what} of {b.title}",)
-                yield Site(words=words, brief=words, step=2, element=b, T=mixed, surcharge=0.2)
+                brief: Words = (f"the products of different rates in the kinetic energy of {b.title}",)
+                yield Site(words=words, brief=brief, step=2, element=b, T=mixed, surcharge=0.2)
 
 
 def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:

@@ -170,7 +170,8 @@ class Sites:
         T, J = self.translations[b], self.rotations.get(b, {})
         if T:
             words = (f"the kinetic energy ½mv² of {title}" if J else f"the kinetic energy of {title}",)
-            yield Site(words=words, brief=words, step=2, element=b, T=T, sign_cost=0.9)
+            brief = (f"the kinetic energy of the translation of {title}",) if J else words
+            yield Site(words=words, brief=brief, step=2, element=b, T=T, sign_cost=0.9)
         if J:
             words = (f"the kinetic energy of the rotation of {title}",)
             yield Site(words=words, brief=words, step=2, element=b, T=J, sign_cost=0.9)

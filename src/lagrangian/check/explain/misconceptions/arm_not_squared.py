@@ -12,8 +12,8 @@ from lagrangian.page.formula import Name, text
 
 STEP = 2
 WHY = text(
-    "The velocity is Lθ̇ and the deflection Lθ, and what rolls on a radius turns with ẋ/R. The whole is squared, and "
-    "the arm with it."
+    "An arm makes a velocity of an angular velocity, and a deflection of an angle; of what rolls, the radius does. The "
+    "whole is squared, and the arm with it."
 )
 
 

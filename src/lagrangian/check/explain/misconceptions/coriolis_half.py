@@ -9,7 +9,7 @@ from lagrangian.check.explain.misconceptions.velocity_terms_forgotten import tur
 from lagrangian.page.formula import text
 
 STEP = 5
-WHY = text("d/dt (r²θ̇) = r²θ̈ + 2rṙθ̇: the derivative of a square brings the factor 2.")
+WHY = text("d/dt of a product: the square in it moves, too, and its derivative brings a factor two.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -11,7 +11,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 2
-WHY = text("A sum is squared as a whole: (a + b)² = a² + 2ab + b², and velocities add before they are squared.")
+WHY = text("A sum is squared as a whole, not part by part, and velocities add before they are squared.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

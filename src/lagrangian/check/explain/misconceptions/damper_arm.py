@@ -13,7 +13,7 @@ from lagrangian.page.formula import text
 
 STEP = 6
 WHY = text(
-    "The damper mimics a spring in its place: one arm gives the rate of its ends, Lθ̇, and another turns its "
+    "The damper mimics a spring in its place: one arm gives the rate of its ends, and another turns its "
     "force into a torque. Both count."
 )
 

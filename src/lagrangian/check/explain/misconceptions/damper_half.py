@@ -8,7 +8,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 6
-WHY = text("D is differentiated by the rate to get Ξ: what becomes of the factor ½ and of the square?")
+WHY = text("D is differentiated by the rate to get Ξ: what becomes of the factor before it and of the square?")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -10,7 +10,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 3
-WHY = text("V includes the mgh of every particle in a gravitational field.")
+WHY = text("V includes the potential energy of every weight: does its height change?")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -10,7 +10,7 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 3
-WHY = text("V = mgh grows with the height h, measured upwards from any fixed level.")
+WHY = text("The potential energy of a weight grows with its height, measured upwards from any fixed level.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

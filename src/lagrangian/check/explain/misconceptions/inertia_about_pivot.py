@@ -17,7 +17,7 @@ from lagrangian.page.formula import text
 STEP = 2
 WHY = text(
     "J is always the moment of inertia about the centre of mass; the motion of the centre of mass has its own "
-    "½mv². J about the pivot already contains m d²."
+    "kinetic energy. J about the pivot already contains that."
 )
 
 

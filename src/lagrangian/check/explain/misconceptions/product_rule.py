@@ -12,7 +12,7 @@ from lagrangian.page.formula import Partial, Total, text
 
 STEP = 5
 WHY = text(
-    "d/dt is the total derivative: by the product rule d/dt (cos θ·θ̇) = cos θ·θ̈ − sin θ·θ̇². Everything that moves "
+    "d/dt is the total derivative: by the product rule each factor is differentiated in turn. Everything that moves "
     "is a function of time."
 )
 

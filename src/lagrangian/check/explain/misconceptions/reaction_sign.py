@@ -10,7 +10,7 @@ from lagrangian.check.explain.misconceptions.ends import both_ends
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("Action and reaction are opposite: +F on one body is −F on the other.")
+WHY = text("Action and reaction are opposite: the two bodies are pushed in opposite directions.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

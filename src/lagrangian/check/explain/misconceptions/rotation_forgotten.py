@@ -10,7 +10,10 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("Track the velocity of the centre of mass as well as the angular velocity: a body that turns has ½Jω².")
+WHY = text(
+    "Track the velocity of the centre of mass as well as the angular velocity: a body that turns has a kinetic "
+    "energy of its rotation."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -8,7 +8,10 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("J is about the centre of mass; if the centre of mass itself moves, its ½mv² counts as well.")
+WHY = text(
+    "J is about the centre of mass; if the centre of mass itself moves, the kinetic energy of that motion counts as "
+    "well."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
