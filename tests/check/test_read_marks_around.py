@@ -8,6 +8,7 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 CART_TYPED = "(M + m)*x'' + m*l*theta''*cos(theta) - m*l*theta'^2*sin(theta) + b*x' = F"
@@ -51,3 +52,25 @@ def test_two_equations_drawn_below_each_other_are_two() -> None:
         rows = sp.pretty(sp.Eq(-m2 * (x.diff(t, 2) + r.diff(t, 2)), force), use_unicode=True).split("\n")
         second = "\n".join(f"- {row[1:]}" if row[0] == "-" else f" {row}" for row in rows)
         assert right(f">>> pprint(e1)\n{first}\n>>> pprint(e2)\n{second}", "lecture-3b") is sound
+
+
+PRINTED = r"""
+\begin{{align}}
+- {} l m \sin{{\left(\theta \right)}} \dot{{\theta}}^{{2}} + l m \cos{{\left(\theta \right)}} \ddot{{\theta}}
+  + \left(M + m\right) \ddot{{x}} + b \dot{{x}} = F \\
+- g l m \sin{{\left(\theta \right)}} + l m \cos{{\left(\theta \right)}} \ddot{{x}}
+  + \left(J + l^{{2}} m\right) \ddot{{\theta}} = 0
+\end{{align}}"""
+SHEET = f"### Cart\n\n- {KINETIC}\n- V = {{}} m g l cos theta\n- Q_x = F - b x'\n\nEquations:\n\n1. {CART}\n2. {POLE}"
+BROKEN = "> EOM;\n[{}*l*m*cos(theta)*theta'' + (M + m)*x'' - l*m*sin(theta)*theta'^2 + b*x' = F,\n " + POLE_TYPED + "]"
+
+
+@pytest.mark.parametrize("answer", [PRINTED, PRINTED.replace("\\left", "").replace("\\right", ""), SHEET, BROKEN])
+def test_a_minus_in_mathematics_is_none_of_a_list_and_a_bullet_no_minus(answer: str) -> None:
+    assert right(answer.format(1))
+    assert not right(answer.format(2))
+
+
+def test_energies_with_bullets_are_judged() -> None:
+    verdict = derivation("cart-pole").check(SHEET.format("2"))
+    assert [(f.line.kind, f.status.right) for f in verdict.findings][:3] == [("T", True), ("V", False), ("Xi", True)]

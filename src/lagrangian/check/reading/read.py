@@ -10,6 +10,7 @@ from functools import partial
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents, with_own_functions
+from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.crossed_out import without_crossed_out
@@ -26,13 +27,8 @@ from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
-from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.markup import (
-    bullets,
-    listed,
-    sentences_apart,
-    without_markup,
-)
+from lagrangian.check.reading.lines import MULTIPLIERS, Lines
+from lagrangian.check.reading.markup import sentences_apart, without_markup
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
 from lagrangian.check.reading.parser import Parser
@@ -64,6 +60,7 @@ from lagrangian.check.reading.said.stands_for import (
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
+from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
@@ -199,9 +196,9 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = without_markup(plain.text)
     latex = bool(_LATEX.search(text))
     text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
-    choice, signed = bool(bullets(text)), text
-    text = listed(text, reading.listed, lines.names.notes, marked=text != plain.text and not latex)
-    listing = text == signed if choice else None
+    bullets, signed = Bullets(text, partial(_has_no_minus, lines)), text
+    text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
+    listing = text == signed if bullets.doubtful else None
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     own = {key(name) for name in model.symbols}
@@ -325,6 +322,13 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     if not _LATEX.search(plain.text):
         names.notes |= dict.fromkeys(told_comments(plain.text))
     return sentences_apart(on_one_line(plain))
+
+
+def _has_no_minus(lines: Lines, name: str) -> bool:
+    """Whether a line that gives the value of a name, and begins with a minus, is one of a list."""
+    if energy_of(name, lines.model, lhs=True) or force_of(name, lines.model):
+        return True
+    return not lines.names.scope.meanings(name)[0] and not key(name).startswith(MULTIPLIERS)
 
 
 def _value(lines: Lines, written: str) -> float | None:

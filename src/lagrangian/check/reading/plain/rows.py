@@ -43,7 +43,7 @@ class AnswerRow:
 
 
 MAX_LIST = 60
-"""The most lines of a list of equations in braces."""
+"""The most lines of a list of equations in brackets."""
 
 LONGEST_LABEL = 140
 """The most characters of a label in front of an equation, with its number."""
@@ -52,6 +52,7 @@ LONGEST_FORMULA = 400
 """The most characters of a formula with a word behind it that says what a name in it means."""
 
 _CLOSED = {"(": ")", "[": "]"}
+_LISTING = {"{": "}", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
@@ -153,10 +154,13 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
 
 
 def _whole_lists(text: str) -> Iterator[str]:
-    """The lines of a text; those of one list in braces, {a == b,↵ c == d}, together."""
+    """The lines of a text; those of one list in brackets, {a == b,↵ c == d} or [a = b,↵ c = d], together."""
     waiting: list[str] = []
+    opens = closes = ""
     for line in text.split("\n"):
-        if waiting or (line.lstrip()[:1] == "{" and line.count("{") > line.count("}")):
+        if not waiting and (opens := line.lstrip()[:1]) in _LISTING:
+            closes = _LISTING[opens]
+        if waiting or (opens in _LISTING and line.count(opens) > line.count(closes)):
             waiting.append(line)
         whole = "\n".join(waiting)
         if not waiting:
@@ -164,7 +168,7 @@ def _whole_lists(text: str) -> Iterator[str]:
         elif not line.strip() or len(waiting) > MAX_LIST:
             yield from waiting
             waiting = []
-        elif whole.count("{") <= whole.count("}"):
+        elif whole.count(opens) <= whole.count(closes):
             yield whole
             waiting = []
     yield from waiting
