@@ -144,3 +144,25 @@ def test_a_column_times_itself_is_a_sum_of_squares() -> None:
     code = NOTEBOOK.replace("simplify(m/2*v.dot(v))\nT\n", "m/2*v.dot(v)\n").partition("Out[2]")[0].replace("`", "")
     rows = "\nL**2*m*theta'' + L*g*m*sin(theta) + b*theta' = 0"
     twins(code.replace("python", "") + rows, "pendulum", "m/2*v", "m*v")
+
+
+ROWS = (
+    "'diff(x,t,2)*(M+m) + l*m*cos(theta)*'diff(theta,t,2) - l*m*sin(theta)*('diff(theta,t))^2 + b*'diff(x,t) = F",
+    "(J+l^2*m)*'diff(theta,t,2) + l*m*cos(theta)*'diff(x,t,2) - g*l*m*sin(theta) = 0",
+)
+IN_MAPLE = [
+    x.replace("'", "").replace("x,t,2", "x(t), t$2").replace("theta,t,2", "theta(t), t$2").replace(",t)", "(t), t)")
+    for x in ROWS
+]
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"[%i4] eqs;\n[%o4] [{ROWS[0]}, {ROWS[1]}]",
+        f"> eqs := {{eq1, eq2}};\n\neqs := {{{IN_MAPLE[0]},\n  {IN_MAPLE[1]}}}",
+        f"Answer: [{ROWS[0]},\n  {ROWS[1]}]".replace("'diff", "diff"),
+    ],
+)
+def test_lists_of_equations_may_have_labels_names_and_several_lines(session: str) -> None:
+    twins(session, "cart-pole")

@@ -42,7 +42,7 @@ from lagrangian.check.reading.programs.notebooks import with_columns, with_shown
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
-from lagrangian.check.reading.programs.spellings import without_long_names, without_programs
+from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, led_names
@@ -289,7 +289,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     typed_in = without_crossed_out(
         without_terminators(without_maxima(with_drawn_pieces(TracedText(text)))), names.notes
     )
-    shown = with_shown_values(without_long_names(without_tags(typed_in)))
+    shown = with_shown_values(without_marks_of_latex(without_tags(typed_in)))
     prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)

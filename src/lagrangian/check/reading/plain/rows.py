@@ -7,7 +7,16 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
 
-from lagrangian.check.reading.labels import before, behind, is_label, is_mark, numbering, without_dashes, without_units
+from lagrangian.check.reading.labels import (
+    Numbering,
+    before,
+    behind,
+    is_label,
+    is_mark,
+    numbering,
+    without_dashes,
+    without_units,
+)
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose.conditions import without_conditions
@@ -135,11 +144,12 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
                 rows.insert(-1, AnswerRow(open_row.start + at, head[at:]))
                 head = head[:at].rstrip(";, \t")
             gap = offset - open_row.start - len(head)
-            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, numbers))
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _ended(head, bare, numbers))
         elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
-            rows.append(AnswerRow(offset, behind(stripped, numbers)))
+            rows.append(AnswerRow(offset, _ended("", stripped, numbers)))
             open_row = None if is_sentence(stripped, words) else rows[-1]
         offset += len(line)
+    rows = [AnswerRow(row.start, opened_list(row.text)) for row in rows]
     split = [
         piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",", words=words)
     ]
@@ -151,6 +161,12 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
     stated = [row for row, level in zip(found, levels, strict=True) if not level and not is_prose(row.text, words)]
     return stated or found[:1]
+
+
+def _ended(head: str, line: str, numbers: Numbering) -> str:
+    """A line, which goes on from ``head``, without what stands behind it; the comma in a list that goes on is kept."""
+    bare, text = behind(line, numbers), line.rstrip()
+    return f"{bare[: len(text) - 1]}," if text[-1:] == "," and _open_brackets(head + bare) > 0 else bare
 
 
 def _whole_lists(text: str) -> Iterator[str]:
@@ -321,9 +337,11 @@ def missing_brackets(text: str) -> str:
 
 def incomplete(text: str) -> bool:
     """Whether the statement must continue: it ends with an operator, or a bracket is open."""
-    return (
-        bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
-    )
+    return bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or _open_brackets(text) > 0
+
+
+def _open_brackets(text: str) -> int:
+    return sum((c in "([") - (c in ")]") for c in text)
 
 
 def without_sums(row: AnswerRow, names: Names) -> AnswerRow:

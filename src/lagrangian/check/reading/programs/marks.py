@@ -32,7 +32,7 @@ _COMMENT = re.compile(
 _TERMINATED = re.compile(r"\$(?=[ \t]*$)", re.MULTILINE)
 _PAIRED = re.compile(r"\$[^\n]*\$|\$(?![ \t]*$)|\\[A-Za-z]|^[ \t]*\$", re.MULTILINE)
 """How statements end in Maxima, and what dollar signs of LaTeX have about them."""
-_LABELLED = re.compile(r"^[ \t]*+\(%[io]\d{1,4}\)", re.MULTILINE)
+_LABELLED = re.compile(r"^[ \t]*+(?:\(%[iot]\d{1,4}\)|\[%[iot]\d{1,4}\])", re.MULTILINE)
 """How Maxima numbers what is typed and what it answers."""
 _LIST = re.compile(rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+(?=[{{\[])", re.MULTILINE)
 _COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\n]*+|(?=[^\W\d%#]))", re.MULTILINE)

@@ -82,8 +82,10 @@ _SHAPES = {
 _COMMAS = {"frac": 1, "Rational": 1, "pow": 1, "power": 1, "square": 0}
 
 
-def without_long_names(written: TracedText) -> TracedText:
-    """Return an answer without the long names of Mathematica: \\[Theta], Subscript[m, 1]."""
+def without_marks_of_latex(written: TracedText) -> TracedText:
+    """Return an answer without what is LaTeX nowhere but looks like it: \\[Theta], Subscript[m, 1] of Mathematica,
+    diff(x(t), t$2) of Maple."""
+    written = written.sub(_SEQUENCE, lambda m: f"t, {m['order']}").sub(_TIMES, lambda m: f"t, {m['order']}")
     if "\\[" not in written.text:
         return written
     return written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
@@ -94,8 +96,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
 
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
-    written = written.sub(_SEQUENCE, lambda m: f"t, {m['order']}")
-    written = written.sub(_LINE_OF_CODE, lambda m: "").sub(_TIMES, lambda m: f"t, {m['order']}")
+    written = written.sub(_LINE_OF_CODE, lambda m: "")
     if _is_mixed(written.text):
         written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])
     if _LATEX.search(written.text):
