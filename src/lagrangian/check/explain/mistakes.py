@@ -40,6 +40,7 @@ from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.explain.slips import below_right_equations, of_slip
 from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
+from lagrangian.check.explain.term_said import with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.prescribed import of_prescribed
 from lagrangian.check.reference import Reference
@@ -321,7 +322,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
     chosen = _joined(pool, chosen)
-    every = [in_words(pool.truth, t, a) for t, a in chosen]
+    every = [with_term(pool, t, a, in_words(pool.truth, t, a)) for t, a in chosen]
     every[0], others = of_either(pool.truth, every[0], chosen[0], others)
     told = _once(moved_elsewhere(pool, chosen, every), ())
     listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]

@@ -132,8 +132,8 @@ def _oddness(number: Fraction, possible: Possible) -> float:
     if number in (Fraction(-3, 4), Fraction(3)):
         return 1.2  # a quarter, four times: rather a length or a speed that is squared
     return (
-        0.9 if number.denominator <= 6 and abs(number.numerator) <= 6 and number <= 3 else 1.6
-    )  # nothing counts 7 times
+        0.9 if number.denominator <= 6 and abs(number.numerator) <= 6 and -2 <= number <= 3 else 1.6
+    )  # nothing counts 7 times, or −3 times
 
 
 class Vectors:

@@ -21,34 +21,45 @@ from lagrangian.records import dataclass
 MOST_PIECES = 16
 """A deflection with more pieces is not changed piece by piece."""
 MOST_WAYS = 4
-TOGETHER = 0.1
+TOGETHER = 0.3
 """What a change of a spring and of the damper beside it costs more than one of the spring alone."""
 
 
 @dataclass(frozen=True, eq=False)
 class Strut:
-    """A linear spring k, δ with, where there is one, the linear damper b that feels δ′."""
+    """Linear springs k of one deflection δ with, where there are any, linear dampers b that feel δ′."""
 
-    spring: Spring
+    springs: tuple[Spring, ...]
     deflection: sp.Expr
-    damper: Damper | None = None
+    dampers: tuple[Damper, ...] = ()
 
     @property
     def title(self) -> str:
         """What it is called in a sentence."""
-        return self.spring.title + (f" and {self.damper.title}" if self.damper is not None else "")
+        *first, last = [x.title for x in (*self.springs, *self.dampers)]
+        return f"{', '.join(first)} and {last}" if first else last
+
+    @property
+    def spring(self) -> Spring:
+        """The first spring."""
+        return self.springs[0]
 
 
 def struts(sites: Sites) -> list[Strut]:
-    """Every linear spring, and every linear spring with each damper that is parallel to it."""
+    """Every linear spring, and every linear spring with each damper that is parallel to it; all that are parallel."""
     s = sites.of
     springs = [(e, bounded.expand(x)) for e, x, _ in s.springs() if e.k is not None]
     linear = [e for e in s.acting if isinstance(e, Damper) and e.b is not None]
     dampers = [(e, bounded.expand(s.expand(e.rate(s.model)))) for e in linear]
-    found = [Strut(e, x) for e, x in springs]
+    found = [Strut((e,), x) for e, x in springs]
     for e, x in springs:
         rate = bounded.expand(s.rate(x))
-        found += [Strut(e, x, d) for d, r in dampers if r in (rate, bounded.expand(-rate))]
+        beside = [d for d, r in dampers if r in (rate, bounded.expand(-rate))]
+        found += [Strut((e,), x, (d,)) for d in beside]
+        alike = tuple(k for k, y in springs if y in (x, bounded.expand(-x)))
+        if len(alike) > 1 and alike[0] is e:
+            found.append(Strut(alike, x))
+            found += [Strut(alike, x, tuple(beside))] if beside else []
     return found
 
 
@@ -61,6 +72,12 @@ def _different(listed: Iterator[tuple[sp.Expr, str, float]], whole: sp.Expr) -> 
             yield other, kind, cost
 
 
+def _forwards(deflection: sp.Expr) -> sp.Expr:
+    """A deflection as one would write it, x + y for −x − y: its sign is squared."""
+    pieces = sp.Add.make_args(deflection)
+    return -deflection if all(x.could_extract_minus_sign() for x in pieces) else deflection
+
+
 class DeflectionChanges:
     """All changes of deflections in a system, and what may happen to a spring and a damper together."""
 
@@ -71,17 +88,18 @@ class DeflectionChanges:
         self.struts = struts(sites)
 
     def parts(self) -> Iterator[Site]:
-        """What a spring and the damper beside it do, everywhere and in each equation."""
+        """What springs and the dampers beside them do, everywhere and in each equation."""
         for strut in self.struts:
-            if strut.damper is None or strut.spring not in self.sites.energies:
+            if not strut.dampers or any(k not in self.sites.energies for k in strut.springs):
                 continue
-            shares = self.sites.shares.get(strut.damper, {})
+            held = [self.sites.shares.get(d, {}) for d in strut.dampers]
+            shares = {i: plus(*[x[i] for x in held if i in x]) for i in sorted({i for x in held for i in x})}
             words: Words = (f"what {strut.title} add",)
-            V = self.sites.energies[strut.spring]
+            V = plus(*[self.sites.energies[k] for k in strut.springs])
             yield Site(words=words, brief=words, step=3, element=strut.spring, V=V, Xi=shares, surcharge=TOGETHER)
-            rows = self.sites.element_rows[strut.spring]
             for i, q in enumerate(self.s.q):
-                own = plus(rows.get(i, {}), scaled(shares.get(i, {}), -1))
+                rows = [self.sites.element_rows[k].get(i, {}) for k in strut.springs]
+                own = plus(*rows, scaled(shares.get(i, {}), -1))
                 if own and i in shares and len(shares) > 1:
                     words = (f"what {strut.title} add to the equation of ", q)
                     yield Site(
@@ -104,23 +122,21 @@ class DeflectionChanges:
         """Another deflection of a spring, and of the damper beside it."""
         whole = strut.deflection
         words: Words = (f"the deflection of {strut.title}",)
-        more = TOGETHER if strut.damper is not None else 0.0
+        more = TOGETHER if strut.dampers else 0.0
         olds = self._damping(strut, whole)
         for other, kind, cost in _different(self._others(whole), whole):
             V = self._energy(strut, other)
             Xi = self._forces(strut, other, olds)
-            if V and (strut.damper is None or Xi):
+            if V and (not strut.dampers or Xi):
                 site = Site(words=words, brief=words, step=3, element=strut.spring)
-                yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, other)
+                yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, _forwards(other))
             if kind in ("deflection_left_out", "deflection_sign"):
                 yield from self._in_the_force(strut, kind, cost + more + 0.2, other)
 
     def _in_the_force(self, strut: Strut, kind: str, cost: float, other: sp.Expr) -> Iterator[LocalChange]:
         """Another deflection in the force k δ + b δ′ alone, which acts where it should: ∂δ/∂ξ_i is right."""
         whole = strut.deflection
-        force = self.s.expand(strut.spring.k) * (other - whole)
-        if strut.damper is not None:
-            force = force + self.s.expand(strut.damper.b) * self.s.rate(other - whole)
+        force = self._force(strut, cast("sp.Expr", other - whole))
         rows = {i: self.sites.difference(force * bounded.diff(whole, q), sp.S.Zero) for i, q in enumerate(self.s.q)}
         rows = {i: x for i, x in rows.items() if x}
         if len(rows) > 1:
@@ -161,21 +177,36 @@ class DeflectionChanges:
         for x, cost in (*((x, 1.9) for x in (*self.s.carried, *self._ways())), *((x, 2.1) for x in self.lengths)):
             yield whole + x, "deflection", cost
             yield whole - x, "deflection", cost
+        for p in pieces if len(pieces) > 1 else ():
+            for r in [x for x in self.lengths if p.has(x)]:
+                for x in (x for x in self.lengths if x != r):
+                    yield cast("sp.Expr", whole - p + replaced(p, {r: x})), "deflection", 1.6
         for p in pieces:
             for x, kind, cost in instead_of_piece(p):
                 if kind not in ("piece_left_out", "piece_sign"):
                     yield cast("sp.Expr", whole - p + x), kind, cost + 0.2
 
+    def _stiffness(self, strut: Strut) -> sp.Expr:
+        """The sum of all k."""
+        return sp.Add(*[self.s.expand(e.k) for e in strut.springs])
+
+    def _force(self, strut: Strut, deflection: sp.Expr) -> sp.Expr:
+        """k δ + b δ′."""
+        force = self._stiffness(strut) * deflection
+        if not strut.dampers:
+            return force
+        return force + sp.Add(*[self.s.expand(d.b) for d in strut.dampers]) * self.s.rate(deflection)
+
     def _energy(self, strut: Strut, other: sp.Expr) -> Sum | None:
         """What another deflection adds to ½ k δ²."""
-        k = self.s.expand(strut.spring.k)
+        k = self._stiffness(strut)
         return self.sites.difference(k * other**2 / 2, k * strut.deflection**2 / 2, still=True)
 
     def _damping(self, strut: Strut, deflection: sp.Expr) -> list[sp.Expr]:
         """−b δ′ ∂δ/∂ξ_i of the damper with a deflection; nothing without a damper."""
-        if strut.damper is None:
+        if not strut.dampers:
             return []
-        force = -self.s.expand(strut.damper.b) * self.s.rate(deflection)
+        force = -sp.Add(*[self.s.expand(d.b) for d in strut.dampers]) * self.s.rate(deflection)
         held = [deflection.has(q) for q in self.s.q]
         return [force * bounded.diff(deflection, q) if h else sp.S.Zero for q, h in zip(self.s.q, held, strict=True)]
 
@@ -196,9 +227,7 @@ class DeflectionChanges:
     def _inner(self, strut: Strut) -> Iterator[LocalChange]:
         """The chain rule left out: ∂(½kδ²)/∂ξ_i without ∂δ/∂ξ_i, or with a part of it; the same for b δ′ ∂δ/∂ξ_i."""
         extension = strut.deflection
-        force = self.s.expand(strut.spring.k) * extension
-        if strut.damper is not None:
-            force = force + self.s.expand(strut.damper.b) * self.s.rate(extension)
+        force = self._force(strut, extension)
         for i, q in enumerate(self.s.q):
             slope = bounded.expand(bounded.diff(extension, q)) if extension.has(q) else sp.S.Zero
             if slope == 0:
@@ -213,9 +242,10 @@ class DeflectionChanges:
 
     def _of_chain_rule(self, strut: Strut, i: int, sums: dict[str, Any], slope: sp.Expr, other: sp.Expr) -> LocalChange:
         q = self.s.q[i]
-        words: Words = ("∂/∂", q, f" of the energy of {strut.spring.title}")
+        energies = "energy" if len(strut.springs) == 1 else "energies"
+        words: Words = ("∂/∂", q, f" of the {energies} of {strut.title}")
         more = 0.0
-        if strut.damper is not None:
+        if strut.dampers:
             words = (f"what {strut.title} add to the equation of ", q)
             more = TOGETHER
         site = Site(words=words, brief=words, step=5, element=strut.spring, coordinate=i)

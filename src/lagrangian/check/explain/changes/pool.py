@@ -200,7 +200,7 @@ def _every(sites: Sites) -> Iterator[LocalChange]:
     yield from scales(sites.n, [*parts, *wholes, *terms, *rows])
     yield from letters.exchanges([*parts, *wholes])
     yield from letters.changes([*parts, *wholes, *terms, *rows])
-    yield from letters.factors([*parts, *terms, *rows])
+    yield from letters.factors([*parts, *(w for w in wholes if w.element is not None), *terms, *rows])
     yield from GeometryChanges(sites, letters.lengths).changes()
     yield from deflections.changes()
     yield from SumChanges(sites, letters.lengths).changes()

@@ -32,5 +32,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 }
                 changed |= {i: bounded.expand(x / p) for i, x in shares.items() if power == 1 and x.has(p)}
                 if changed:
-                    what = text(f"{element.title[:1].upper() + element.title[1:]} comes without its arm ", p, ".")
+                    once = any(c.has(p) for c in changed.values())
+                    missing, there = (
+                        ("with its arm ", " once; it belongs there squared.") if once else ("without its arm ", ".")
+                    )
+                    what = text(f"{element.title[:1].upper() + element.title[1:]} comes {missing}", p, there)
                     yield Variant(what=what, Xi={i: c - shares[i] for i, c in changed.items()}, element=element)

@@ -1,0 +1,76 @@
+"""Says of a cause that shows as one term of one equation which term that is: the term is certain, the cause is not.
+
+"The term m g sin α of the equation of x is missing" is true whatever was thought; that the height was measured from
+the parent is a reason for it, and stands behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from lagrangian.check.align import Alignment
+from lagrangian.check.explain import say
+from lagrangian.check.explain.changes.change import LocalChange
+from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
+from lagrangian.check.explain.search import SMALL, Told
+from lagrangian.check.verdict import Mistake
+from lagrangian.page.formula import text
+
+REASON = " A possible reason: "
+PLAIN = (
+    *FORGOTTEN,
+    "coupling_forgotten",
+    "effort_term_forgotten",
+    "gravity_sign",
+    "spring_sign",
+    "damper_sign",
+    "force_sign",
+    "reaction_sign",
+)
+"""Misconceptions whose words already say what stands in the equation."""
+
+
+def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake) -> Mistake:
+    """The mistake, told by the term of an equation that is missing or has the wrong sign, if it shows as that alone."""
+    if under is None or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
+        return mistake
+    term, times = found
+    row = term.site.coordinate
+    said = say.mistake(term, times, pool.truth.model, under.factor(pool.truth, row) if row is not None else None)
+    brief = mistake.brief if mistake.brief is not None else mistake.what
+    return replace(mistake, what=text(*said.what.parts, REASON, *mistake.what.parts), brief=brief)
+
+
+def _is_plain(possible: Possible) -> bool:
+    """Whether the words of a mistake already say what stands in the equation: a part, or something forgotten."""
+    if possible.wrong is not None:
+        return possible.wrong.name in PLAIN
+    change = possible.change
+    return change is not None and change.kind == "part" and (change.site.single or change.site.step in (3, 6))
+
+
+def _term(pool: Pool, told: Told) -> tuple[LocalChange, Fraction] | None:
+    """The change of one term of an equation that does the same, left out or of the other sign, with its multiple."""
+    place = pool.places[id(told.mistake)]
+    if pool.felt[place].sum() != 1:
+        return None
+    terms: dict[int, list[tuple[int, LocalChange]]] = pool.kept("terms of rows", lambda: _terms(pool))
+    made, row = float(told.times) * pool.W[place], int(np.flatnonzero(pool.felt[place])[0])
+    for k, term in terms.get(row, ()):
+        for times in (-1, -2):
+            if np.abs(times * pool.W[k, row] - made[row]).max() <= SMALL * np.abs(made).max():
+                return term, Fraction(times)
+    return None
+
+
+def _terms(pool: Pool) -> dict[int, list[tuple[int, LocalChange]]]:
+    """The places of the single terms of every equation, and what is changed there."""
+    found: dict[int, list[tuple[int, LocalChange]]] = {}
+    for k, possible in enumerate(pool.all):
+        change = possible.change
+        if change is not None and change.kind == "part" and change.site.single and len(change.site.rows) == 1:
+            found.setdefault(next(iter(change.site.rows)), []).append((k, change))
+    return found

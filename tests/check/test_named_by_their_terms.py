@@ -1,0 +1,69 @@
+"""A cause that shows as one term is told by this term, and a sign by the force that has it."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import sympy as sp
+
+import lagrangian as lg
+from built_in import derivation
+
+CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F"
+POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"
+
+
+@cache
+def belt() -> lg.Derivation:
+    """Two pulleys with both strands of an elastic belt."""
+    s = lg.System("belt")
+    p, q = s.coordinates("p q")
+    J, r, R, k, b = s.parameters("J r R k b")
+    s.kinetic(J * (p.diff() ** 2 + q.diff() ** 2) / 2)
+    for name, way in (("tight", r * p - R * q), ("slack", R * q - r * p)):
+        s.spring(k=k, deflection=way, name=name)
+        s.damper(b=b, deflection=way, name=f"{name} damper")
+    return s.derive()
+
+
+def first(system: str | lg.Derivation, answer: str) -> str:
+    verdict = (derivation(system) if isinstance(system, str) else system).check(answer)
+    assert not verdict.right
+    return str(verdict.mistakes[0].what)
+
+
+def test_a_term_that_is_missing_stands_before_the_reason() -> None:
+    said = first("cart-pole", CART.replace(" - m*l*sin(theta)*theta'^2", "") + "\n" + POLE)
+    assert said.startswith("The term -l*m*sin(theta)*theta'^2 of the equation of x is missing. A possible reason: ")
+
+
+def test_a_generalized_force_with_the_wrong_sign_is_on_no_wrong_side() -> None:
+    said = first("cart-pole", f"Xi_x = -F + b*x'\nXi_theta = 0\n{CART}\n{POLE}")
+    assert "wrong sign" in said and "side" not in said
+
+
+def test_both_strands_of_a_belt_are_taken_alike() -> None:
+    way, speed = "(r*p + R*q)", "(r*p' + R*q')"
+    forces = f"Xi_p = -2*b*r*{speed}\nXi_q = -2*b*R*{speed}\n"
+    said = first(
+        belt(), f"T = J*(p'^2 + q'^2)/2\nV = k*{way}^2\n{forces}J*p'' + 2*k*r*{way} = Xi_p\nJ*q'' + 2*k*R*{way} = Xi_q"
+    )
+    assert said.startswith("The deflection of spring 'tight', spring 'slack', ")
+    assert said.endswith("is taken as R*q + r*p; it is -R*q + r*p.")
+
+
+def test_a_letter_in_one_piece_of_a_deflection() -> None:
+    s = lg.System("rods")
+    p, q = s.coordinates("p q")
+    J, k = s.parameters("J k")
+    l, c = (s.parameter(x, 1.0, unit="m") for x in "lc")
+    s.kinetic(J * (p.diff() ** 2 + q.diff() ** 2) / 2)
+    s.particle(J / l**2, at=s.point("end", (l * sp.sin(p), -l * sp.cos(p))))
+    s.spring(k=k, deflection=c * sp.sin(q) - c * sp.sin(p), name="between")
+    said = first(s.derive(), "V = k*(c*sin(q) - l*sin(p))^2/2")
+    assert said.startswith("The deflection of spring 'between' is taken as c*sin(q) - l*sin(p)")
+
+
+def test_an_arm_of_a_damper_that_stands_once() -> None:
+    said = first(belt(), "Xi_q = 2*b*(r*p' - R*q')")
+    assert "damper" in said and "spring" not in said, said
