@@ -242,3 +242,30 @@ end
     assert judge.check(written).right
     assert not judge.check(written.replace("; m*g*l*", "; -m*g*l*")).right
     assert not judge.check(written.replace("dy = [xd; thetad", "dy = [thetad; xd")).right
+
+
+MASSES = "[[M + m, m*l*cos(theta)], [m*l*cos(theta), J + m*l**2]]"
+FORCES = "[[F - b*x' + m*l*theta'**2*sin(theta)], [m*g*l*sin(theta)]]"
+OF_MATLAB = MASSES.replace("], [", "; ").replace("[[", "[").replace("]]", "]").replace("**", "^")
+COLUMN = FORCES.replace("], [", "; ").replace("[[", "[").replace("]]", "]").replace("**", "^")
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"In [5]: LM.mass_matrix\nOut[5]: Matrix({MASSES})\n\nIn [6]: LM.forcing\nOut[6]:\nMatrix({FORCES})",
+        f">>> KM.mass_matrix\nMatrix({MASSES})\n>>> print(KM.forcing)\nMatrix({FORCES})",
+        f"M = {OF_MATLAB};\nr = {COLUMN};\nacc = M\\r;",
+    ],
+)
+def test_the_value_of_a_name_may_stand_below_it_and_accelerations_have_any_name(session: str) -> None:
+    assert derivation("cart-pole").check(session).right
+    assert not derivation("cart-pole").check(session.replace("m*g*l", "m*l")).right
+
+
+@pytest.mark.parametrize(
+    "form", ["In [5]: A\nOut[5]: Matrix({})\nIn [6]: f\nOut[6]: Matrix({})", "masses: {}\nforces: {}"]
+)
+def test_matrices_without_an_equation_are_not_wrong(form: str) -> None:
+    verdict = derivation("cart-pole").check(form.format(MASSES, FORCES))
+    assert verdict.status.name == "INCOMPLETE" and not verdict.findings

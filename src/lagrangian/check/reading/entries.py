@@ -19,6 +19,7 @@ _SOLVED = re.compile(
     r"[ \t]*(?P<right>[^=\n;]{1,400}?)[ \t]*;?[ \t]*$",
     re.MULTILINE,
 )
+_ACCELERATIONS = re.compile(r"q?acc(?:el(?:erations?)?)?|a|sol|ans")
 _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\[\]]*\]")
 
 _COLUMN = r"[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
@@ -28,18 +29,27 @@ MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 
 
-def solved_matrices(written: TracedText) -> TracedText:
+def solved_matrices(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in which the matrix stands on the left that was inverted on the right.
 
-    Only a single factor may be behind an inverse with a sign of multiplication; all that is behind ``\\`` is divided.
+    A name that nothing else uses, and that says that it is the accelerations, stands for q''; one of the system's
+    (``taken``) does not. Only a single factor may be behind an inverse with a sign of multiplication; all that is
+    behind ``\\`` is divided.
     """
     given = set(_MATRIX.findall(written.text))
     edits: list[Edit] = []
     for match in _SOLVED.finditer(written.text):
         name = match["inv"] or match["raised"] or match["under"]
         if name in given and _ONE_FACTOR.fullmatch(match["right"]) is not None:
-            edits.append((*match.span(), f"{name}*({match['left'].strip()}) = {match['right']}"))
+            left = match["left"].strip()
+            if _ACCELERATIONS.fullmatch(left) is not None and not taken(left) and _occurs_once(left, written.text):
+                left = "q''"
+            edits.append((*match.span(), f"{name}*({left}) = {match['right']}"))
     return written.edited(edits)
+
+
+def _occurs_once(name: str, text: str) -> bool:
+    return len(re.findall(rf"(?<!\w){name}(?!\w)", text)) == 1
 
 
 def entered_matrices(written: TracedText, count: int, taken: Callable[[str], bool]) -> TracedText:

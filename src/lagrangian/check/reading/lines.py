@@ -347,7 +347,7 @@ class Lines:
         if len(values) == 1:
             listed = isinstance(values[0], MatrixBase)
             said = any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
-            if (listed or said) and not any(map(self.subjects.moves, sides)):
+            if (listed or said) and not any(map(accelerates, values[0] if listed else values)):
                 self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
                 return []
             values.append(sp.S.Zero)

@@ -38,7 +38,7 @@ from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
-from lagrangian.check.reading.programs.notebooks import with_columns, with_shown_values
+from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
@@ -289,7 +289,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     typed_in = without_crossed_out(
         without_terminators(without_maxima(with_drawn_pieces(TracedText(text)))), names.notes
     )
-    shown = with_shown_values(without_marks_of_latex(without_tags(typed_in)))
+    shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(typed_in))))
     prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
@@ -299,7 +299,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     own = {key(name) for name in lines.model.symbols}
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed))
+    tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed), taken)
     latex = bool(_LATEX.search(tagless.text))
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX

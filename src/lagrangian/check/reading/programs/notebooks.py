@@ -2,6 +2,7 @@ r"""Reads notebooks of Python: what a cell shows belongs to what stands on its l
 
 T⏎ Out[2]: $\frac{m \dot{x}^{2}}{2}$            $T = \frac{m \dot{x}^{2}}{2}$       the value of a name
 Out[3]: $m \ddot{x} - F$                        $m \ddot{x} - F = 0$                an expression that is zero
+LM.forcing⏎ Out[4]: Matrix([[u], [v]])          forcing = Matrix([[u], [v]])            a matrix
 P = Matrix([x, 0])   V = m*g*P[1]               P = [x, 0]   V = m*g*(0)
 v.dot(v)                                        abs(v)^2
 """
@@ -21,7 +22,20 @@ _SHOWN = re.compile(
     r"(?P<value>[^$\n=]{1,2000}+)(?P<closes>\$\$?|$)",
     re.MULTILINE,
 )
-_ABOVE = re.compile(rf"(?:^|[;\n])[ \t]*+(?P<name>{_NAME})[ \t]*+(?:\n[ \t]*+(?:```[^\n]*+)?)*+\Z")
+_TYPED = r"(?:^|[;\n]|>>>|julia>|sage:|(?:In[ \t]?)?\[\d{1,4}\]:)[ \t]*+"
+_ABOVE = re.compile(rf"{_TYPED}(?P<name>{_NAME})[ \t]*+(?:\n[ \t]*+(?:```[^\n]*+)?)*+\Z")
+_MATRIX = re.compile(
+    r"^[^\S\n]*+(?:>>>|julia>|sage:|(?:In[ \t]?)?\[\d{1,4}\]:)?[ \t]*+"
+    rf"(?P<typed>(?:\w{{1,10}}\()?(?:{_NAME}\.)?(?P<name>{_NAME})\)?;?)[ \t]*+\n"
+    r"\s{0,20}(?:(?:Out[ \t]?)?\[\d{1,4}\]:?=?)?\s{0,20}?"
+    r"(?:(?P<call>(?=(?:\w{1,8}\.)?(?:Immutable|Mutable)?(?:Dense)?Matrix\())|(?P<drawn>^(?:[ \t]*+[⎡⎢⎣][^\n]*+\n?)+))",
+    re.MULTILINE,
+)
+"""A name alone on a line, perhaps in a call that prints it, and a matrix below it."""
+_MOVES = re.compile(r"\u0308|[ẍÿẅ¨]|dt(?!\w)|''|″|,\s*2\)|ddot|\.diff")
+"""What shows that the entries of a matrix are equations."""
+_OF_SYMPY = ("mass_matrix", "forcing")
+"""What SymPy calls the matrix and the column of the equations M q'' = f."""
 _ACCELERATES = re.compile(r"\\ddot(?![a-z])|d\^\{?2\}?\s?\}?\s?\{\s?d\s?t")
 _COLUMN = re.compile(
     rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<call>(?:\w{{1,6}}\.)?(?:Matrix|array)\()(?=\[)", re.MULTILINE
@@ -46,6 +60,34 @@ def with_shown_values(written: TracedText) -> TracedText:
         elif match["opens"] and _ACCELERATES.search(match["value"]):
             edits.append((match.end("value"), match.end("value"), " = 0"))
     return written.edited(apart(edits))
+
+
+def with_named_matrices(written: TracedText) -> TracedText:
+    """Return an answer in which a matrix that a program shows below a name is the value of this name, and the mass
+    matrix and the forces of SymPy make equations."""
+    text = written.text
+    found = [m for m in islice(_MATRIX.finditer(text), MOST) if not _MOVES.search(_matrix(text, m))]
+    edits: list[Edit] = []
+    for match in found:
+        edits.append((*match.span("typed"), ""))
+        name = f"{match['name']} = "
+        if match["drawn"] is None:
+            edits.append((match.start("call"), match.start("call"), name))
+            continue
+        starts = [match.start("drawn") + m.start() for m in re.finditer("^(?=.)", match["drawn"], re.MULTILINE)]
+        middle = len(starts) // 2
+        edits += [(at, at, name if k == middle else " " * len(name)) for k, at in enumerate(starts)]
+    if {m["name"] for m in found}.issuperset(_OF_SYMPY):
+        end = len(text)
+        edits.append((end, end, "\n\n{}*q'' = {}".format(*_OF_SYMPY)))
+    return written.edited(apart(edits))
+
+
+def _matrix(text: str, match: re.Match[str]) -> str:
+    """A matrix that is shown below a name."""
+    if match["drawn"] is not None:
+        return match["drawn"]
+    return text[match.end() : closes(text, text.index("(", match.end())) + 1]
 
 
 def with_columns(written: TracedText) -> TracedText:
