@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import pytest
 import sympy as sp
 
 import lagrangian as lg
@@ -32,6 +33,7 @@ def first(system: str | lg.Derivation, answer: str) -> str:
     return str(verdict.mistakes[0].what)
 
 
+@pytest.mark.slow
 def test_a_term_that_is_missing_stands_before_the_reason() -> None:
     said = first("cart-pole", CART.replace(" - m*l*sin(theta)*theta'^2", "") + "\n" + POLE)
     assert said.startswith("The term -l*m*sin(theta)*theta'^2 of the equation of x is missing. A possible reason: ")
@@ -42,6 +44,7 @@ def test_a_generalized_force_with_the_wrong_sign_is_on_no_wrong_side() -> None:
     assert "wrong sign" in said and "side" not in said
 
 
+@pytest.mark.slow
 def test_both_strands_of_a_belt_are_taken_alike() -> None:
     way, speed = "(r*p + R*q)", "(r*p' + R*q')"
     forces = f"Xi_p = -2*b*r*{speed}\nXi_q = -2*b*R*{speed}\n"
@@ -67,3 +70,45 @@ def test_a_letter_in_one_piece_of_a_deflection() -> None:
 def test_an_arm_of_a_damper_that_stands_once() -> None:
     said = first(belt(), "Xi_q = 2*b*(r*p' - R*q')")
     assert "damper" in said and "spring" not in said, said
+
+
+@cache
+def slot() -> lg.Derivation:
+    """A lever whose slot drives a carriage: x = h tan θ."""
+    s = lg.System("slot")
+    theta, x = s.coordinates("theta x")
+    J, m, h, k = s.parameters("J m h k")
+    F, tau = s.inputs("F tau")
+    s.kinetic((J * theta.diff() ** 2 + m * x.diff() ** 2) / 2)
+    s.spring(k=k, deflection=x)
+    s.force(F, deflection=x)
+    s.torque(tau, on=theta)
+    s.constraint(x - h * sp.tan(theta))
+    return s.derive()
+
+
+REDUCED = (
+    "(J + m*h^2/cos(theta)^4)*theta'' + 2*m*h^2*sin(theta)/cos(theta)^5*theta'^2 + k*h^2*tan(theta)/cos(theta)^2"
+    " = tau + F*h/cos(theta)^2"
+)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "term"),
+    [
+        ("2*m*h^2*sin", "m*h^2*sin", "should be 2*h^2*m*tan(theta)*theta'^2/cos(theta)^4", "coefficient"),
+        ("F*h/cos(theta)^2", "F*h", "the factor cos(theta)^(-2) is missing", "coefficient"),
+        ("tau +", "-tau +", "wrong sign", "sign"),
+    ],
+)
+def test_terms_are_compared_in_any_form_of_their_functions(right: str, wrong: str, said: str, term: str) -> None:
+    verdict = slot().check(REDUCED.replace(right, wrong) + "\nx = h*tan(theta)")
+    assert said in str(verdict.mistakes[0].what)
+    (difference,) = (d for f in verdict.findings for d in f.differences)
+    assert difference.kind == term
+
+
+def test_an_equation_that_is_reduced_from_right_ones() -> None:
+    rows = "m*x'' + k*x = F + lambda\nJ*theta'' = tau - lambda*h/cos(theta)^2\nx = h*tan(theta)\n"
+    said = first(slot(), rows + REDUCED.replace("k*h^2*tan(theta)/cos(theta)^2", "k*h^2*tan(theta)"))
+    assert "energy of spring" in said and "h/cos(theta)^2, not h" in said

@@ -21,6 +21,7 @@ from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candid
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
+from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.general import untrue_in_general
@@ -238,8 +239,16 @@ def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdi
 
 
 def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
-    """The verdict on a wrong answer in coordinates in which the constraints hold, if its mistakes are found so."""
-    if verdict.status is not Status.WRONG or (own := without_constraints(truth, lines)) is None:
+    """The verdict on a wrong answer in coordinates in which the constraints hold, if its mistakes are found so.
+
+    Right equations with multipliers, from which a wrong one was reduced, are left out if nothing else explains it.
+    """
+    if verdict.status is not Status.WRONG:
+        return None
+    own = without_constraints(truth, lines)
+    if own is None and not verdict.mistakes:
+        own = without_constraints(truth, _without_right_rows(truth, lines, verdict))
+    if own is None:
         return None
     wrong = {(f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG}
     unjudged = {(line.number, line.text): line.expr == 0 for line in own.lines if line.kind == "statement"}
@@ -257,6 +266,14 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     }
     findings = [there.get((f.line.number, f.line.text), f) for f in verdict.findings]
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
+
+
+def _without_right_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> tuple[AnsweredLine, ...]:
+    """The lines without right equations that have a multiplier: a name that the system does not have."""
+    right = {(f.line.number, f.line.text) for f in verdict.findings if f.status.right and f.line.kind == "equation"}
+    forces = {m.symbol for m in truth.derivation.multipliers.values()}
+    forced = [x for x in lines if x.expr.has(*forces) or foreign_names(truth, x.expr)]
+    return tuple(x for x in lines if (x.number, x.text) not in right or not any(x is y for y in forced))
 
 
 def _own_coordinates(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:

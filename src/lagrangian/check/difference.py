@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from itertools import islice
 
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio
+from lagrangian.check.terms_alike import entries
 from lagrangian.check.verdict import TermDifference, TermOrigin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
@@ -82,6 +84,8 @@ def differences(
     if lacking.is_zero:
         return ()
     name = truth.model.coordinates[index].name if index is not None else None
+    if lacking.opaque():
+        return _in_any_form(truth, mine, right, factor, index)
     found: list[TermDifference] = []
     for keys in _groups(lacking):
         ours, theirs = right.restricted(keys), mine.restricted(keys)
@@ -101,6 +105,19 @@ def differences(
         found.append(TermDifference(kind, as_written, written_so, name, _origins(truth, term, index)))
         if len(found) == MAX_DIFFERENCES:
             break
+    return tuple(found)
+
+
+def _in_any_form(
+    truth: Reference, mine: Form, right: Form, factor: sp.Expr, index: int | None
+) -> tuple[TermDifference, ...]:
+    """The same for functions that have several forms, 1 + tan² θ and 1/cos² θ."""
+    name = truth.model.coordinates[index].name if index is not None else None
+    found: list[TermDifference] = []
+    for kind, term, written, whole in islice(entries(truth, right.expr(), mine.expr()), MAX_DIFFERENCES):
+        own = truth.form(whole) if kind != "extra" else None
+        scaled = [x if abs(factor) == 1 else bounded.expand(factor * x) for x in (term, written)]
+        found.append(TermDifference(kind, *scaled, name, _origins(truth, own, index) if own is not None else ()))
     return tuple(found)
 
 

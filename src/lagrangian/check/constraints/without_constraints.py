@@ -18,6 +18,7 @@ from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.coordinates import Carrier, Change
 from lagrangian.derive import derive
@@ -47,7 +48,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
         kept = [c for c in truth.model.coordinates if c.symbol not in table]
         change = ProposedChange(table, _words(table), True)
         moving = [line.expr for line in lines if any(d.expr in table for d in _second(line.expr))]
-        if not new and not all(_is_zero(change.put(expr)) for expr in moving):
+        if not new and not all(_is_zero(truth, change.put(expr)) for expr in moving):
             continue  # equations of motion with multipliers, or with a constraint put in here and there
         if len(kept) + len(new) != truth.n - len(rows_of(truth.model)):
             continue
@@ -55,7 +56,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
         if other is not None:
             every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
             unknown = every - other.names - own
-            return InStatedCoordinates(other, tuple(_moved(lines, change, table, unknown)), change)
+            return InStatedCoordinates(other, tuple(_moved(truth, lines, change, table, unknown)), change)
     return None
 
 
@@ -132,7 +133,11 @@ class _Free(Carrier):
 
 
 def _moved(
-    lines: Sequence[AnsweredLine], change: ProposedChange, table: dict[sp.Expr, sp.Expr], unknown: set[Any]
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    change: ProposedChange,
+    table: dict[sp.Expr, sp.Expr],
+    unknown: set[Any],
 ) -> Iterator[AnsweredLine]:
     """The lines with the coordinates that go written out; what says nothing then, or has a multiplier, is none."""
     gone = {str(cast("AppliedUndef", q).func) for q in table}
@@ -146,13 +151,20 @@ def _moved(
                 yield replace(line, kind="statement")
             continue
         moved = replace(line, expr=change.put(line.expr))
-        holds = line.kind in ("equation", "identity") and _is_zero(moved.expr)
+        holds = line.kind in ("equation", "identity") and _is_zero(truth, moved.expr)
         yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
 
 
-def _is_zero(expr: sp.Expr) -> bool:
-    """Whether an expression is 0 when it is written out."""
-    return sp.expand_trig(expr).expand() == 0
+def _is_zero(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression is 0 when it is written out, or everywhere, as h/cos² θ − h − h tan² θ."""
+    if sp.expand_trig(expr).expand() == 0:
+        return True
+    return not _others(truth, expr) and zero_everywhere(truth, expr)
+
+
+def _others(truth: Reference, expr: sp.Expr) -> set[Any]:
+    """The names that the system does not have."""
+    return {*expr.free_symbols, *expr.atoms(AppliedUndef)} - truth.names
 
 
 def _words(table: dict[sp.Expr, sp.Expr]) -> Any:

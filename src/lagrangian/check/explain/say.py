@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
+from lagrangian.check.terms_alike import put_together
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model, RigidBody, Spring
 from lagrangian.page.formula import Left, Text, text
@@ -349,7 +350,10 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
 
 
 def _short(value: sp.Expr) -> sp.Expr:
-    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ), R + r sin θ for √((R + r sin θ)²)."""
+    """A length with its root drawn: r for √(r² cos²θ + r² sin²θ), R + r sin θ for √((R + r sin θ)²); h/cos²θ for
+    h + h tan²θ."""
+    if value.has(sp.tan):
+        value = put_together(value)
     roots = [f for f in value.atoms(sp.Pow) if f.exp == sp.S.Half and f.has(sp.sin, sp.cos)]
     drawn = {f: sp.powdenest(sp.sqrt(sp.factor(bounded.trigsimp(f.base))), force=True) for f in roots}
     return cast("sp.Expr", value.xreplace(drawn))

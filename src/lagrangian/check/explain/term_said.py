@@ -10,12 +10,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
+import sympy as sp
 
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.change import LocalChange
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
-from lagrangian.check.explain.search import SMALL, Told
+from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import Mistake
 from lagrangian.page.formula import text
 
@@ -29,19 +30,27 @@ PLAIN = (
     "damper_sign",
     "force_sign",
     "reaction_sign",
+    "element_twice",
+    "damper_half",
+    "spring_half_forgotten",
 )
 """Misconceptions whose words already say what stands in the equation."""
 
 
 def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake) -> Mistake:
-    """The mistake, told by the term of an equation that is missing or has the wrong sign, if it shows as that alone."""
+    """The mistake, told by the term of an equation that is wrong, if it shows as that alone."""
     if under is None or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
         return mistake
     term, times = found
     row = term.site.coordinate
-    said = say.mistake(term, times, pool.truth.model, under.factor(pool.truth, row) if row is not None else None)
+    factor = under.factor(pool.truth, row) if row is not None else None
+    said = say.mistake(term, times, pool.truth.model, factor).what.parts
+    if times not in (-1, -2):
+        right = next(x for x in said if isinstance(x, sp.Expr))
+        where = ("The term ", (1 + sp.Rational(times.numerator, times.denominator)) * right, " of the equation of ")
+        said = (*where, pool.truth.derivation.coordinates[row or 0], " should be ", right, ".")
     brief = mistake.brief if mistake.brief is not None else mistake.what
-    return replace(mistake, what=text(*said.what.parts, REASON, *mistake.what.parts), brief=brief)
+    return replace(mistake, what=text(*said, REASON, *mistake.what.parts), brief=brief)
 
 
 def _is_plain(possible: Possible) -> bool:
@@ -53,16 +62,17 @@ def _is_plain(possible: Possible) -> bool:
 
 
 def _term(pool: Pool, told: Told) -> tuple[LocalChange, Fraction] | None:
-    """The change of one term of an equation that does the same, left out or of the other sign, with its multiple."""
+    """The change of one term of an equation that does the same, with its multiple."""
     place = pool.places[id(told.mistake)]
     if pool.felt[place].sum() != 1:
         return None
     terms: dict[int, list[tuple[int, LocalChange]]] = pool.kept("terms of rows", lambda: _terms(pool))
     made, row = float(told.times) * pool.W[place], int(np.flatnonzero(pool.felt[place])[0])
     for k, term in terms.get(row, ()):
-        for times in (-1, -2):
-            if np.abs(times * pool.W[k, row] - made[row]).max() <= SMALL * np.abs(made).max():
-                return term, Fraction(times)
+        own = pool.W[k, row]
+        times = simple_number(float(own @ made[row]) / float(own @ own))
+        if times is not None and np.abs(float(times) * own - made[row]).max() <= SMALL * np.abs(made).max():
+            return term, times
     return None
 
 

@@ -294,8 +294,9 @@ class LetterChanges:
         return [p for p in pure if p not in angles]
 
     def factors(self, places: Iterable[Site]) -> Iterator[LocalChange]:
-        """A length too much or too little, once or squared, in every site."""
+        """A length too much or too little, once or squared, in every site; a cosine below a fraction line."""
         for site in places:
+            yield from self._divisors(site)
             for p in (*self.lengths, *self.ratios):
                 a = self.ring.atom(p)
                 held = min((dict(m).get(a, 0) for s in site.sums() for m in s), default=0)
@@ -310,6 +311,18 @@ class LetterChanges:
                         right=p,
                         written=p ** abs(e),
                     )
+
+    def _divisors(self, site: Site) -> Iterator[LocalChange]:
+        """1/cos θ once, twice or squared too much or too little, where it stands."""
+        for a in site.atoms():
+            powers = {dict(m).get(a, 0) for s in site.sums() for m in s}
+            if not isinstance(self.ring.atoms[a], sp.cos) or max(powers) >= 0:
+                continue
+            for e in (1, 2, -1, -2):
+                effect = site.changed(lambda s, by=((a, e),): {product([m, by]): c for m, c in s.items()})
+                kind = "foreign_factor" if e < 0 else "factor_missing"
+                written = self.ring.atoms[a] ** -abs(e)
+                yield LocalChange(kind=kind, cost=1.8 + site.surcharge, site=site, effect=effect, written=written)
 
 
 def _exchanged(m: tuple[tuple[int, int], ...], a: int, b: int) -> tuple[tuple[int, int], ...]:

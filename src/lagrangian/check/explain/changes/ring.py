@@ -69,12 +69,15 @@ class SumRing:
                 add(total, self.of(part))
             return total
         if isinstance(expr, sp.Mul):
-            product: Sum = {ONE: Fraction(1)}
+            whole: Sum = {ONE: Fraction(1)}
             for factor in cast("tuple[sp.Expr, ...]", expr.args):
-                product = times(product, self.of(factor))
-            return product
+                whole = times(whole, self.of(factor))
+            return whole
         if isinstance(expr, sp.Pow) and isinstance(expr.exp, sp.Rational):
             return self._power(expr)
+        if isinstance(expr, sp.tan):  # so that 1 + tan² folds to 1/cos²
+            sine, cosine = (self.atom(f(expr.args[0])) for f in (sp.sin, sp.cos))
+            return {product([((sine, 1),), ((cosine, -1),)]): Fraction(1)}
         return {((self.atom(expr), 1),): Fraction(1)}
 
     def _power(self, expr: sp.Pow) -> Sum:
@@ -96,8 +99,15 @@ class SumRing:
         )
 
     def product(self, monomial: Monomial) -> sp.Expr:
-        """A monomial as an expression."""
-        return cast("sp.Expr", sp.Mul(*[self.atoms[a] ** e for a, e in monomial]))
+        """A monomial as an expression, with tan θ for sin θ/cos θ."""
+        exponents = {self.atoms[a]: e for a, e in monomial}
+        for f in [f for f in exponents if isinstance(f, sp.sin)]:
+            cosine = cast("sp.Expr", sp.cos(f.args[0]))
+            if 0 < exponents[f] <= -exponents.get(cosine, 0):
+                both = exponents.pop(f)
+                exponents[cosine] += both
+                exponents[cast("sp.Expr", sp.tan(f.args[0]))] = both
+        return cast("sp.Expr", sp.Mul(*[f**e for f, e in exponents.items()]))
 
     def slope(self, value: Sum, by: sp.Expr) -> Sum:
         """∂value/∂by."""

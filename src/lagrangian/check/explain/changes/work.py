@@ -153,6 +153,7 @@ class WorkChanges:
         """Another rate in a damper, also in its force alone: a piece left out or with the wrong sign, another rate."""
         for action in self.s.actions(element):
             rate = bounded.expand(self.s.expand(action.rate))
+            rate = self.sites.ring.expr(self.sites.sum(rate)) if rate.has(sp.tan) else rate
             effort = self.s.expand(action.effort)
             force = bounded.cancel(-effort / rate) if rate != 0 else None
             if force is None or force.has(*self.s.v):

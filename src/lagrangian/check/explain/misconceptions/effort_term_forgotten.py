@@ -22,6 +22,6 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element in s.acting:
         for i, x in s.shares(element).items():
             pieces = sp.Add.make_args(bounded.expand(x))
-            for piece in pieces if len(pieces) > 1 and not x.has(sp.sin, sp.cos) else ():
+            for piece in pieces if len(pieces) > 1 and not x.has(sp.sin, sp.cos, sp.tan) else ():
                 what = text("The term ", piece, f" of what {element.title} adds is forgotten.")
                 yield Variant(what=what, Xi={i: -piece}, element=element, coordinate=i)
