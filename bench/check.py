@@ -2,10 +2,13 @@
 
     python bench/check.py                          print a Markdown table
     python bench/check.py cart-pole --count 100    one system, fewer answers
+    python bench/check.py --texts                  answers as people write them, half of them right, read and judged
     python bench/check.py --append                 and append the table to bench/RESULTS.md, with the machine
 
 The answers have one random mistake each (`tests/check/mutations.py`). The first answer to a system pays for everything
-that is kept for the others: the right equations in normal form, and all small changes of the derivation.
+that is kept for the others: the right equations in normal form, and all small changes of the derivation. With
+``--texts`` they are texts in all notations (`tests/check/students.py`), and `Derivation.check_class` judges them in one
+process with explanations and points; what takes the time before the first answer is in the sum.
 """
 
 from __future__ import annotations
@@ -42,21 +45,47 @@ def row(name: str, count: int) -> str:
     return f"| {name} | {count} | {named} | " + " | ".join(f"{x:.3f}" for x in figures) + " |"
 
 
+def class_row(name: str, count: int) -> str:
+    """A row of the table of a class: how many are right, wrong, unreadable, and all of its CPU time."""
+    from students import Students
+
+    from built_in import derivation
+    from lagrangian.check.verdict import Status
+
+    made = derivation(name)
+    students = Students(made, "bench")
+    answers = {f"s{k}": students.answer(students.spoiled() if k % 2 else None) for k in range(count)}
+    start = time.process_time()
+    found = made.check_class(answers, points={"equations": 4}, processes=1)
+    taken = time.process_time() - start
+    right = sum(row.right for row in found.rows)
+    wrong = sum(row.status is Status.WRONG for row in found.rows)
+    return (
+        f"| {name} | {count} | {right} | {wrong} | {count - right - wrong} | {taken:.1f} | {1000 * taken / count:.0f} |"
+    )
+
+
 def main() -> None:
     parser = command_line(__doc__)
     parser.add_argument("systems", nargs="*", default=list(SYSTEMS))
     parser.add_argument("--count", type=int, default=500)
+    parser.add_argument("--texts", action="store_true", help="texts in all notations, with check_class")
     given = parser.parse_args()
     head = "| system | answers | a mistake is named | first [s] | median [s] | 90 % [s] | most [s] | all [s] |"
+    rule = "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    if given.texts:
+        head = "| system | answers | right | wrong | others | all [s] | each [ms] |"
+        rule = rule.removesuffix(" ---: |")
+    command = f"python bench/check.py --count {given.count}{' --texts' * given.texts}"
     lines = [
         "## Checking a class\n",
-        f"`python bench/check.py --count {given.count}`, CPU. {this_machine('sympy', 'numpy')}.\n",
+        f"`{command}`, CPU. {this_machine('sympy', 'numpy')}.\n",
         head,
-        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |",
+        rule,
     ]
     print("\n".join(lines), flush=True)
     for name in given.systems:
-        lines.append(row(name, given.count))
+        lines.append((class_row if given.texts else row)(name, given.count))
         print(lines[-1], flush=True)
     text = "\n".join(lines) + "\n"
     if given.append:

@@ -164,6 +164,14 @@ class Students:
             opening, closing = opening.replace("\n\n", " "), f"\n{closing}"
         return f"{opening}{body}{closing}\n"
 
+    def spoiled(self) -> list[tuple[Any, Any]]:
+        """The equations, one of them without one of its terms, or with its other sign."""
+        sides = list(self.sides)
+        k = self.random.randrange(len(sides))
+        terms = sp.Add.make_args(sp.expand(sides[k][0]))
+        sides[k] = (sides[k][0] - self.random.choice([1, 2]) * self.random.choice(terms), sides[k][1])
+        return sides
+
     def _arranged(self, lhs: Any, rhs: Any) -> tuple[Any, Any]:
         form = self.random.randrange(4)
         if form == 0:

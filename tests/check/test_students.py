@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections import Counter
 
 import pytest
-import sympy as sp
 from students import Students
 
 from built_in import derivation
@@ -23,7 +22,7 @@ def told(name: str, count: int, seed: str, *, wrong: bool = False) -> Counter[st
     own = derivation(name)
     students, found = Students(own, seed), Counter[str]()
     for _ in range(count):
-        answer = students.answer(_spoiled(students) if wrong else None)
+        answer = students.answer(students.spoiled() if wrong else None)
         try:
             verdict = own.check(answer)
         except ParseError as error:
@@ -33,15 +32,6 @@ def told(name: str, count: int, seed: str, *, wrong: bool = False) -> Counter[st
         assert verdict.right is not wrong, f"{name}: {answer}\n{verdict.to_text()}"
         found["wrong" if wrong else "right"] += 1
     return found
-
-
-def _spoiled(students: Students) -> list[tuple[sp.Expr, sp.Expr]]:
-    """The equations, one of them without one of its terms, or with its other sign."""
-    sides = list(students.sides)
-    k = students.random.randrange(len(sides))
-    terms = sp.Add.make_args(sp.expand(sides[k][0]))
-    sides[k] = (sides[k][0] - students.random.choice([1, 2]) * students.random.choice(terms), sides[k][1])
-    return sides
 
 
 @pytest.mark.parametrize("name", FEW)
