@@ -12,6 +12,7 @@ from functools import cache
 
 import pytest
 
+from built_in import derivation
 from lagrangian import Derivation, ParseError, System
 from lagrangian.check.reading import parse_answer
 
@@ -108,3 +109,22 @@ def test_a_relation_in_brackets_is_read() -> None:
     derived = sys.derive()
     assert derived.check(f"Coordinate: {theta}.\n\nm R^2 theta'' + k theta = 0").right
     assert not derived.check(f"Coordinate: {theta}.\n\nm R^2 theta'' + k R theta = 0").right
+
+
+@pytest.mark.parametrize("said", ["K stands for 2 k.", "K stands for k m1.", "K means sin k."])
+def test_a_letter_that_stands_for_an_expression_is_none_for_a_name_in_it(said: str) -> None:
+    assert not right(f"{said}\n\n{SHEET.replace('k', 'K')}")
+    assert "stands for k." not in " ".join(parse_answer(f"{said}\n\n{SHEET.replace('k', 'K')}", carts().model).notes)
+
+
+def test_a_letter_that_stands_for_a_function_of_an_angle_has_that_value() -> None:
+    sheet = "m*L^2*theta'' + b*theta' + m*g*L*p = 0"
+    pendulum = derivation("pendulum")
+    assert pendulum.check(f"p stands for sin theta.\n{sheet}").right
+    assert not pendulum.check(f"p stands for cos theta.\n{sheet}").right
+
+
+@pytest.mark.parametrize("said", ["K is twice k.", "K is half of k."])
+def test_words_that_change_a_value_do_not_say_that_it_is_one(said: str) -> None:
+    notes = parse_answer(f"{said}\n\n{SHEET.replace('k', 'K')}", carts().model).notes
+    assert not any("as the words say" in note for note in notes)

@@ -121,3 +121,25 @@ def test_rows_of_a_stacked_state_are_equations(stiffness: str, right: bool) -> N
     verdict = derivation("two-disk-shaft").check(answer)
     assert verdict.right == right
     assert right or [m.element for m in verdict.mistakes] == ["spring 'shaft'"]
+
+
+SAID = [
+    "Lagrange's second kind gives this.\n",
+    "The steps were T and V. ",
+    "Here it is - hope it's right!\n",
+    "Exercise 3b)\n",
+]
+
+
+@pytest.mark.parametrize("said", SAID)
+def test_words_around_latex_without_delimiters_are_no_part_of_it(said: str) -> None:
+    """Also before a line that begins with a minus, which goes on with a formula above it, never with a sentence."""
+    row = r"-mgL\sin\theta = mL^2\ddot\theta + b\dot\theta"
+    found = derivation("pendulum").check(f"{said}{row}\nThat's it :)")
+    assert found.right and not found.notes
+    assert not derivation("pendulum").check(f"{said}{row.replace('+ b', '- b')}\nDone.").right
+    assert (
+        derivation("pendulum")
+        .check(f"mL^2\\ddot\\theta + b\\dot\\theta\n{row.partition('=')[0]} = -2mgL \\sin\\theta")
+        .right
+    )

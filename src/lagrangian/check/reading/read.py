@@ -180,6 +180,8 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
         except ParseError:
             continue
         told = [f"'{name}' was read as {value}, as the words say." for name, value in sure.values.items()]
+        if any(len(re.findall(r"\w+", value)) > 1 for value in sure.values.values()):  # a single name may be misread
+            return replace(found, notes=(*told, *found.notes))
         return replace(found, notes=(*told, *found.notes), others=(*found.others, lambda: answer, *others))
     return answer
 

@@ -72,6 +72,11 @@ _MINUS = re.compile(rf"{_SPACE}[-−–]")
 _CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
 
+_PROSE = re.compile(r"[^\W_]*+[^\\=_^*/+{}<>|\n]*+")
+_SENTENCE = re.compile(r"\s*+(?P<said>[^\W\d_][^\\=_^*/+{}<>|\n]{4,300}[.!?])\s++(?=[^\n]*=)")
+"""Words that end before an equation on the same line: The two steps were T and V. 0 = …"""
+_LONG_WORD = re.compile(r"[^\W\d_]{4,}")
+
 _FORMULA = re.compile(
     r"\s*+\\(?:begin\{[bpvB]?matrix\}|left(?![A-Za-z])|d?dot(?![A-Za-z])|[dt]?frac(?![A-Za-z]))|\s*+[\d(+-]*+\w*+\\d?dot(?![A-Za-z])"
 )
@@ -148,7 +153,8 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     rows: list[AnswerRow] = []
     end = 0
     for at, piece, hard in _cut(text, lines):
-        kept = _labels(piece)
+        said = _SENTENCE.match(piece) if lines else None
+        kept = _labels(blank(piece, 0, said.end()) if said is not None and _is_prose(said["said"]) else piece)
         if not _content(kept):
             continue
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard, _BLANK.search(text, end, at)):
@@ -157,7 +163,14 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
         elif "\\" in kept or not plain_words(kept):
             rows.append(AnswerRow(at + start, kept))
         end = at + len(piece)
-    return [part for row in rows for part in _parts(_tidy(row))]
+    return [part for row in rows if not (lines and _is_prose(row.text)) for part in _parts(_tidy(row))]
+
+
+def _is_prose(text: str) -> bool:
+    """Whether a line of LaTeX without delimiters consists of words: My answer is below - hope it's right!"""
+    if _PROSE.fullmatch(text.strip()) is None:
+        return False
+    return plain_words(text.replace("-", " ").replace("'", "")) or _LONG_WORD.search(text) is not None
 
 
 def _with_points(text: str) -> str:
@@ -236,7 +249,9 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
     """Whether a row continues the previous one; a minus does not if a blank line sets them ``apart``."""
     if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
         return True
-    return apart is None and bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
+    if apart is not None or _MINUS.match(piece) is None or _is_prose(before):
+        return False
+    return ("=" in before) != ("=" in piece)
 
 
 def _tidy(row: AnswerRow) -> AnswerRow:

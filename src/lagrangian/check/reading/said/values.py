@@ -21,6 +21,7 @@ from itertools import islice, pairwise, product
 from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.plain.spans import spans
 from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
 from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
 
@@ -204,7 +205,8 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
         if (kind, other) == ("name", "value"):
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
             sure = bool(lower & _IS) and not lower & {"not", "nicht"}
-            yield from ((a, b, sure) for a, b in zip(first, values, strict=False))
+            changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
+            yield from ((a, b, sure) for a, b in zip(first, values, strict=False) if not (changed and b.isalnum()))
         elif (kind, other) == ("value", "name") and len(first) == len(second) and lower & _NAMED:
             sure = bool({x.lower() for x in said} & _NAMED) or "by" in lower or "called" in lower
             yield from ((a, b, sure) for a, b in zip(second, first, strict=True))
