@@ -74,3 +74,25 @@ def test_a_minus_in_mathematics_is_none_of_a_list_and_a_bullet_no_minus(answer: 
 def test_energies_with_bullets_are_judged() -> None:
     verdict = derivation("cart-pole").check(SHEET.format("2"))
     assert [(f.line.kind, f.status.right) for f in verdict.findings][:3] == [("T", True), ("V", False), ("Xi", True)]
+
+
+STATES = f"""z' = (v, w, {CART_SOLVED}, {POLE_SOLVED})^T
+where z = (x, theta, v, w)^T, v = x', w = theta'"""
+
+
+@pytest.mark.parametrize(
+    ("answer", "old", "new"),
+    [
+        (
+            f"{KINETIC}   (1)\nV = m g l cos theta   (2)\nL = (1) - (2)   (3)\n{CART}   (4)\n{POLE}   (5)",
+            "(1) -",
+            "(1) +",
+        ),
+        (STATES, "(v, w, ", "(w, v, "),
+    ],
+    ids=["numbers behind lines", "states below their rates"],
+)
+def test_what_is_said_elsewhere_is_found(answer: str, old: str, new: str) -> None:
+    assert right(answer)
+    assert not any("not judged" in str(note) for note in derivation("cart-pole").check(answer).notes)
+    assert not right(answer.replace(old, new))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
-from lark import Tree
+from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
@@ -17,7 +17,7 @@ from lagrangian.check.reading.nodes import inside, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
-from lagrangian.read.letters import undotted
+from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
 
@@ -104,6 +104,13 @@ def is_general(value: sp.Expr) -> bool:
 def accelerates(value: sp.Expr) -> bool:
     """Whether an expression contains an acceleration."""
     return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
+
+
+def is_rate_of(token: Token, side: Tree) -> bool:
+    """Whether one side of a statement is the rate of a name alone: z' or dz/dt of z."""
+    name, primes = only_name(side) or (token, 0)
+    base, dots = undotted(name)
+    return key(base) == key(str(token)) and bool(primes or dots)
 
 
 def solves(rate: sp.Expr, value: sp.Expr) -> bool:

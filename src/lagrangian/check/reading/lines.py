@@ -19,6 +19,7 @@ from lagrangian.check.reading.line_forms import (
     accelerates,
     is_general,
     is_place,
+    is_rate_of,
     listed_names,
     made_line,
     matrix_rows,
@@ -321,16 +322,17 @@ class Lines:
         return []
 
     def _is_used_as_matrix(self, token: Token) -> bool:
-        """Whether a statement uses a name beside other matrices, or as one side: M q'' = f."""
+        """Whether a statement uses a name beside other matrices, or as one side, M q'' = f, or states its rate."""
         listed = (s.sides for s in self._statements if self._has_matrices(s.sides))
-        return any(key(str(x)) == key(str(token)) for sides in listed for side in sides for x, _ in names_in(side))
+        rated = any(is_rate_of(token, s.sides[0]) for s in self._statements)
+        return rated or any(key(str(x)) == key(str(token)) for y in listed for side in y for x, _ in names_in(side))
 
     def _rate_of_matrix(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Compare the velocity or acceleration of a point with the derivative of its position, given before."""
         token, order = subject.token, subject.order
         assert token is not None
-        own = self.names.mine(key(undotted(token)[0]))
-        if own is None:
+        self._look_ahead(key(undotted(token)[0]))
+        if self.names.mine(key(undotted(token)[0])) is None:
             self.names.rates[key(undotted(token)[0]), order] = value
             self._not_judged(reader, f"nothing says what {token} is")
             return []

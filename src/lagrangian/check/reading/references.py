@@ -1,4 +1,5 @@
-"""Reads references to an answer's own numbered lines: [5] L = [2] + [3] - [4] as L = T_1 + T_2 - V."""
+"""Reads references to an answer's own numbered lines: [5] L = [2] + [3] - [4] as L = T_1 + T_2 - V; so also
+L = (1) - (2) where the lines have their numbers behind them."""
 
 from __future__ import annotations
 
@@ -11,9 +12,14 @@ _NUMBERED = re.compile(
     r"^[ \t]*+(?:\[(?P<square>\d{1,2})\]|\((?P<round>\d{1,2})\))[ \t]*+(?P<name>[^\W\d][\w*]{0,23}+)[ \t]*+=(?!=)",
     re.MULTILINE,
 )
+_NAMED = re.compile(r"^[ \t]*+(?P<name>[^\W\d][\w*]{0,23}+)[ \t]*+=(?!=)(?P<rest>[^\n]*+)$", re.MULTILINE)
+_BEHIND = re.compile(r"(?:[ \t]{2}|\t)[\[(](\d{1,2})[\])][ \t]*\Z")
+"""The number of a line far behind it."""
 _TERM = r"(?:\[\d{1,2}\]|\(\d{1,2}\))"
 _ALONE = re.compile(
-    rf"(?<==)[ \t]*+(?:[-+−][ \t]*+)?{_TERM}(?:[ \t]*+[-+−][ \t]*+{_TERM}){{1,20}}+[ \t]*+[.;]?[ \t]*+$", re.MULTILINE
+    rf"(?<==)[ \t]*+(?:[-+−][ \t]*+)?{_TERM}(?:[ \t]*+[-+−][ \t]*+{_TERM}){{1,20}}+"
+    rf"(?=[ \t]*+[.;]?(?:[ \t]*+{_TERM})?[ \t]*+$)",
+    re.MULTILINE,
 )
 _REFERENCE = re.compile(r"[\[(](\d{1,2})[\])]")
 MOST = 60
@@ -24,6 +30,9 @@ def without_references(written: TracedText) -> TracedText:
     """Return an answer in which sides that consist of numbers of its lines have the names that these lines define."""
     numbered = list(islice(_NUMBERED.finditer(written.text), MOST))
     names: dict[str, str] = {m["square"] or m["round"]: m["name"] for m in reversed(numbered)}
+    for match in islice(_NAMED.finditer(written.text), MOST):
+        if (number := _BEHIND.search(match["rest"][-20:])) is not None:
+            names.setdefault(number[1], match["name"])
     if not names:
         return written
 
