@@ -9,6 +9,7 @@ from functools import cache
 
 import pytest
 
+import built_in
 from lagrangian import Derivation, ParseError, System
 
 
@@ -66,3 +67,23 @@ def test_bullets_of_one_list_are_no_minus_where_others_have_none() -> None:
     assert right(answer.format("k"))
     assert not right(answer.format("-k"))
     assert right("V = 1/2 k x^2\n\n- m x'' - d x' - k x = -F")
+
+
+BARRED = """M = | M+m   m l cos(theta) |
+    | m l cos(theta)   J+m l^2 |
+f = | F - b x' + m l theta'^2 sin(theta) |
+    | m g l sin(theta) |
+M q'' = f"""
+SLASHED = r"""/ M+m             m l cos(theta) \ / x''     \   / F - b x' + m l theta'^2 sin(theta) \
+|                                | |         | = |                                     |
+\ m l cos(theta)         J+m l^2 / \ theta'' /   \ m g l sin(theta)                    /"""
+ENTRIES = "M11 = M+m, M12 = M21 = m l cos(theta), M22 = J+m l^2, f1 = F - b x' + m l theta'^2 sin(theta), f2 = m g l sin(theta)"
+
+
+@pytest.mark.parametrize(
+    "answer", [BARRED, SLASHED, SLASHED.translate(str.maketrans("/\\", "||")), f"{ENTRIES}, with M q'' = f."]
+)
+def test_matrices_between_bars_and_slashes_are_read(answer: str) -> None:
+    judge = built_in.derivation("cart-pole")
+    assert judge.check(answer).right
+    assert not judge.check(answer.replace("m g l", "m g")).right

@@ -25,6 +25,7 @@ _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\
 _COLUMN = r"[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
 """What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
 
+_SIDE = r"[=+-][ \t]*NAME(?![\w(])[ \t]*(?:=|[.,;]?[ \t]*$)"
 MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 
@@ -74,6 +75,6 @@ def entered_matrices(written: TracedText, count: int, taken: Callable[[str], boo
         column = [entries.get(i) for i in numbers]
         if all(map(all, rows)) and re.search(rf"(?<![\w\\]){name}{_COLUMN}", written.text):
             added.append(f"{name} = [" + "; ".join(", ".join(map(str, row)) for row in rows) + "]\n")
-        elif all(column) and not taken(name) and re.search(rf"[=+-][ \t]*{name}(?![\w(])[ \t]*(?:=|$)", written.text):
+        elif all(column) and not taken(name) and re.search(_SIDE.replace("NAME", name), written.text, re.MULTILINE):
             added.append(f"{name} = [" + "; ".join(map(str, column)) + "]\n")
     return written.edited([(0, 0, "".join(added))] if added else [])

@@ -16,6 +16,7 @@ from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, ma
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
+from lagrangian.check.reading.drawn.barred import with_tall_brackets
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
@@ -289,7 +290,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     typed_in = without_crossed_out(
-        without_terminators(without_maxima(with_drawn_pieces(TracedText(text)))), names.notes
+        without_terminators(without_maxima(with_drawn_pieces(with_tall_brackets(TracedText(text))))), names.notes
     )
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(typed_in))))
     prompted = with_columns(with_whole_matrices(without_prompts(shown)))
