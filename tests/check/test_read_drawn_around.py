@@ -77,7 +77,9 @@ M q'' = f"""
 SLASHED = r"""/ M+m             m l cos(theta) \ / x''     \   / F - b x' + m l theta'^2 sin(theta) \
 |                                | |         | = |                                     |
 \ m l cos(theta)         J+m l^2 / \ theta'' /   \ m g l sin(theta)                    /"""
-ENTRIES = "M11 = M+m, M12 = M21 = m l cos(theta), M22 = J+m l^2, f1 = F - b x' + m l theta'^2 sin(theta), f2 = m g l sin(theta)"
+ENTRIES = (
+    "M11 = M+m, M12 = M21 = m l cos theta, M22 = J+m l^2, f1 = F - b x' + m l theta'^2 sin theta, f2 = m g l sin theta"
+)
 
 
 @pytest.mark.parametrize(
