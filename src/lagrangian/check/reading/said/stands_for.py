@@ -43,6 +43,8 @@ _USED = re.compile(
     rf"(?<![\w\\])(?:use|used|using|write|wrote|writing|call|schreibe|nehme|verwende|benutze)[ \t]++"
     rf"(?P<said>{_ONE}(?:[ \t]*+(?:,[ \t]++(?:and|und)|,|and|und)\s++{_ONE})*+)(?![\w(^'′])"
 )
+_GOES_ON = re.compile(rf"[ \t]*+(?:[-+*/·^(\d√]|(?P<name>{_NAME}))")
+"""What stands behind a value: another part of it, if this is no word."""
 _FOR = re.compile(rf"({_NAME})[ \t]++(?:for|für)[ \t]++{_WHAT}({_VALUE})")
 
 
@@ -69,6 +71,9 @@ def with_stated_letters(
         if says(match["new"], match["own"]):
             edits.append((*match.span(), _statement(match, latex=latex)))
     for match in _USED.finditer(written.text) if not latex else ():
+        after = _GOES_ON.match(written.text, match.end())
+        if after is not None and (after["name"] is None or taken(after["name"])):
+            continue  # I write A for J + 2 m; for J + l^2 m
         pairs = _FOR.findall(match["said"])
         named = [[x for x in re.findall(_NAME, value) if function_of(x) is None] for _, value in pairs]
         if all(a and all(map(taken, a)) and not taken(new) for a, (new, _) in zip(named, pairs, strict=True)):
