@@ -128,3 +128,19 @@ def test_a_letter_that_stands_for_a_function_of_an_angle_has_that_value() -> Non
 def test_words_that_change_a_value_do_not_say_that_it_is_one(said: str) -> None:
     notes = parse_answer(f"{said}\n\n{SHEET.replace('k', 'K')}", carts().model).notes
     assert not any("as the words say" in note for note in notes)
+
+
+@pytest.mark.parametrize("value", ["J + l^2 m", "J + m l^2 in what follows", "the inertia J + m l l", "l m l + J"])
+def test_a_value_in_words_ends_with_its_expression(value: str) -> None:
+    arm = derivation("dc-motor")
+    rows = "K theta' + L q'' + R q' - u = 0\ng l m sin theta - K q' + b theta' + eta theta'' = 0"
+    assert arm.check(f"I write eta for {value}.\n\n{rows}").right
+    assert not arm.check(f"I write eta for {value.replace('J', '2 J')}.\n\n{rows}").right
+
+
+def test_a_letter_of_the_answer_is_given_names_before_units() -> None:
+    """2 m are two masses, not two metres, where the system has a mass m; a parameter of the system is given units."""
+    arm = derivation("dc-motor")
+    rows = "K theta' + L q'' + R q' - u = 0\ng l M/2 sin theta - K q' + b theta' + (J + m l^2) theta'' = 0"
+    assert arm.check(f"M = 2 m\n{rows}").right
+    assert not arm.check(f"M = 2 l\n{rows}").right

@@ -62,7 +62,7 @@ _BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{_NAME})")
 MOST = 60
 """The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
-    rf"\s*{_NAME}\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
+    rf"\s*(?P<name>{_NAME})\s*==?\s*(?:[-−]\s*)?[0-9.]+(?:[eE][+-]?[0-9]+)?(?P<behind>\s*[^\W\d_]+[^=+()]*)", re.DOTALL
 )
 _RAISED = str.maketrans("¹²³⁴⁻⁺", "1234-+")
 _LISTS = frozenset(["atan2", "min", "max", "diff", "Derivative", "D", "Eq", "piecewise", "Matrix", "Piecewise"])
@@ -75,7 +75,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
     text = source.text
     tokens: list[AnswerToken] = []
     at = 0
-    value = (given := _VALUE.fullmatch(text)) is not None and not _goes_on(given["behind"], words)
+    value = (given := _VALUE.fullmatch(text)) is not None and _is_unit(given["behind"], given["name"], words)
     units = value or words.units or _in_units(text, words)
     while at < len(text):
         match = TOKEN.match(text, at)
@@ -182,9 +182,13 @@ def _with_unit(tokens: list[AnswerToken], text: str, at: int, words: Words, *, v
     return end
 
 
-def _goes_on(behind: str, words: Words) -> bool:
-    """Whether what follows a number is no unit alone: a function or a name that moves stands in it, 2 F l cos θ."""
-    return any(function_of(x) is not None or words.names.changes(x) for x in re.findall(r"[^\W\d_]\w*", behind))
+def _is_unit(behind: str, name: str, words: Words) -> bool:
+    """Whether what follows the number in a value is a unit alone: no function and no name that moves stands in it, as
+    in 2 F l cos θ, and a ``name`` of the answer's own is not given names of the system, as in m_t = 2 m."""
+    listed = re.findall(r"[^\W\d_]\w*", behind)
+    if any(function_of(x) is not None or words.names.changes(x) for x in listed):
+        return False
+    return not words.is_own(name) or not all(words.known(x) for x in listed)
 
 
 def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None, int]:
