@@ -36,13 +36,18 @@ def right(written: str, name: str = "cart-pole") -> bool:
 
 @pytest.mark.parametrize("wide", [True, False])
 @pytest.mark.parametrize(
-    "form", ["equations", "matrix", "list", "fractions", pytest.param("solution", marks=pytest.mark.slow), "said"]
+    "form",
+    ["equations", "names", "matrix", "list", "fractions", pytest.param("solution", marks=pytest.mark.slow), "said"],
 )
 def test_what_sympy_draws_is_read(form: str, wide: bool) -> None:
     def answer(sign: int) -> str:
         first, second = cart(sign)
         if form == "equations":
             return f"{drawn(sp.Eq(first + F, F), wide)}\n\n{drawn(sp.Eq(second, 0), wide)}"
+        if form == "names":  # both begin with a minus, which is no bullet
+            weight = sign * m * g * l * sp.sin(theta)
+            shown = [drawn(sp.Eq(-first - F, -F), wide), drawn(sp.Eq(-second - weight, -weight), wide)]
+            return "\n\n".join(f"In [{k}]: eq{k}\nOut[{k}]: \n{each}" for k, each in enumerate(shown))
         if form == "matrix":
             return f"In [3]: LM.eom\nOut[3]:\n{drawn(sp.Matrix([first, second]), wide)}"
         if form == "list":

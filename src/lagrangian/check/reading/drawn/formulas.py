@@ -35,6 +35,8 @@ _OPEN_END = re.compile(r"[-+⋅·*/(=^,]\s*\Z")
 _SAID = re.compile(r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2,}:[ \t]*\Z|\A[ \t]*\(%i\d{1,4}\)")
 """A line of words, or one that was typed."""
 _BAR = re.compile("[─━]+")
+_SIGN = re.compile(r"^[ \t]*+-[ \t]", re.MULTILINE)
+"""A program's minus in front of an equation, which is no bullet."""
 _RIGHT_SIDE = re.compile(r"[ \t]{0,3}=[^=]")
 """What a program prints below a drawn side: = 0."""
 _FRAME = re.compile("[\u2502\u2503\u250c-\u254b]")
@@ -91,6 +93,7 @@ def without_drawn_formulas(written: TracedText, typed: Source) -> TracedText:
             what = "formulas that are drawn over several lines take too much space"
             raise typed.error(what, place, fix=_ON_ONE_LINE, code="E703") from None
         if made is not None:
+            made = _SIGN.sub("-", made) if _BAR.search(text, drawing.start, drawing.end) else made
             edits.append((drawing.start, drawings[at + count - 1].end, f"{made}\n"))
         elif count > 1 or _is_fraction(drawing.lines) or _is_piece(drawing.lines):
             what = "a formula that is drawn over several lines, whose parts do not fit together"

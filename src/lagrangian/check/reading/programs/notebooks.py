@@ -22,6 +22,8 @@ _SHOWN = re.compile(
     r"(?P<value>[^$\n=]{1,2000}+)(?P<closes>\$\$?|$)",
     re.MULTILINE,
 )
+_DRAWN = re.compile(r"\n[ \t]*+(?!```|In[ \t]?\[|\[\d|>>>)\S")
+"""A line directly below a value: this is drawn over several lines."""
 _TYPED = r"(?:^|[;\n]|>>>|julia>|sage:|(?:In[ \t]?)?\[\d{1,4}\]:)[ \t]*+"
 _ABOVE = re.compile(rf"{_TYPED}(?P<name>{_NAME})[ \t]*+(?:\n[ \t]*+(?:```[^\n]*+)?)*+\Z")
 _MATRIX = re.compile(
@@ -53,6 +55,8 @@ def with_shown_values(written: TracedText) -> TracedText:
     for match in islice(_SHOWN.finditer(text), MOST):
         above = _ABOVE.search(text, max(0, match.start() - 80), match.start())
         if bool(match["opens"]) != ("$" in match["closes"]):
+            continue
+        if not match["opens"] and _DRAWN.match(text, match.end()):
             continue
         if above is not None:
             edits.append((match.start("value"), match.start("value"), f" {above['name']} = "))

@@ -63,6 +63,7 @@ _NAMED = frozenset(
 _JOINS = frozenset(["and", "or", "und", "et", "resp", "respectively"])
 _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse|current|strom|courant)", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
+_NAMED_IN = re.compile(r"[^\W\d_]\w*")
 _ENDS = re.compile(r"(?<=[\w)\]}$'’′″²³])[.;](?=\s|\Z)|\n[ \t]*\n|\n(?=[ \t]*(?:\\|[A-Z(]|[^\n=]{0,200}=))")
 _MATH = re.compile(r"(?<!\\)\$(?P<dollar>[^$\n]{1,300})\$|\\\((?P<round>[^\n]{1,300}?)\\\)")
 _DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
@@ -206,7 +207,11 @@ def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
             values = second if len(second) == len(first) else second[:1] if len(first) == 1 else []
             sure = bool(lower & _IS) and not lower & {"not", "nicht"}
             changed = bool(lower & CHANGING)  # A is twice m; a is half the length l/2
-            yield from ((a, b, sure) for a, b in zip(first, values, strict=False) if not (changed and b.isalnum()))
+            yield from (
+                (a, b, sure)
+                for a, b in zip(first, values, strict=False)
+                if not (changed and b.isalnum()) and a not in _NAMED_IN.findall(b)  # the deflection is A sin(w t)
+            )
         elif (kind, other) == ("value", "name") and len(first) == len(second) and lower & _NAMED:
             sure = bool({x.lower() for x in said} & _NAMED) or "by" in lower or "called" in lower
             yield from ((a, b, sure) for a, b in zip(second, first, strict=True))
