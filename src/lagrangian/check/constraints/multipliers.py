@@ -18,6 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.terms_alike import put_together
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model.rows import rows_of
@@ -73,32 +74,43 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     possible = list(islice(_readings(truth, rows, names, own), MOST_READINGS))
     matches = [_matched(truth, exprs, x, own) for x in possible]
     scores = [_score(found) for found in matches]
-    fixed = [_read(truth, lines, rows, x) for x in _of_stated(truth, lines, names, own)]
-    right = min(fixed, key=lambda x: len(x.mistakes), default=None)
+    stated = list(_of_stated(truth, lines, names, own))
+    against = [_against(truth, exprs, _matched(truth, exprs, x, own)) for x in stated]
+    fixed = [(_read(truth, lines, rows, x), k) for x, k in zip(stated, against, strict=True)]
+    right, _ = min(fixed, key=lambda x: (len(x[0].mistakes) + x[1], x[1]), default=(None, 0))
     if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
         return right
     found = _read(truth, lines, rows, possible[scores.index(max(scores))])
-    if not any(map(_is_odd, found.mistakes)):
+    if not found.mistakes:
         return found
     plain_ones = [k for k, x in enumerate(possible) if all(c in (1, -1) for _, c in x.values())]
     plain_ones.sort(key=lambda k: (_against(truth, exprs, matches[k]), -scores[k]))
     others = [_read(truth, lines, rows, possible[k]) for k in plain_ones]
+    if not any(map(_is_odd, found.mistakes)):
+        return next((x for x in others if _is_plainer(truth, x, found)), found)
     kept = (x for x in others if len(x.mistakes) <= len(found.mistakes))  # never two for one
     return next((x for x in kept if not any(map(_is_odd, x.mistakes))), found)
+
+
+def _is_plainer(truth: Reference, reading: ReadMultipliers, than: ReadMultipliers) -> bool:
+    """Whether λ read as ±λ leaves no more mistakes than λ times a function of the place, and no number for it."""
+    turned = any(
+        x.has(*truth.derivation.coordinates) for note in than.notes for x in note.parts if isinstance(x, sp.Expr)
+    )
+    return turned and len(reading.mistakes) <= len(than.mistakes) and not any(map(_is_odd, reading.mistakes))
 
 
 def _of_stated(
     truth: Reference, lines: Sequence[AnsweredLine], names: Sequence[Any], own: Sequence[Any]
 ) -> Iterator[_Reading]:
-    """How λ is read where the answer states f = 0 itself: with c f for our f, λ/c in all equations, or all with −."""
+    """How λ is read where the answer states the constraint: with c f for our f, λ/c in all equations, or all with −."""
     if len(names) != 1 or len(own) != 1:
         return
     f = next((row.position for row in rows_of(truth.model) if row.position is not None), None)
     if f is None:
         return
     for line in lines:
-        left, equals, right = line.text.rpartition("=")
-        if line.kind != "equation" or not equals or not right.strip().startswith("0") or not left.strip():
+        if line.kind != "equation":
             continue
         c = bounded.cancel(line.expr / truth.expand(f))
         if c.is_number and c != 0:
@@ -253,6 +265,7 @@ def _mistake(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, right: 
     else:
         sign = -1 if written.could_extract_minus_sign() else 1
         words = (" stands with the factor ", sign * written, " in the equation of ", q, "; beside the others, ")
-        kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * right, " belongs there.")
+        short = put_together(right) if right.has(sp.tan) else right
+        kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * short, " belongs there.")
     brief = text("The multiplier does not stand in the equation of ", q, " as it should.")
     return Mistake(kind, what, WHY, 6, title, name, brief)
