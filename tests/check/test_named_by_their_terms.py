@@ -9,6 +9,7 @@ import sympy as sp
 
 import lagrangian as lg
 from built_in import derivation
+from lagrangian.check.verdict import Status
 
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"
@@ -112,3 +113,18 @@ def test_an_equation_that_is_reduced_from_right_ones() -> None:
     rows = "m*x'' + k*x = F + lambda\nJ*theta'' = tau - lambda*h/cos(theta)^2\nx = h*tan(theta)\n"
     said = first(slot(), rows + REDUCED.replace("k*h^2*tan(theta)/cos(theta)^2", "k*h^2*tan(theta)"))
     assert "energy of spring" in said and "h/cos(theta)^2, not h" in said
+
+
+def test_an_equation_follows_from_a_wrong_derivative() -> None:
+    energies = "T = m*L^2*theta'^2/2\nV = -m*g*L*cos(theta)\ndV/dtheta = -m*g*L*cos(theta)\n"
+    verdict = derivation("pendulum").check(f"{energies}m*L^2*theta'' - m*g*L*cos(theta) = -b*theta'")
+    assert [f.follows for f in verdict.findings if f.status is Status.WRONG] == [False, True]
+    (mistake,) = verdict.mistakes
+    assert "minus the sine" in str(mistake.why)
+
+
+@pytest.mark.parametrize("factor", ["h/cos(theta)", "h"])
+def test_a_stated_constraint_says_which_factor_of_a_multiplier_is_wrong(factor: str) -> None:
+    verdict = slot().check(f"J*theta'' = tau - lambda*{factor}\nm*x'' + k*x = F + lambda\nx = h*tan(theta)")
+    assert [f.status is Status.WRONG for f in verdict.findings] == [True, False, False]
+    assert str(verdict.mistakes[0].what).endswith("beside the others, h/cos(theta)^2 belongs there.")

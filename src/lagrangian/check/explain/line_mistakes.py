@@ -17,6 +17,7 @@ from lagrangian.check.stated import dissipation, index_of, right_value, without_
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Force, Torque
+from lagrangian.page.formula import text
 
 ENERGIES = ("T", "V", "L", "Xi")
 DERIVED = ("p-rate", "slope", "left", "derived")
@@ -27,6 +28,7 @@ MOST_TOGETHER = 10
 """The largest number of explanations of each of two lines that are tried together."""
 ELSEWHERE = 0.8
 """What it costs more to take a mistake of another step for one that shows in a derivative of an energy."""
+WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
@@ -103,8 +105,14 @@ def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
         return []
     found = [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
+    found = [e for e in found if e.told[0].mistake.name != "sine_for_cosine"] or found  # no angle is measured here
     own = [e if _step(e.told[0].mistake) == LINES["equation"] else replace(e, cost=e.cost + ELSEWHERE) for e in found]
     return sorted(own, key=lambda e: e.cost)
+
+
+def of_derivative_of(line: AnsweredLine, mistake: Mistake) -> Mistake:
+    """A mistake in the words for a derivative: a sine in place of a cosine was differentiated wrongly."""
+    return replace(mistake, why=WHY_FUNCTION) if mistake.name == "sine_cosine" and line.kind in DERIVED else mistake
 
 
 def _step(possible: Possible) -> int | None:

@@ -20,6 +20,7 @@ from lagrangian.check.explain.line_mistakes import (
     UNNATURAL,
     contradicted,
     followed,
+    of_derivative_of,
     of_forces,
     of_line,
     stated,
@@ -131,7 +132,8 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
-    told = (*prescribed.values(), *named.told, *_once(own, named.told))
+    of_first = [of_derivative_of(wrong[0], m) for m in named.told]
+    told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     rows_left = tuple(line for line in left if line.kind == "equation")

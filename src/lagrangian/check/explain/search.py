@@ -199,12 +199,7 @@ def _plain(pool: Pool) -> tuple[Array, Array, Array]:
 
 def _kinship(one: Told, other: Told) -> float:
     """What it spares if the same mistake was made twice, as in the heights of two bodies."""
-    kinds = [t.mistake.change.kind if t.mistake.change is not None else _name(t.mistake) for t in (one, other)]
-    return KIN if kinds[0] == kinds[1] and one.times == other.times else 0.0
-
-
-def _name(possible: Possible) -> str:
-    return possible.wrong.name if possible.wrong is not None else ""
+    return KIN if one.mistake.name == other.mistake.name and one.times == other.times else 0.0
 
 
 def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:

@@ -52,6 +52,11 @@ class Possible:
             return self.change.site.element
         return self.wrong.variant.element if self.wrong is not None else None
 
+    @property
+    def name(self) -> str:
+        """The kind of the change, or the name of the misconception."""
+        return self.change.kind if self.change is not None else self.wrong.name if self.wrong is not None else ""
+
     def takes(self, number: Fraction) -> bool:
         """Whether a multiple of it is a mistake of the same kind."""
         if self.change is None or not self.change.free:

@@ -1,0 +1,67 @@
+"""Which wrong equations follow from a wrong derivative above them: ∂V/∂θ = −m g l cos θ, put into the equation of θ.
+
+Equation i is d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i − Ξ_i = 0: what a derivative has too much, the equation has too much as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lagrangian import bounded
+from lagrangian.check.align import alignments
+from lagrangian.check.reference import Reference
+from lagrangian.check.stated import index_of, right_value
+from lagrangian.check.verdict import Finding, Status
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import time
+
+DERIVATIVES = ("p", "p-rate", "slope", "left", "derived")
+"""∂L/∂ξ̇, its d/dt, ∂L/∂ξ, what is left of the equation, and derivatives of the answer's own T*, V and D."""
+SMALL = 1e-9
+"""The relative size of a difference that is rounding."""
+
+
+def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with the equations marked that have exactly what a wrong derivative above them has too much."""
+    derived = [f for f in findings if f.line.kind in DERIVATIVES and _is_open(f)]
+    rows = [f for f in findings if f.line.kind == "equation" and _is_open(f)]
+    if not derived or not rows:
+        return list(findings)
+    extra = [x for f in derived for x in _extra(truth, f)]
+    values = CompiledExpressions([f.line.expr for f in rows]).at(truth.states)
+    follow: set[int] = set()
+    for f, P in zip(rows, values, strict=True):
+        above = [(i, r) for number, i, r in extra if number <= f.line.number]
+        if np.isfinite(P).all() and any(_has(truth, f, P, i, r) for i, r in above):
+            follow.add(id(f))
+    return [replace(f, follows=True) if id(f) in follow else f for f in findings]
+
+
+def _is_open(finding: Finding) -> bool:
+    return finding.status is Status.WRONG and not finding.follows
+
+
+def _extra(truth: Reference, finding: Finding) -> Iterator[tuple[int, int, Array]]:
+    """What the equation of which coordinate has too much if a derivative is put in, but for the sign, and its line."""
+    line, i = finding.line, index_of(truth, finding.line.name)
+    right = right_value(truth, line, i) if i is not None else None
+    if i is None or right is None:
+        return
+    rest = line.expr - right
+    made = [rest] if line.kind != "p" else []
+    made += [bounded.diff(rest, time)] if line.kind in ("p", "derived") else []
+    for values in CompiledExpressions(made).at(truth.states):
+        if np.isfinite(values).all() and np.abs(values).max() > 0:
+            yield line.number, i, values
+
+
+def _has(truth: Reference, finding: Finding, P: Array, i: int, extra: Array) -> bool:
+    """Whether an equation is that of ξ_i, in some scale, with exactly that too much."""
+    for a in alignments(truth, [finding.line.expr], P[None]):
+        size = np.abs(extra).max()
+        if a.rows == (i,) and any(np.abs(a.rest[0] - s * extra).max() <= SMALL * size for s in (1, -1)):
+            return True
+    return False
