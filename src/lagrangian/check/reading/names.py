@@ -14,6 +14,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
+from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.nodes import Node, start_of
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
@@ -83,6 +84,8 @@ class Names:
         """The coordinates of the system."""
         self.dependents: frozenset[str] = frozenset()
         """The quantities that the answer states with what they depend on: I(r)."""
+        self.implied: dict[str, sp.Expr] = {}
+        """The rates that letters of the answer are unless it says what they are: i of a charge q."""
         self._named_forces = False
         """Whether the answer calls forces by letters of coordinates' names: Q_m."""
         self._moving: set[str] = set()
@@ -101,6 +104,7 @@ class Names:
         self._named_forces = names_forces(self._seen, self.model)
         for base in list(self._seen):
             self._moving.update(key(stem) for _, stem in spelled_rates(base) if key(stem) in self._seen)
+        self.implied = implied_rates(self.model, self._seen, self._moving)
 
     def known(self, written: str) -> bool:
         """Whether a name already has a meaning."""
@@ -131,7 +135,7 @@ class Names:
         names, _ = self.scope.meanings(written)
         if names:
             return self.scope[names[0]].has(AppliedUndef)
-        return key(written) in self._moving
+        return key(written) in self._moving or key(written) in self.implied.keys() - self.defined
 
     def is_own(self, written: str) -> bool:
         """Whether the answer has said what a name is."""
@@ -151,6 +155,9 @@ class Names:
 
     def mine(self, base: str) -> tuple[str, Value] | None:
         """A name of the answer and the value that it has now, which counts as used."""
+        if base not in self.own and base not in self.defined and (rate := self.implied.get(base)) is not None:
+            self.notes.setdefault(f"'{base}' was read as {rate.args[0].func}'.")
+            self.own[base] = (base, rate)
         if base in self.own:
             self.redefined.use(base)
         return self.own.get(base)
