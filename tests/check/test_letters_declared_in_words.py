@@ -115,7 +115,9 @@ def test_what_holds_a_name_is_not_its_value() -> None:
     assert right(f"(k heißt hier K, die Federkraft ist K·x)\n\n{SHEET.replace('k', 'K')}")
 
 
-@pytest.mark.parametrize("said", ["K stands for 2 k.", "K stands for k m1.", "K means sin k."])
+@pytest.mark.parametrize(
+    "said", ["K stands for 2 k.", "K stands for k m1.", "K stands for k (m1 - m2).", "K means sin k."]
+)
 def test_a_letter_that_stands_for_an_expression_is_none_for_a_name_in_it(said: str) -> None:
     assert not right(f"{said}\n\n{SHEET.replace('k', 'K')}")
     assert "stands for k." not in " ".join(parse_answer(f"{said}\n\n{SHEET.replace('k', 'K')}", carts().model).notes)

@@ -265,9 +265,11 @@ def test_a_coordinate_that_only_words_explain_is_asked_about() -> None:
         derivation("cart-pole").check(f"As second coordinate I use the angle φ through which a wheel turns.\n\n{rows}")
 
 
-def test_a_bullet_behind_a_sentence_begins_a_statement() -> None:
-    assert right(f"The two steps were T and V. * {CART}\n  * {POLE}\nThe units agree.")
-    assert not right(f"The two steps were T and V. * {CART}\n  * {POLE.replace('- m g', '+ m g')}\nThe units agree.")
+@pytest.mark.parametrize(("one", "two"), [("*", "*"), ("1.", "2."), ("1)", "2)")])
+def test_a_bullet_or_number_behind_a_sentence_begins_a_statement(one: str, two: str) -> None:
+    wrong = POLE.replace("- m g", "+ m g")
+    assert right(f"The two steps were T and V. {one} {CART}\n  {two} {POLE}\nThe units agree.")
+    assert not right(f"The two steps were T and V. {one} {CART}\n  {two} {wrong}\nThe units agree.")
 
 
 def test_a_matrix_drawn_with_its_name_on_a_middle_line_is_read() -> None:

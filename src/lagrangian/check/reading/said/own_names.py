@@ -82,8 +82,10 @@ _BEFORE = re.compile(rf"{_WORD}{{0,8}}")
 _TAIL = re.compile(
     rf"(?:[ \t\n]{{1,9}}\([^()=]{{0,80}}\)|,[^()=+*^/]{{0,60}}|(?:[ \t\n]{{1,9}}{_WORD}{{0,8}}[^\W_]{{1,24}})?){_END}"
 )
-_NEXT = re.compile(r"[ \t](?P<name>[^\W\d_](?:_?\d)?)(?!\w)")
-"""A letter behind a name, which may be a factor."""
+_NEXT = re.compile(
+    r"[ \t]{0,3}(?:(?P<name>[^\W\d_](?:_?\d)?)(?!\w)|\([ \t]?(?P<first>[^\W\d_]\w{0,15})[ \t]{0,3}[-−+*/^·])"
+)
+"""A letter or a bracket behind a name, which may be a factor."""
 _LEADS = re.compile(
     r"(?<!\w)(?:us(?:e|es|ed|ing)|writ(?:e|es|ing|ten)|wrote|call(?:s|ed)?|letters?|notation|names?|symbols?|renam\w{0,4}"
     r"|schreib\w{0,3}|verwend\w{0,3}|benutz\w{0,3}|nehme|nenn\w{0,3}|bezeichn\w{0,8}|buchstaben|formelzeichen)(?!\w)",
@@ -235,8 +237,8 @@ def _named(rest: str, system: _System, *, alone: bool) -> str | None:
             continue
         if any(x[:1].isdigit() or x.lower() in CHANGING or function_of(x) for x in before.split()):
             return None  # p stands for sin theta, for 2 m
-        if (factor := _NEXT.match(rest, match.end())) is not None and system.find(factor["name"]):
-            return None  # M is m L
+        if (factor := _NEXT.match(rest, match.end())) is not None and any(map(system.find, factor.groups(""))):
+            return None  # M is m L, g (m1 - m2)
         if not alone or _PREPOSITIONS.isdisjoint(before.lower().split()):
             return found[0]
     return None
