@@ -40,7 +40,8 @@ def blank(text: str, start: int, end: int) -> str:
 
 
 _BEHIND_SENTENCE = re.compile(
-    r"^(?P<sentence>[ \t]*+(?:[^\W\d_]{1,20}[,:]?[ ]){2,30}[^\W\d_]{1,20}[.!?])[ ](?=(?:[*•-]|\(\w{1,3}\)|\d{1,2}[.)])[ ][^\n]*=)",
+    r"^(?P<sentence>[ \t]*+(?:[^\W\d_]{1,20}[,:]?[ ]){2,30}[^\W\d_]{1,20}[.!?])[ ]"
+    r"(?=(?:[*•-]|\(\w{1,3}\)|\d{1,2}[.)])[ ][^\n]*=)",
     re.MULTILINE,
 )
 """A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
