@@ -79,7 +79,7 @@ _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
-_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
+_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{NAME}))")
 _PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
@@ -352,10 +352,11 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
     own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
-    for match in _CALLED.finditer(text):  # with the total mass M_t = …
+    system = Words(lines.names, (), ())
+    for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …
         word = match[1]
         long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
-        if word.lower() in LINKING or (long and not lines.names.known(word)):
+        if word.lower() in LINKING or (long and not system.known(word) and not system.is_product(word)):
             own.setdefault(match[2])
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))

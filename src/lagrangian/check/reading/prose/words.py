@@ -93,7 +93,7 @@ class Words:
         names: Names,
         own: Iterable[str],
         alone: Iterable[str],
-        used: Iterable[str],
+        used: Iterable[str] = (),
         primed: Iterable[str] = (),
         led: frozenset[str] = frozenset(),
     ) -> None:
