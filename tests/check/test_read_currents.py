@@ -56,6 +56,12 @@ def test_a_mistake_beside_a_current_is_named_alone() -> None:
     assert [f.status.right for f in motor().check(w).findings] == [False, True]
 
 
+def test_a_letter_of_a_speed_is_read_beside_a_mistake() -> None:
+    verdict = motor().check("J v' - b v = K i\nL i' + R i + K v = u")
+    assert [f.status.right for f in verdict.findings] == [False, True]
+    assert "b φ̇ has the wrong sign" in verdict.to_text().replace("−", "")
+
+
 def test_a_letter_that_the_answer_explains_is_no_current() -> None:
     below = "L q'' + R q' + K phi' = u\nJ phi'' + b phi' = i q'"
     assert motor().check(f"{below}\ni = K").right

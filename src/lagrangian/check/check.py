@@ -28,7 +28,7 @@ from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import Judged, judged_lines
 from lagrangian.check.lines import filled, without_forms
-from lagrangian.check.names.declared import declared, speeds
+from lagrangian.check.names.declared import declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.numbers_beside import with_numbers_beside
@@ -212,6 +212,10 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
     if not new_names(truth, spelling.lines):
         return _own_coordinates(truth, spelling, verdict)
     change = likeliest(truth, spelling.lines)
+    true = 0 if change is None else QuickTest(truth, spelling.lines).true_lines(change)
+    if (rates := likeliest_speeds(truth, spelling.lines, true + 1)) is not None:
+        told = replace(spelling, lines=rates.lines, notes=(*spelling.notes, *rates.notes))
+        return _read(truth, told, verdict.hint, explain=True)
     if change is None:
         return None
     if names_only(change.table, list(truth.derivation.coordinates)):

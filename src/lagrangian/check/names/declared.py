@@ -6,7 +6,7 @@ parameter of the system is taken to be: the answer is then judged under that ass
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import permutations
 from typing import Any, cast
@@ -166,8 +166,36 @@ def _without(line: AnsweredLine, speeds: dict[sp.Basic, sp.Expr]) -> AnsweredLin
     return replace(line, kind="definition") if says else line
 
 
+@dataclass(frozen=True)
+class ReadAsSpeeds:
+    """The lines with some names read as rates of coordinates, and what to say of these."""
+
+    lines: tuple[AnsweredLine, ...]
+    notes: tuple[Text, ...]
+
+
 def speeds(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """Read names that occur with their first rate at most as rates of coordinates, if the answer is right then."""
+    for reading in _read_as_speeds(truth, lines):
+        if may_be_right(truth, reading.lines):
+            return reading.lines, reading.notes
+    return tuple(lines), ()
+
+
+def likeliest_speeds(truth: Reference, lines: Sequence[AnsweredLine], least: int) -> ReadAsSpeeds | None:
+    """The reading of such names in which most equations of a wrong answer are true; None if it is not one alone, or if
+    fewer than ``least`` are."""
+    counted = [(sum(may_be_right(truth, [x]) for x in _equations(r.lines)), r) for r in _read_as_speeds(truth, lines)]
+    most = max((count for count, _ in counted), default=0)
+    best = [reading for count, reading in counted if count == most]
+    return best[0] if len(best) == 1 and most >= max(least, 1) else None
+
+
+def _equations(lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    return [line for line in lines if line.kind == "equation" and line.expr != 0]
+
+
+def _read_as_speeds(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ReadAsSpeeds]:
     own = {c.symbol for c in truth.model.coordinates} | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
     told = [line for line in lines if line.kind != "statement"]
@@ -175,17 +203,14 @@ def speeds(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[Answe
     moving = {d.args[0]: d.derivative_count for line in told for d in line.expr.atoms(sp.Derivative)}
     high = {d.args[0] for line in told for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
     if not new or len(new) > MAX_SPEEDS or new & high or not new <= moving.keys():
-        return tuple(lines), ()
+        return
     names = sorted(new, key=str)
     for picked in permutations(truth.model.coordinates, len(names)):
         table: dict[sp.Basic, sp.Expr] = {}
         for name, c in zip(names, picked, strict=True):
             table |= {name: c.rate, sp.Derivative(name, time): c.acceleration}
-        put = tuple(_put(line, table) for line in lines)
-        if may_be_right(truth, put):
-            notes = [text(f"'{plain(n)}' was read as ", c.rate, ".") for n, c in zip(names, picked, strict=True)]
-            return put, tuple(notes)
-    return tuple(lines), ()
+        notes = [text(f"'{plain(n)}' was read as ", c.rate, ".") for n, c in zip(names, picked, strict=True)]
+        yield ReadAsSpeeds(tuple(_put(line, table) for line in lines), tuple(notes))
 
 
 # -- parameters -------------------------------------------------------------------------------------------------------
