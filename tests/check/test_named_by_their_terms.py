@@ -128,3 +128,25 @@ def test_a_stated_constraint_says_which_factor_of_a_multiplier_is_wrong(factor: 
     verdict = slot().check(f"J*theta'' = tau - lambda*{factor}\nm*x'' + k*x = F + lambda\nx = h*tan(theta)")
     assert [f.status is Status.WRONG for f in verdict.findings] == [True, False, False]
     assert str(verdict.mistakes[0].what).endswith("beside the others, h/cos(theta)^2 belongs there.")
+
+
+@cache
+def shaft() -> lg.Derivation:
+    """Two disks on an elastic shaft, whose twist is a name of the system."""
+    s = lg.System("shaft")
+    p, q = s.coordinates("p q")
+    J, n, k, b = s.parameters("J n k b")
+    delta = s.define("delta", p / n - q)
+    s.kinetic(J * (p.diff() ** 2 + q.diff() ** 2) / 2)
+    s.spring(k=k, deflection=delta)
+    s.damper(b=b, deflection=delta)
+    return s.derive()
+
+
+def test_a_wrong_definition_is_one_mistake() -> None:
+    rows = "V = k*delta^2/2\nJ*p'' + (k*delta + b*delta')/n = 0\nJ*q'' {} (k*delta + b*delta') = 0"
+    verdict = shaft().check("delta = p/n + q\ndelta' = p'/n + q'\n" + rows.format("+"))
+    assert [str(m.what) for m in verdict.mistakes] == ["delta is -q + p/n, not q + p/n."]
+    assert all(f.follows for f in verdict.findings if f.status is Status.WRONG and f.line.number > 1)
+    assert shaft().check("delta = p/n - q\n" + rows.format("-")).right
+    assert not shaft().check("delta = p/n + q\n" + rows.format("-")).right

@@ -10,6 +10,7 @@ import sympy as sp
 from lagrangian.check.beside import beside
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired
+from lagrangian.check.explain.after_definitions import follow_from_definitions
 from lagrangian.check.explain.after_derivatives import follow_from_derivatives
 from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
@@ -70,6 +71,10 @@ def judged_lines(
         finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
         findings.append(replace(finding, line=own))
     findings = findings if change is not None else follow_from_derivatives(truth, right_together(truth, findings))
+    if change is None:
+        findings = follow_from_definitions(
+            truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
+        )
     status, found = _overall(truth, comparison, findings)
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)

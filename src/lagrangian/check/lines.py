@@ -9,7 +9,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check.prescribed import as_prescribed
+from lagrangian.check.prescribed import as_prescribed, with_own_definitions
 from lagrangian.check.reading import Answer, generalized_force
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
@@ -85,7 +85,7 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
         forces[generalized_force(c.name)] = given.get(c.name, own)
     energies = {ENERGIES["T"]: truth.T, ENERGIES["V"]: truth.V}
     out: list[AnsweredLine] = []
-    for written in lines:
+    for written in with_own_definitions(truth, lines):
         line = as_prescribed(truth, written)
         kind, expr = line.kind, truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
         if _is_other_lagrangian(line):

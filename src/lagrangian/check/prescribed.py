@@ -1,12 +1,15 @@
-"""What an answer says of motions that the system prescribes, z = a sin Ωt and its rates: no equations of motion."""
+"""What an answer says of names that the system defines, z = a sin Ωt and its rates, or δ = φ/n − x/R: no equations of
+motion. Where it says of δ what is wrong, it means that by δ in all of its lines."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Mistake
@@ -14,6 +17,7 @@ from lagrangian.model import time
 from lagrangian.page.formula import text
 
 WHY = text("Differentiate by time with the chain rule: the inner derivative, such as Ω in sin Ωt, is a factor.")
+WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
 
 
 def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
@@ -37,6 +41,53 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     return replace(line, kind="identity", expr=rest / number, name=str(z.func) + order * "'")
 
 
+def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines, with what an answer itself says that a name of the system is in place of this name.
+
+    A line that says it is an identity, and no line at all if it is right or if it says the same of the rate.
+    """
+    table: dict[Any, sp.Expr] = {}
+    out: list[AnsweredLine] = []
+    for line in lines:
+        value = _value(truth, line)
+        if value is None:
+            out.append(line)
+            continue
+        z, said = value
+        rest = truth.expand(z - said)
+        if zero_everywhere(truth, rest):
+            out.append(replace(line, kind="statement", expr=sp.S.Zero))
+        else:
+            table[z] = said
+            out.append(replace(line, kind="identity", expr=rest, name=str(z.func)))
+    return tuple(_put(line, table) for line in out) if table else tuple(out)
+
+
+def _put(line: AnsweredLine, table: Mapping[Any, sp.Expr]) -> AnsweredLine:
+    """A line with an answer's own definitions; a statement if it says nothing else."""
+    if not line.expr.has(*table):
+        return line
+    put = bounded.written_out(line.expr, table)
+    empty = line.kind == "equation" and bounded.expand(put) == 0
+    return replace(line, kind="statement", expr=sp.S.Zero) if empty else replace(line, expr=put)
+
+
+def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr] | None:
+    """The name of the system, and what it is in coordinates, that a line says and nothing else."""
+    model, expr = truth.model, line.expr
+    own = [d.symbol for d in model.definitions if d.moving and expr.has(d.symbol)]
+    if line.kind != "equation" or len(own) != 1 or any(d.has(own[0]) for d in expr.atoms(sp.Derivative)):
+        return None
+    number = _number_of(expr, own[0])
+    if number is None:
+        return None
+    z, said = own[0], bounded.expand(own[0] - expr / number)
+    moving = said.has(*(c.symbol for c in model.coordinates))
+    others = [*(c.rate for c in model.coordinates), *(u.symbol for u in model.inputs), z]
+    known = said.free_symbols <= truth.names and not said.has(*others)
+    return (z, said) if moving and known else None
+
+
 def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:
     """The number that multiplies a rate in a sum; None if there is none."""
     held = [t for t in sp.Add.make_args(expr) if t.has(rate)]
@@ -55,4 +106,7 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     rate = sp.diff(symbols[0], (time, order)) if order else symbols[0]
     right = truth.expand(rate)
     what = text(rate, " is ", right, ", not ", right - line.expr, ".")
+    if right.has(*(c.symbol for c in truth.model.coordinates)):
+        brief = text(f"What {base} is, is not right.")
+        return Mistake("definition_wrong", what, WHY_DEFINED, 1, None, None, brief)
     return Mistake("prescribed_motion", what, WHY, 2, None, None, text("A prescribed motion is not right."))

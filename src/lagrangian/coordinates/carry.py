@@ -14,7 +14,7 @@ from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
 from lagrangian.coordinates.pose import carried_look
 from lagrangian.coordinates.signals import carried_signals
-from lagrangian.model import Builder, Element, Floating, Frame, GeneralizedForce, Model, Point, is_hard
+from lagrangian.model import Builder, Definition, Element, Floating, Frame, GeneralizedForce, Model, Point, is_hard
 from lagrangian.page.plain import plain
 
 
@@ -55,7 +55,7 @@ class Carrier:
         b.decimals |= model.decimals
         self.declare()
         for d in model.definitions:
-            b.define(d.name, self.change.put_in(d.expression), place=d.place)
+            b.define(d.name, self.definition(d), place=d.place)
         for frame in model.frames:
             self.frame(frame)
         for point in model.points:
@@ -79,6 +79,10 @@ class Carrier:
             b.parameter(p.name, p.value, unit=p.unit, description=p.description, place=p.place)
         for u in model.inputs:
             b.input(u.name, description=u.description, unit=u.unit, place=u.place)
+
+    def definition(self, definition: Definition) -> sp.Expr:
+        """What a definition stands for in the new coordinates."""
+        return self.change.put_in(definition.expression)
 
     def settle(self) -> None:
         """Carry over the settings of runs and the hints for the picture."""

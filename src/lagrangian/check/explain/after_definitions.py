@@ -1,0 +1,69 @@
+"""Which lines follow from a wrong definition of a name of the system: they are right in the system that has it so.
+
+Who says δ = φ/n + x/R where it is φ/n − x/R makes one mistake; the energy and the equations with this δ follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.coordinates import Carrier, Change
+from lagrangian.derive import derive
+from lagrangian.errors import ModelError
+from lagrangian.model import Definition
+
+KEPT = "definitions"
+"""The first entry of the key of a reference with other definitions."""
+Judge: TypeAlias = Callable[[Reference, Sequence[AnsweredLine]], Sequence[Finding]]
+
+
+def follow_from_definitions(truth: Reference, findings: Sequence[Finding], judge: Judge) -> list[Finding]:
+    """The findings, with the lines marked that are right with the definitions of the answer."""
+    own = [d for d in truth.model.definitions if d.moving]
+    wrong = {f.line.name: f for f in findings if f.line.kind == "identity" and f.status is Status.WRONG}
+    table = {d.name: truth.expand(d.symbol) - wrong[d.name].line.expr for d in own if d.name in wrong}
+    open_lines = [f for f in findings if f.status is Status.WRONG and f.line.name not in table]
+    if not table or not open_lines or (other := _redefined(truth, table)) is None:
+        return list(findings)
+    lines = [f.line for f in findings if f.line.name not in table]
+    right = {id(f.line) for f in judge(other, lines) if f.status.right}
+    return [replace(f, follows=True) if id(f.line) in right and f in open_lines else f for f in findings]
+
+
+def _redefined(truth: Reference, table: Mapping[str, sp.Expr]) -> Reference | None:
+    """The reference of the system with other definitions; None if there is no such system. The last one is kept."""
+    key = (KEPT, *table.items())
+    if key not in truth.others:
+        truth.others = {k: x for k, x in truth.others.items() if not (isinstance(k, tuple) and k[0] == KEPT)}
+        truth.others[key] = _made(truth, table)
+    return truth.others[key]
+
+
+def _made(truth: Reference, table: Mapping[str, sp.Expr]) -> Reference | None:
+    model = truth.model
+    same: dict[Any, sp.Expr] = {c.symbol: c.symbol for c in model.coordinates}
+    try:
+        carrier = _Redefined(model, Change(model.coordinates, model.coordinates, same), model.name)
+        carrier.table = table
+        return Reference(derive(carrier.built().model()), truth.values)
+    except ModelError:
+        return None
+
+
+class _Redefined(Carrier):
+    """Carries a model over with other definitions and without settings of runs."""
+
+    table: Mapping[str, sp.Expr] = {}
+
+    def definition(self, definition: Definition) -> sp.Expr:
+        """The answer's own definition, if it has one."""
+        return self.table.get(definition.name, definition.expression)
+
+    def settle(self) -> None:
+        """Nothing: no run starts here."""
