@@ -86,10 +86,11 @@ dT/du = 4*m*u*u'^2 - 2*m*h*u'*phi' + 2*m*u^3*phi'^2
     assert not table().check(text.replace("8*m*u*u'^2", "4*m*u*u'^2")).right
 
 
-def test_a_derivative_of_an_energy_without_a_value_is_not_judged_and_told() -> None:
-    rows = "\n".join(TURNED.splitlines()[-2:])
-    found = table().check(f"u = -s\nd/dt(dL/du') = m*u'' + m*h*phi''\n{rows}")
-    assert found.right and any("was not judged" in str(note) for note in found.notes)
+def test_a_derivative_by_a_coordinate_of_which_nothing_says_what_it_replaces_is_not_judged_and_told() -> None:
+    rows = """(J + m*h^2 + m*s^2)*phi'' - m*h*s'' + 2*m*s*s'*phi' + d*phi' = tau
+m*s'' - m*h*phi'' - m*s*phi'^2 + b*s' + k*s = 0"""
+    found = table().check(f"w = s + 2*h\nd/dt(dL/dw') = m*w'' - m*h*phi''\n{rows}")
+    assert found.right and any("nothing says which coordinate w replaces" in str(note) for note in found.notes)
 
 
 PUT_IN = """\

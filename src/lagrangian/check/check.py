@@ -14,6 +14,7 @@ from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
+from lagrangian.check.coordinates.chart import chart, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
@@ -60,7 +61,7 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     judged, added = with_energies_apart(truth, judged)
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
-    written = filled(truth, judged)
+    written = _filled(truth, judged)
     verdict = _checked(truth, judged, written, hint, explain)
     general = untrue_in_general(truth, written)
     verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
@@ -68,6 +69,12 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")
     return replace(verdict, notes=(note, *verdict.notes))
+
+
+def _filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines with names written out, and what they state for coordinates of their own."""
+    written = filled(truth, lines)
+    return with_own_quantities(truth, written, chart(truth, written))
 
 
 def _checked(
@@ -123,7 +130,7 @@ def _valued(
 
 def _alone(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
     """The verdict on some lines of an answer; numbers are not read as letters where values are put in."""
-    read = filled(truth, lines) if truth.values else lines
+    read = _filled(truth, lines) if truth.values else lines
     return _read(truth, spelled(truth, read, numbers=not truth.values), hint, explain=explain)
 
 
@@ -132,7 +139,7 @@ def _put(
 ) -> Verdict:
     """The verdict on an answer with values substituted for the parameters that it does not name."""
     valued = truth.with_values(values)
-    read = _with_values(values, spelled(valued, filled(valued, lines), numbers=False))
+    read = _with_values(values, spelled(valued, _filled(valued, lines), numbers=False))
     return _read(valued, read, hint, explain=explain)
 
 

@@ -24,6 +24,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import dynamics
 from lagrangian.check.constraints.answer_on_rows import AnswerAt
 from lagrangian.check.constraints.constrained import Compared, verdict_at_states
+from lagrangian.check.coordinates.chart import OF_COORDINATES
 from lagrangian.check.reading import generalized_force
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
@@ -112,11 +113,14 @@ class _Truth:
         """The equations of an answer at random states."""
         return _AnswerInNumbers(self, [line.expr for line in lines], unknown)
 
-    def judge(self, lines: Sequence[AnsweredLine], k: int) -> Finding:
-        """The finding for a line that states an energy, a force or a momentum."""
+    def judge(self, lines: Sequence[AnsweredLine], k: int) -> Finding | None:
+        """The finding for a line that states an energy, a force or a momentum; None for a coordinate that is not the
+        system's."""
         line = lines[k]
         graphed = _Graphed(self, [line.expr], ())
         right = graphed.quantity(line)
+        if right is None and line.kind in OF_COORDINATES and line.name not in self.names:
+            return None
         if right is None:
             note = text("not compared: in a system of this size only equations, energies, momenta and forces are")
             return Finding(line, Status.INCOMPLETE, note, line.name)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import sympy as sp
 
 from lagrangian.check.beside import beside
+from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired
 from lagrangian.check.explain.after_definitions import follow_from_definitions
@@ -16,6 +17,7 @@ from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.row_words import findings_of, name_of
+from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
@@ -24,9 +26,6 @@ from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifferen
 from lagrangian.derive.algebra import Form
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
-
-OF_COORDINATES = ("Xi", "p", "p-rate", "slope", "left")
-"""What lines state for one coordinate, which in other coordinates is a sum of ours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +50,9 @@ def judged_lines(
 ) -> Judged:
     """Judge every line, and the equations together; with a change, everything is converted to the system's
     coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
+    chart = change.chart(truth, lines) if change is not None else None
+    lines = lines if chart is None else with_own_quantities(truth, lines, chart)
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
-    named = any(line.kind in OF_COORDINATES for line in moved)
-    turn = change.turn(truth) if change is not None and named else None
     truth = truth.within(change.region(truth)) if change is not None else truth
     equations = [line for line in moved if line.kind == "equation"]
     comparison = compare(truth, [line.expr for line in equations])
@@ -68,8 +67,13 @@ def judged_lines(
     for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
         if line.kind in ("definition", "statement"):
             continue
-        finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
-        findings.append(replace(finding, line=own))
+        finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, chart)
+        if finding is not None:
+            findings.append(replace(finding, line=own))
+        else:
+            aside = (*aside, of_unknown(line))
+    findings, named = without_own_names(truth, lines, findings)
+    aside = (*aside, *named)
     findings = findings if change is not None else follow_from_derivatives(truth, right_together(truth, findings))
     if change is None:
         findings = follow_from_definitions(

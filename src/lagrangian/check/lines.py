@@ -25,7 +25,8 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
     for k, stated in enumerate(answer.lines, 1):
         number = stated.place.line if stated.place is not None and stated.place.line is not None else k
         beside = answer.beside.get(number, frozenset())
-        found.append(AnsweredLine(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text, beside))
+        expr, names = sp.sympify(stated.residual), stated.names
+        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names))
     return tuple(found)
 
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.coordinates.chart import OF_COORDINATES, chart
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.held import OnConstraints, held
-from lagrangian.check.motion_names import names_of_motion
+from lagrangian.check.reading import OwnCoordinates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -23,9 +24,6 @@ from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
-
-_NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QF])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
-"""A force that is called by the number of its coordinate."""
 
 
 @dataclass(frozen=True)
@@ -97,39 +95,47 @@ def left_sides(truth: Reference, L: sp.Expr) -> list[sp.Expr]:
     return [bounded.diff(L, c.rate, time) - bounded.diff(L, c.symbol) for c in truth.model.coordinates]
 
 
-def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matrix | None = None) -> Finding:
-    """The finding for line number ``k``, which may follow from lines above it.
+def judge(
+    truth: Reference, lines: Sequence[AnsweredLine], k: int, change: OwnCoordinates | None = None
+) -> Finding | None:
+    """The finding for line number ``k``, which may follow from lines above it; None for a coordinate of which nothing
+    says what it replaces.
 
-    ``turn`` is (∂ψ/∂ξ)⁻¹ if the answer has its own coordinates: the quantity of one of them is then a sum of ours.
+    ``change`` are the coordinates that all lines are in, if these do not say so themselves.
     """
     line = lines[k]
     i = index_of(truth, line.name)
-    right = right_value(truth, line, i, turn)
+    stated_for = _stated_for(truth, lines, line, change)
+    own = line.kind == "derived" or (line.kind == "identity" and bool(stated_for))
+    stated_for = stated_for if line.kind in OF_COORDINATES else []
+    rights = [_of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi)) for by in stated_for]
+    right = rights[0] if rights else right_value(truth, line, None)
     if right is None:
-        return Finding(line, Status.RIGHT)
+        return None
     coordinate = truth.model.coordinates[i].name if i is not None else None
     rest = line.expr - right
-    own = line.kind == "derived" or (line.kind == "identity" and i is not None)
     if zero_everywhere(truth, rest):
         return Finding(line, Status.RIGHT, text("it follows from the energies above") if own else None, coordinate)
-    if line.kind == "identity" and line.name is not None and i is None:
+    if line.kind == "identity" and line.name is not None and not own:
         return Finding(line, Status.WRONG)
     if own:
         return Finding(line, Status.WRONG, text("it is not the derivative of what is stated above"), coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
-    if line.kind in ("T", "V", "L", "D") and (on := _on_constraints(truth)) is not None:
+    on = _on_constraints(truth)
+    if line.kind in ("T", "V", "L", "D") and on is not None:
         left = on.put_in(rest)
         if zero_everywhere(truth, left) or harmless(truth, line, left) is not None:
             return Finding(line, Status.EQUIVALENT, text("with the constraint put in"), coordinate)
-    if line.kind == "Xi" and i is not None and (note := _along_others(truth, lines, i, line)) is not None:
-        return Finding(line, Status.EQUIVALENT, note, coordinate)
-    undamped = without_dampers(truth, line, i, lines) if line.kind == "Xi" else None
-    right = right if undamped is None else undamped
-    if undamped is not None and zero_everywhere(truth, line.expr - right):
+    if any(zero_everywhere(truth, x if on is None else on.put_in(x)) for x in (line.expr - r for r in rights[1:])):
+        return Finding(line, Status.EQUIVALENT, _in_own(truth, stated_for[-1][0]), coordinate)
+    undamped = [_undamped(truth, line, by, lines) for by in stated_for]
+    if any(x is not None and zero_everywhere(truth, line.expr - x) for x in undamped):
         note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
-    follows = _follows(truth, line, i, given(truth, lines[:k]))
+    right = undamped[0] if undamped and undamped[0] is not None else right
+    follows = bool(stated_for) and _follows(truth, line, stated_for[0], given(truth, lines[:k]))
+    follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
     if line.kind in ("V", "L"):  # a constant is nobody's mistake
@@ -138,37 +144,43 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
 
 
+By = tuple[OwnCoordinates, str]
+"""Coordinates, and the key of one of them."""
+
+
+def _stated_for(
+    truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine, change: OwnCoordinates | None
+) -> list[By]:
+    """What a line states a quantity for: a coordinate of the system, and one of the answer's with the same name."""
+    if line.kind not in (*OF_COORDINATES, "identity"):
+        return []
+    i, name = index_of(truth, line.name), key(line.name or "")
+    found = [(_system(truth), name)] if i is not None and change is None else []
+    own = change if change is not None else chart(truth, tuple(lines))
+    if own is not None and name in own.columns:
+        found.append((own, name))
+    elif change is not None and i is not None and i < len(change.order):
+        found.append((change, change.order[i]))
+    return found
+
+
+def _in_own(truth: Reference, own: OwnCoordinates) -> Text:
+    """In which coordinates a line is right."""
+    system = {key(c.name): c.symbol for c in truth.model.coordinates}
+    new = [x for name in own.columns if name not in system for x in (Name(name), ", ")]
+    gone = [x for name, q in system.items() if name not in own.columns for x in (q, ", ")]
+    return text("with ", *new[:-1], " in place of ", *gone[:-1]) if new else text("with the constraint put in")
+
+
+def _system(truth: Reference) -> OwnCoordinates:
+    """The coordinates of the system."""
+    names = {key(c.name): ((c.symbol, sp.S.One),) for c in truth.model.coordinates}
+    return OwnCoordinates(names, tuple(names))
+
+
 def _on_constraints(truth: Reference) -> OnConstraints | None:
     """The reference at states on the constraints; None for a system without any."""
     return held(truth) if truth.derivation.multipliers else None
-
-
-def _along_others(truth: Reference, lines: Sequence[AnsweredLine], i: int, line: AnsweredLine) -> Text | None:
-    """What to say of a Ξ_i that is right where ξ_i moves other coordinates.
-
-    Constraints determine them, and no Ξ of these is stated; or a coordinate of the answer's own, w = f(ξ), replaces ξ_k
-    in all equations: with w held, ξ_i moves ξ_k by −(∂f/∂ξ_i)/(∂f/∂ξ_k), and Ξ_w = Ξ_k/(∂f/∂ξ_k).
-    """
-    stated = {x.name for x in lines if x.kind == "Xi"}
-    free = [c.symbol for c in truth.model.coordinates if c.name not in stated]
-    symbols = [c.symbol for c in truth.model.coordinates]
-    on = _on_constraints(truth)
-    follows = on is not None and symbols[i] not in on.table and all(x in free for x in symbols if x in on.table)
-    if on is not None and follows and zero_everywhere(truth, on.put_in(line.expr - on.force(truth.Xi, i))):
-        return text("with the constraint put in")
-    used = names_of_motion(truth, lines)
-    gone = [k for k, c in enumerate(truth.model.coordinates) if key(c.name) not in used]
-    for w in (x for x in lines if x.kind == "definition" and key(str(x.name)) in used):
-        slopes = [bounded.diff(truth.expand(w.expr), x) for x in symbols]
-        own = i in gone and slopes[i] != 0 and _NUMBERED.match(line.text) is not None
-        if own and zero_everywhere(truth, slopes[i] * line.expr - truth.Xi[i]):  # Q_3, where w is the third coordinate
-            return text("with ", Name(str(w.name)), " as a coordinate in place of ", symbols[i])
-        for k in (k for k in gone if k != i and 0 not in (slopes[i], slopes[k])):
-            of_w = truth.Xi[k] / slopes[k]
-            others = [x.expr for x in lines if x.kind == "Xi" and index_of(truth, x.name) == k]
-            if all(zero_everywhere(truth, x - of_w) for x in (*others, (truth.Xi[i] - line.expr) / slopes[i])):
-                return text("with ", Name(str(w.name)), " as a coordinate in place of ", symbols[k])
-    return None
 
 
 def without_dampers(
@@ -179,16 +191,24 @@ def without_dampers(
 
     None if it is meant as the whole.
     """
-    if i is None:
+    return None if i is None else _undamped(truth, line, (_system(truth), key(str(line.name))), lines)
+
+
+def _undamped(truth: Reference, line: AnsweredLine, by: By, lines: Sequence[AnsweredLine]) -> sp.Expr | None:
+    """The same for a coordinate of the system or of the answer."""
+    if line.kind != "Xi":
         return None
-    damping = truth.Xi[i] - (drive := driving(truth, i))
+    own, name = by
+    places = {c.symbol: k for k, c in enumerate(truth.model.coordinates)}
+    drive = own.along(name, lambda x: driving(truth, places[x]))
+    damping = bounded.expand(own.along(name, _forces(truth, truth.Xi)) - drive)
     added = damping.free_symbols | damping.atoms(sp.Derivative)
-    own = damping.free_symbols - drive.free_symbols - {time}
-    if own & line.expr.free_symbols:
+    if (damping.free_symbols - drive.free_symbols - {time}) & line.expr.free_symbols:
         return None
+    i = index_of(truth, line.name)
     others = [x for x in lines if x.kind in ("D", "equation")]
     holding = [x for x in others if added <= x.expr.free_symbols | x.expr.atoms(sp.Derivative)]
-    return drive if any(x.kind == "D" or _resembled(truth, x.expr) in (i, None) for x in holding) else None
+    return drive if any(x.kind == "D" or i is None or _resembled(truth, x.expr) in (i, None) for x in holding) else None
 
 
 @lru_cache(maxsize=64)
@@ -204,33 +224,36 @@ def index_of(truth: Reference, name: str | None) -> int | None:
     return next((i for i, c in enumerate(truth.model.coordinates) if c.name == name), None)
 
 
-def right_value(truth: Reference, line: AnsweredLine, i: int | None, turn: sp.Matrix | None = None) -> sp.Expr | None:
-    """The right value for the line; None if there is nothing to compare with. Ξ_η = (∂ξ/∂η)ᵀ Ξ_ξ, see `judge`."""
+def right_value(truth: Reference, line: AnsweredLine, i: int | None) -> sp.Expr | None:
+    """The right value for the line in the system's coordinates; None if there is nothing to compare with."""
     if line.kind in ("T", "V", "L"):
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
     if line.kind == "D":
         return dissipation(truth)
     if line.kind in ("identity", "derived"):
         return sp.S.Zero
-    if i is None:
+    if i is None or line.kind not in OF_COORDINATES:
         return None
-    own = [_of_coordinate(truth, line.kind, k, truth.L, truth.Xi[k]) for k in range(truth.n)]
-    if turn is None or any(x is None for x in own):
-        return own[i]
-    return sp.Add(*[turn[k, i] * x for k, x in enumerate(own) if x is not None])
+    by = _system(truth), key(truth.model.coordinates[i].name)
+    return _of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi))
 
 
-def _of_coordinate(truth: Reference, kind: str, i: int, L: sp.Expr, Xi: sp.Expr) -> sp.Expr | None:
-    c = truth.model.coordinates[i]
+def _of_coordinate(kind: str, by: By, L: sp.Expr, force: Callable[[Any], sp.Expr]) -> sp.Expr:
+    """A generalized force, or a derivative of L, by a coordinate."""
+    own, name = by
     if kind == "Xi":
-        return Xi
+        return own.along(name, force)
+    if kind == "slope":
+        return own.slope(name, 0, L.diff)
+    momentum = own.slope(name, 1, L.diff)
     if kind == "p":
-        return L.diff(c.rate)
-    if kind == "p-rate":
-        return bounded.diff(L, c.rate, time)
-    if kind == "left":
-        return bounded.diff(L, c.rate, time) - L.diff(c.symbol)
-    return L.diff(c.symbol) if kind == "slope" else None
+        return momentum
+    rate = bounded.diff(momentum, time)
+    return rate if kind == "p-rate" else rate - own.slope(name, 0, L.diff)
+
+
+def _forces(truth: Reference, Xi: Sequence[sp.Expr]) -> Callable[[Any], sp.Expr]:
+    return dict(zip((c.symbol for c in truth.model.coordinates), Xi, strict=True)).__getitem__
 
 
 def dissipation(truth: Reference) -> sp.Expr:
@@ -284,14 +307,19 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
     return None
 
 
-def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQuantity) -> bool:
-    """Whether a line is the consequence of the lines above it, and of the right T* or V if only one is above it."""
-    if line.kind == "L" and (above.T is not None or above.V is not None):
-        return zero_everywhere(truth, line.expr - replace(above, L=None).lagrangian(truth))
-    if i is None or line.kind not in ("p", "p-rate", "slope", "left") or not above.stated:
+def _follows(truth: Reference, line: AnsweredLine, by: By, above: StatedQuantity) -> bool:
+    """Whether a derivative of L is one of the L that stands above it, with the right T* or V if only one does."""
+    if line.kind == "Xi" or not above.stated:
         return False
-    own = _of_coordinate(truth, line.kind, i, above.lagrangian(truth), sp.S.Zero)
-    return own is not None and zero_everywhere(truth, line.expr - own)
+    own = _of_coordinate(line.kind, by, above.lagrangian(truth), lambda _: sp.S.Zero)
+    return zero_everywhere(truth, line.expr - own)
+
+
+def _follows_from_parts(truth: Reference, line: AnsweredLine, above: StatedQuantity) -> bool:
+    """Whether an L is that of the T* and V above it, or of one of these and the right other one."""
+    if above.T is None and above.V is None:
+        return False
+    return zero_everywhere(truth, line.expr - replace(above, L=None).lagrangian(truth))
 
 
 def spanned(P: Array, W: Array) -> bool:

@@ -37,6 +37,7 @@ class AnsweredLine(Brief):
     right.
 
     ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
+    ``names``: the keys of the names in it as it is written.
     """
 
     kind: str
@@ -45,6 +46,7 @@ class AnsweredLine(Brief):
     name: str | None = None
     text: str = ""
     beside: frozenset[str] = frozenset()
+    names: frozenset[str] = frozenset()
 
     @property
     def title(self) -> str:

@@ -23,6 +23,7 @@ from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.determined import accelerations_determined, ends_right
 from lagrangian.check.constraints.own_constraints import with_rates
 from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
+from lagrangian.check.coordinates.chart import of_unknown
 from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_in
 from lagrangian.check.names.spelling import not_there
 from lagrangian.check.reference import Reference
@@ -81,7 +82,7 @@ class Compared:
     names: Sequence[str]
     known: Set[sp.Basic]
     answer: Callable[[Sequence[AnsweredLine], Sequence[sp.Basic]], Answered]
-    judge: Callable[[Sequence[AnsweredLine], int], Finding]
+    judge: Callable[[Sequence[AnsweredLine], int], Finding | None]
     holding: Mapping[sp.Basic, Set[sp.Basic]] = field(default_factory=dict[sp.Basic, "Set[sp.Basic]"])
 
     @property
@@ -227,13 +228,13 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
             status = Status.WRONG
             motion = ends_right(places, [j in true for j in range(len(equations))], len(truth.names))
             if unknown:
-                notes.append(
-                    text("The sign and the scale of a multiplier are yours to choose, but the same everywhere.")
-                )
+                notes += [text("The sign and the scale of a multiplier are yours to choose, but the same everywhere.")]
     findings: list[Finding] = []
     for k, line in enumerate(lines):
         if line.kind not in ("definition", "statement"):
-            findings.append(found[id(line)] if line.kind == "equation" else truth.judge(lines, k))
+            finding = found[id(line)] if line.kind == "equation" else truth.judge(lines, k)
+            findings += [] if finding is None else [finding]
+            notes += [of_unknown(line)] if finding is None else []
     others = [f.status for f in findings if f.line.kind != "equation" or f.line in results.values()]
     worst = _worst([*others, *([status] if status is not None else [])])
     motion = motion and worst is Status.WRONG

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.coordinates.chart import OF_COORDINATES
 from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
 from lagrangian.check.coordinates.tried import ProposedChange
@@ -30,8 +31,6 @@ from lagrangian.page.formula import text
 
 SMALL = 1e-9
 """The size, relative to 1, below which the value of a constraint is rounding."""
-OF_OLD = ("Xi", "p", "p-rate", "slope", "left")
-"""The kinds of lines that belong to one coordinate."""
 
 
 def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
@@ -146,7 +145,7 @@ def _moved(
             continue
         slopes = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
         names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
-        if slopes or names & unknown or (line.kind in OF_OLD and line.name in gone):
+        if slopes or names & unknown or (line.kind in OF_COORDINATES and line.name in gone):
             if line.kind != "definition":
                 yield replace(line, kind="statement")
             continue

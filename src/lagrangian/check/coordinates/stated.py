@@ -13,13 +13,12 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.coordinates.chart import replaced
 from lagrangian.check.coordinates.tried import ProposedChange, in_these
-from lagrangian.check.motion_names import names_of_motion
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import text
-from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 MOST = 4
@@ -41,15 +40,8 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     A coordinate is replaced if no equation names it any more. The definitions must determine those that are replaced.
     """
     q = list(truth.derivation.coordinates)
-    own = {c.name for c in truth.model.coordinates}
-    stated = [
-        line for line in lines if line.kind == "definition" and line.name not in own and _places(truth, line.expr)
-    ]
-    if all(line.expr in q for line in stated):
-        return None
-    named = names_of_motion(truth, lines)
-    gone = [c.symbol for c in truth.model.coordinates if key(c.name) not in named]
-    if not stated or len(stated) != len(gone) or len(gone) > MOST or len(gone) > len(q):
+    stated, gone = replaced(truth, lines)
+    if not stated or all(line.expr in q for line in stated) or len(stated) != len(gone) or len(gone) > MOST:
         return None
     J = sp.Matrix([[bounded.diff(line.expr, x) for x in gone] for line in stated])
     if J.has(*q, time) or J.det() == 0:
@@ -67,12 +59,6 @@ def in_stated_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> In
     back = ProposedChange({x: bounded.expand(v) for x, v in zip(gone, values, strict=True)}, change.words, True)
     moved = tuple(replace(line, expr=bounded.expand(back.put(line.expr))) for line in lines if line not in stated)
     return InStatedCoordinates(other, moved, change)
-
-
-def _places(truth: Reference, expr: sp.Expr) -> bool:
-    """Whether an expression is one of positions alone."""
-    c = truth.model.coordinates
-    return expr.has(*(x.symbol for x in c)) and not expr.has(*(y for x in c for y in (x.rate, x.acceleration)))
 
 
 def _words(new: dict[Any, sp.Expr]) -> Any:

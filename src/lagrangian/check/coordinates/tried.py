@@ -6,7 +6,7 @@ and η̈ in every line; a line that is then right was right in the other coordin
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from functools import lru_cache
 from itertools import islice, product
 from typing import Any, cast
@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.coordinates.relations import related, solutions
+from lagrangian.check.reading import OwnCoordinates, named, replaced_by
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
@@ -66,17 +67,15 @@ class ProposedChange(Brief):
             whole[sp.Derivative(eta, (time, 2))] = bounded.diff(rate, time)
         return cast("sp.Expr", bounded.replaced(expr, whole))  # a derivative by a coordinate stays as it is written
 
-    def turn(self, truth: Reference) -> sp.Matrix | None:
-        """(∂ψ/∂ξ)⁻¹, with the answer's coordinates in the order of those that they replace; None if it is singular."""
-        psi = self._in_order(truth)
-        J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
-        if truth.n > 6 or (det := J.det()) == 0:
-            return None
-        return sp.Matrix(J.adjugate() / det)  # elimination would simplify every pivot
+    def chart(self, truth: Reference, lines: Sequence[AnsweredLine]) -> OwnCoordinates | None:
+        """The answer's coordinates, in the order of those that they replace; None if they do not determine these."""
+        own = tuple(truth.derivation.coordinates)
+        used = {q for line in lines if line.kind != "definition" for q in own if line.expr.has(q)}
+        return replaced_by(tuple(self._in_order(truth, used)), own, own)
 
     def region(self, truth: Reference) -> sp.Expr | None:
         """det ∂ψ/∂ξ, whose sign is constant where the change is one-to-one; None if it is constant or too long."""
-        psi = self._in_order(truth)
+        psi = [psi for _, psi in self._in_order(truth)]
         q = truth.derivation.coordinates
         J = sp.Matrix([[p.diff(x) for x in q] for p in psi])
         if truth.n > 4 or not J.has(*q):
@@ -84,18 +83,21 @@ class ProposedChange(Brief):
         det = cast("sp.Expr", J.det())
         return det if det.has(*q) else None
 
-    def _in_order(self, truth: Reference) -> list[sp.Expr]:
-        """ψ of every coordinate: itself if it stays; new names take the places of those that they replace."""
+    def _in_order(self, truth: Reference, used: Set[sp.Expr] = frozenset()) -> list[tuple[str, sp.Expr]]:
+        """The name, as a key, and ψ of every coordinate: itself if it stays; new names take the places of those that
+        they replace, which are none that is ``used``."""
         own = list(truth.derivation.coordinates)
-        new = [psi for eta, psi in self.table.items() if eta not in own]
-        psi: list[sp.Expr] = []
+        new = [(named(eta), psi) for eta, psi in self.table.items() if eta not in own]
+        free = [q for q in own if q not in self.table and q not in used]
+        free = free if len(free) >= len(new) else [q for q in own if q not in self.table]
+        found: list[tuple[str, sp.Expr]] = []
         for q in own:
-            mine = self.table.get(q, q)
-            if q not in self.table and (found := next((x for x in new if x.has(q)), None)) is not None:
-                new.remove(found)
-                mine = found
-            psi.append(mine)
-        return psi
+            mine = named(q), self.table.get(q, q)
+            if q in free and (other := next((x for x in new if x[1].has(q)), None)) is not None:
+                new.remove(other)
+                mine = other
+            found.append(mine)
+        return found
 
 
 def candidates(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:

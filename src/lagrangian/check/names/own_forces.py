@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lagrangian.check.reading import generalized_force
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.check.reading import generalized_force, of_coordinate
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.page.formula import Text, text
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 
@@ -38,5 +40,23 @@ def with_own_forces(
     def own(given: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
         return tuple(replace(x, kind="definition") if x.kind == "Xi" and str(x.name) in names else x for x in given)
 
-    table = [x for line in wrong for x in (f"'{line.text}'", ", ")][:-1]
-    return OwnForces(own(lines), own(written), text(*table, " was read as a name of your own; as Ξ it would be wrong."))
+    return OwnForces(own(lines), own(written), _read_as_own(wrong))
+
+
+def without_own_names(
+    truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]
+) -> tuple[list[Finding], tuple[Text, ...]]:
+    """The findings without those of each wrong Ξ_z of a coordinate z of the answer's own that equations use, where
+    their value is written out, if nothing else is wrong; with what to say of them."""
+    wrong = [f.line for f in findings if f.status is Status.WRONG]
+    system = {c.name for c in truth.model.coordinates}
+    used = {of_coordinate(x) for line in lines if line.kind == "equation" for x in line.names}
+    mine = [x for x in wrong if x.kind == "Xi" and x.name not in system and ("Xi", key(str(x.name))) in used]
+    if not wrong or len(mine) < len(wrong):
+        return list(findings), ()
+    return [f for f in findings if f.line not in wrong], (_read_as_own(wrong),)
+
+
+def _read_as_own(lines: Sequence[AnsweredLine]) -> Text:
+    table = [x for line in lines for x in (f"'{line.text}'", ", ")][:-1]
+    return text(*table, " was read as a name of your own; as Ξ it would be wrong.")

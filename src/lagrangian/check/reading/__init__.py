@@ -2,8 +2,10 @@
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
 from lagrangian.check.reading.file_text import decode_answer
+from lagrangian.check.reading.own_slopes import OwnCoordinates, named, replaced_by
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force
 from lagrangian.check.reading.read import MAX_ANSWER, parse_answer
+from lagrangian.check.reading.stated import of_coordinate
 
 __all__ = [
     "ENERGIES",
@@ -11,8 +13,12 @@ __all__ = [
     "Answer",
     "AnswerLine",
     "Kind",
+    "OwnCoordinates",
     "Unknown",
     "decode_answer",
     "generalized_force",
+    "named",
+    "of_coordinate",
     "parse_answer",
+    "replaced_by",
 ]

@@ -50,7 +50,7 @@ class AnswerLine:
     """One statement of an answer. ``lhs`` and ``rhs`` are the two sides as written; ``lhs`` is None if the left side
     only names the quantity that ``kind`` (and ``name``) describe. Names that the answer defines are written out;
     definitions of the model keep their names. ``place`` is where the line begins, and ``text`` is the line as it was
-    written.
+    written; ``names`` are the keys of the names in it, also of those of which it writes rates.
     """
 
     kind: Kind
@@ -59,6 +59,7 @@ class AnswerLine:
     name: str | None
     place: Place
     text: str
+    names: frozenset[str] = field(default=frozenset(), compare=False)
 
     @property
     def residual(self) -> sp.Expr:

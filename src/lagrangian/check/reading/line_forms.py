@@ -12,7 +12,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Names, Value
+from lagrangian.check.reading.names import Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import inside, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError, listed
@@ -148,4 +148,6 @@ def made_line(
         reader.fail("a single quantity cannot equal a matrix", a, fix="write one equation per line")
     source = reader.source
     start = min(start_of(a), start_of(b))
-    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
+    tokens = (str(token) for side in (a, b) for token, _ in names_in(side))
+    names = frozenset(key(x) for token in tokens for x in (undotted(token)[0], *(x for _, x in spelled_rates(token))))
+    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()), names)

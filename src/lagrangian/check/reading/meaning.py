@@ -144,7 +144,7 @@ class Meaning(ExpressionReader):
         if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
             self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
-        if energy is None or not moving or self.names.is_unknown(variable):
+        if energy is None or not moving or (self.names.is_unknown(variable) and not self._is_stated_in(variable)):
             if kind not in ENERGIES:
                 return slope(key(kind), variable)
             return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
@@ -160,13 +160,19 @@ class Meaning(ExpressionReader):
         order = named[1] + dotted + dots
         own = not isinstance(meaning, (AppliedUndef, sp.Symbol)) and meaning.has(AppliedUndef) and order <= 1
         chart = self.names.coordinates()
-        if chart is not None and energy is not None and (own or meaning in self.names.moving_symbols):
+        if chart is not None and energy is not None and key(name) in chart.columns:
             whole = self.names.model.expand(energy)
             order = 1 if isinstance(variable, sp.Derivative) else order
-            found = chart.slope(key(name) if own else meaning, order, lambda x: self._differentiated(whole, x, by))
+            found = chart.slope(key(name), order, lambda x: self._differentiated(whole, x, by))
             self._spend(found, by)
             return found
         return slope(key(kind), f"{base} {order}") if own else None
+
+    def _is_stated_in(self, variable: sp.Expr) -> bool:
+        """Whether all energies of the answer are in no more coordinates than the system has, with one of its own."""
+        found = set().union(*(self.names.model.expand(x).atoms(AppliedUndef) for x in self.names.stated.values()))
+        found |= variable.atoms(AppliedUndef)
+        return len(found - {u.symbol for u in self.names.model.inputs}) <= len(self.names.model.coordinates)
 
     def _variation(self, node: Node) -> sp.Expr:
         found = only_name(node.children[1])

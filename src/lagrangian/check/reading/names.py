@@ -20,7 +20,7 @@ from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
-from lagrangian.check.reading.stated import energy_of, force_of, names_forces
+from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate
 from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
@@ -128,6 +128,9 @@ class Names:
 
     def force(self, written: str) -> str | None:
         """The coordinate whose generalized force a name is in this answer; None if it is not one."""
+        of = of_coordinate(written)
+        if of is not None and key(of[1]) in self.defined and not self.scope.meanings(of[1])[0]:
+            return None  # Q_s of an s that the answer defines, beside x_s
         return force_of(written, self.model, named=self._named_forces)
 
     def changes(self, written: str) -> bool:
@@ -272,7 +275,8 @@ class Names:
             if not isinstance(value, sp.Expr) or not value.has(AppliedUndef):
                 return None
             meanings[base] = value
-        return own_coordinates(tuple(meanings.items()), frozenset(kept & self.moving_symbols))
+        own = tuple(c.symbol for c in self.model.coordinates)
+        return own_coordinates(tuple(meanings.items()), frozenset(kept & self.moving_symbols), own)
 
     def is_unknown(self, symbol: sp.Basic) -> bool:
         """Whether a symbol, or the symbol of which it is the rate, is unknown to the model."""

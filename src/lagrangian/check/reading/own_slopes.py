@@ -1,17 +1,17 @@
-"""Derivatives of energies by the coordinates of an answer, where some are of its own and replace those of the system.
+"""The coordinates η of an answer, some of its own, and what is stated by them: derivatives of energies, forces.
 
-With w_a = f_a(ξ) in place of ξ_a, a step of the coordinate η, one of the w or of the ξ that are left, moves ξ_a by
+With w_a = f_a(ξ, t) in place of as many ξ_a, a step of one of the w, or of a ξ_k that is left, moves the ξ_a by
 
-    m_a = ∂ξ_a/∂η = (J⁻¹)_aη    or    −(J⁻¹ ∂f/∂η)_a,    J_ab = ∂f_a/∂ξ_b,
+    ∂ξ/∂w = J⁻¹    or    ∂ξ/∂ξ_k = −J⁻¹ ∂f/∂ξ_k,    J_ab = ∂f_a/∂ξ_b;
 
-and the same step of η̇ moves ξ̇_a by m_a. As ξ̇ = J⁻¹ (ẇ − Σ_left ∂f/∂ξ_j ξ̇_j) depends on positions, too,
+a constraint c(ξ, t) = 0 is one of the f that no step changes. With S = ∂ξ/∂η, as ∂ξ̇/∂η̇ = S and ∂ξ̇/∂η = Ṡ,
 
-    ∂T/∂η̇ = ∂T/∂ξ̇_η + Σ ∂T/∂ξ̇_a m_a,    ∂T/∂η = ∂T/∂ξ_η + Σ (∂T/∂ξ_a m_a + ∂T/∂ξ̇_a dξ̇_a/dη).
+    ∂E/∂η̇ = Sᵀ ∂E/∂ξ̇,    ∂E/∂η = Sᵀ ∂E/∂ξ + Ṡᵀ ∂E/∂ξ̇,    Ξ_η = Sᵀ Ξ_ξ.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, cast
 
@@ -20,74 +20,106 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.model.names import time
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
-Slope = Callable[[sp.Expr], sp.Expr]
+Slope = Callable[[Any], sp.Expr]
 """The derivative of one energy by a coordinate or a rate of the system."""
 
-MOST = 4
+MOST = 6
 """The largest number of coordinates that are replaced."""
 
 
 @dataclass(frozen=True, eq=False)
 class OwnCoordinates:
-    """Coordinates of an answer's own: ``meanings`` are f(ξ) by name, ``inverse`` is J⁻¹.
+    """The coordinates of an answer: ``columns`` are those of S, ξ_j and S_jη where it is not 0, by the key of η.
 
-    ``replaced`` are those of the system in whose place they stand.
+    ``order`` has the key of the one in the place of each of the system's; those that constraints determine have none.
     """
 
-    meanings: Mapping[str, sp.Expr]
-    replaced: tuple[sp.Expr, ...]
-    inverse: sp.ImmutableMatrix
+    columns: Mapping[str, tuple[tuple[Any, sp.Expr], ...]]
+    order: tuple[str, ...]
 
-    def slope(self, by: str | sp.Expr, order: int, slope: Slope) -> sp.Expr:
-        """The derivative by a coordinate (``order`` 0) or rate (1): one of the answer's, by name, or of the system."""
-        f = list(self.meanings.values())
-        own = isinstance(by, str)
-        if own:
-            column = list(self.meanings).index(cast("str", by))
-            moved = [cast("sp.Expr", self.inverse[a, column]) for a in range(len(f))]
-        else:
-            turned = -self.inverse * sp.Matrix([x.diff(cast("sp.Expr", by)) for x in f])
-            moved = cast("list[sp.Expr]", turned.flat())
-        rates = [cast("sp.Expr", x.diff(time)) for x in self.replaced]
-        steps = [(x, v, m) for x, v, m in zip(self.replaced, rates, moved, strict=True) if m != 0]
+    def along(self, by: str, of: Slope) -> sp.Expr:
+        """(Sᵀ x)_η of quantities x_j = ``of(ξ_j)``: a generalized force, or a derivative by a rate."""
+        return sp.Add(*[of(x) * s for x, s in self.columns[by]])
+
+    def slope(self, by: str, order: int, slope: Slope) -> sp.Expr:
+        """The derivative of an energy by a coordinate (``order`` 0) or its rate (1)."""
         if order == 1:
-            first = sp.S.Zero if own else slope(cast("sp.Expr", cast("sp.Expr", by).diff(time)))
-            return sp.Add(first, *[slope(v) * m for _, v, m in steps])
-        found = sp.S.Zero if own else slope(cast("sp.Expr", by))
-        held = [sp.Dummy() for _ in f]
-        others = [x.diff(time).xreplace(dict.fromkeys(rates, sp.S.Zero)) for x in f]
-        moving = self.inverse * sp.Matrix([w - x for w, x in zip(held, others, strict=True)])
-        back = {w: x.diff(time) for w, x in zip(held, f, strict=True)}
-        rests = [
-            (v, sp.Add(*[h.diff(x) * m for x, _, m in steps], sp.S.Zero if own else h.diff(by)).xreplace(back))
-            for v, h in zip(rates, moving, strict=True)
-        ]
-        return sp.Add(found, *[slope(x) * m for x, _, m in steps], *[slope(v) * h for v, h in rests if h != 0])
+            return self.along(by, lambda x: slope(x.diff(time)))
+        turning = [(x, rate) for x, s in self.columns[by] if (rate := bounded.diff(s, time)) != 0]
+        return sp.Add(self.along(by, slope), *[slope(x.diff(time)) * rate for x, rate in turning])
 
 
-@lru_cache(maxsize=16)
-def own_coordinates(stated: tuple[tuple[str, sp.Expr], ...], kept: frozenset[sp.Expr]) -> OwnCoordinates | None:
-    """The coordinates of an answer that differentiates by these, ``stated`` by name and meaning, and by those of the
+def named(symbol: Any) -> str:
+    """The key of a coordinate's name."""
+    return key(symbol.func.__name__)
+
+
+@lru_cache(maxsize=64)
+def replaced_by(
+    stated: tuple[tuple[str, sp.Expr], ...],
+    gone: tuple[Any, ...],
+    coordinates: tuple[Any, ...],
+    rows: tuple[sp.Expr, ...] = (),
+) -> OwnCoordinates | None:
+    """The coordinates ``stated`` by key and meaning, and ``rows`` of constraints, in place of those that are ``gone``.
+
+    None if they do not determine these, or are too many.
+    """
+    f = [*(x for _, x in stated), *rows]
+    if not 0 < len(f) == len(gone) <= MOST or any(x.has(sp.Derivative) for x in f):
+        return None
+    J = sp.Matrix([[bounded.diff(x, q) for q in gone] for x in f])
+    det = bounded.expand(cast("sp.Expr", J.det()))
+    if bounded.is_zero(det):
+        return None
+    inverse = J.adjugate() / det
+    columns: dict[str, tuple[tuple[Any, sp.Expr], ...]] = {}
+    for q in (q for q in coordinates if q not in gone):
+        moved = -inverse * sp.Matrix([bounded.diff(x, q) for x in f])
+        columns[named(q)] = ((q, sp.S.One), *_moving(gone, moved.flat()))
+    columns |= {name: _moving(gone, inverse.col(a).flat()) for a, (name, _) in enumerate(stated)}
+    return OwnCoordinates(columns, _order(stated, gone, coordinates))
+
+
+def _moving(gone: Sequence[Any], steps: Sequence[Any]) -> tuple[tuple[Any, sp.Expr], ...]:
+    return tuple((x, s) for x, s in zip(gone, steps, strict=True) if s != 0)
+
+
+def _order(stated: Sequence[tuple[str, sp.Expr]], gone: Sequence[Any], coordinates: Sequence[Any]) -> tuple[str, ...]:
+    """The keys in the places of the system's coordinates: z1 before z2, else the first that is left and holds it."""
+    left = dict(stated)
+    found: list[str] = []
+    for k, q in enumerate(coordinates, 1):
+        if q not in gone:
+            found.append(named(q))
+            continue
+        numbered = [name for name in left if name.rstrip("0123456789") + str(k) == name]
+        mine = numbered if len(numbered) == 1 else [name for name, x in left.items() if x.has(q)]
+        if mine:
+            found.append(mine[0])
+            del left[mine[0]]
+    return tuple(found)
+
+
+def own_coordinates(
+    stated: tuple[tuple[str, sp.Expr], ...], kept: frozenset[sp.Expr], coordinates: tuple[Any, ...]
+) -> OwnCoordinates | None:
+    """The coordinates of an answer that differentiates by these, ``stated`` by key and meaning, and by those of the
     system that are ``kept``.
 
     None unless it is clear which coordinate of the system each of its own replaces.
     """
-    meanings = dict(stated)
-    left = {name: {*f.atoms(AppliedUndef)} - kept for name, f in meanings.items()}
-    if not 0 < len(meanings) <= MOST or any(f.has(sp.Derivative) for f in meanings.values()):
+    left = {name: f.atoms(AppliedUndef).intersection(coordinates) - kept for name, f in stated}
+    if not left:
         return None
-    replaced: dict[str, Any] = {}
+    gone: list[Any] = []
     while left:
         name = next((name for name, xs in left.items() if len(xs) == 1), None)
         if name is None:
             return None
-        replaced[name] = left.pop(name).pop()
-        left = {other: xs - {replaced[name]} for other, xs in left.items()}
-    xs = tuple(replaced[name] for name in meanings)
-    J = sp.Matrix([[f.diff(x) for x in xs] for f in meanings.values()])
-    whole = bounded.expand(cast("sp.Expr", J.det()))
-    if bounded.is_zero(whole):
-        return None
-    return OwnCoordinates(meanings, xs, sp.ImmutableMatrix(J.adjugate() / whole))
+        gone.append(left.pop(name).pop())
+        left = {other: xs - {gone[-1]} for other, xs in left.items()}
+    return replaced_by(stated, tuple(gone), coordinates)

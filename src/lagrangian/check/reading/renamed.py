@@ -44,6 +44,7 @@ def restored(answer: Answer, model: Model, names: Mapping[str, str], notes: tupl
     """Return an answer to a renamed system as one to the ``model`` itself, with ``notes`` in front."""
     back = {new: own for own, new in names.items()} | {f"{x} of the system": x for x in model.symbols}
     forces = {generalized_force(new): generalized_force(own) for new, own in back.items()}
+    same_key = {key(new): key(own) for new, own in back.items()}
     same = {u.symbol: model.symbols[u.name] for u in answer.unknown if u.name in model.symbols}
     table = {**forces, **{a: b for a, b in same.items() if a != b}}
 
@@ -52,7 +53,9 @@ def restored(answer: Answer, model: Model, names: Mapping[str, str], notes: tupl
 
     def line(x: AnswerLine) -> AnswerLine:
         lhs = None if x.lhs is None else put(x.lhs)
-        return replace(x, lhs=lhs, rhs=put(x.rhs), name=None if x.name is None else back.get(x.name, x.name))
+        name = None if x.name is None else back.get(x.name, x.name)
+        keys = frozenset(same_key.get(k, k) for k in x.names)
+        return replace(x, lhs=lhs, rhs=put(x.rhs), name=name, names=keys)
 
     def again(read: Callable[[], Answer]) -> Callable[[], Answer]:
         return lambda: restored(read(), model, names, notes)

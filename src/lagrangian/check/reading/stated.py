@@ -84,6 +84,15 @@ def momentum_of(name: str, model: Model) -> str | None:
     return None if match is None else _coordinate(match["index"], model)
 
 
+def of_coordinate(name: str) -> tuple[str, str] | None:
+    """Return what a name is for a coordinate that it ends with, whatever that is: Q_z ("Xi", "z"), p_z ("p", "z")."""
+    for kind, form in (("Xi", _FORCE), ("p", _MOMENTUM)):
+        match = form.match(spelled(name))
+        if match is not None and match["index"] and not match["index"].isdigit():
+            return kind, match["index"]
+    return None
+
+
 def _coordinate(index: str, model: Model, *, named: bool = False) -> str | None:
     """The coordinate of an index: by name, by number, or by the end of its name, which is first if it is ``named``; a
     single coordinate needs no index."""

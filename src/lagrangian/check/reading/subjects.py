@@ -254,22 +254,26 @@ class Subjects:
         of_kinetic = side.children[0] == "T"
         if of_kinetic and ("T" in self.names.stating or self.names.energy("T") is not None):
             return None
+        if self.names.coordinates() is not None and self.names.energy("L") is not None:
+            return None  # of the answer's own L, which the reader differentiates
         by = self._by(side.children[1])
         if by is None or (of_kinetic and not by[1]):
             return None
         return Subject("p" if by[1] else "slope", by[0])  # ∂T*/∂ξ̇ = ∂L/∂ξ̇: V has no rates
 
     def _by(self, side: Node) -> tuple[str, int] | None:
-        """The coordinate of the model by which, or by whose rate (1), something is differentiated."""
-        found = only_name(side)
-        if found is None or self.names.coordinates() is not None:
+        """The coordinate of the model or the answer by which, or by whose rate (1), something is differentiated."""
+        if (found := only_name(side)) is None:
             return None
         token, primes = found
-        names, dots = self.names.scope.meanings(token)
-        coordinates = {c.name for c in self.model.coordinates}
-        if not names:  # xdot
-            names, dots = next(
-                ([x], k) for k, x in [*((k, x) for k, x in spelled_rates(token) if x in coordinates), (0, "")]
-            )
-        known = len(names) == 1 and names[0] in coordinates and primes + dots <= 1
-        return (names[0], primes + dots) if known else None
+        coordinates, chart = {c.name for c in self.model.coordinates}, self.names.coordinates()
+        spellings = [*spelled_rates(token), (0, str(token))]
+        for order, stem in spellings[-1:] if self.names.scope.meanings(token)[0] else spellings:  # xd is no new name
+            base, dotted = undotted(stem)
+            names, dots = self.names.scope.meanings(stem)
+            own = not names and self.names.changes(base)  # a position of the answer's own
+            name, dots = (base, dotted) if own else (names[0] if len(names) == 1 else "", dots)
+            order += primes + dots
+            if (own or name in coordinates) and order <= 1 and (chart is None or key(name) in chart.columns):
+                return name, order
+        return None

@@ -1,0 +1,109 @@
+"""The coordinates in which an answer states momenta, derivatives of energies and generalized forces.
+
+They are those that its motion is written in: of the system, and of its own, z = x2 − x1, in place of others; what
+constraints determine may be put in, s = x + R φ.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.held import held
+from lagrangian.check.reading import OwnCoordinates, named, of_coordinate, replaced_by
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.page.formula import Text, text
+from lagrangian.read.letters import key
+
+_NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QFp])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
+"""A force or a momentum that is called by the number of its coordinate."""
+
+OF_COORDINATES = ("Xi", "p", "p-rate", "slope", "left")
+"""What lines state for one coordinate."""
+
+
+@lru_cache(maxsize=32)
+def chart(truth: Reference, lines: tuple[AnsweredLine, ...]) -> OwnCoordinates | None:
+    """The coordinates of an answer, whose definitions say what its own are; None if they are those of the system, or
+    if it is not clear which ones its own replace."""
+    coordinates = [c.symbol for c in truth.model.coordinates]
+    stated, gone = replaced(truth, lines)
+    on = held(truth) if truth.derivation.multipliers else None
+    table = on.table if on is not None else {}
+    rows = tuple(q - table[q] for q in coordinates if q in table)
+    own = tuple((key(str(line.name)), line.expr) for line in stated)
+    return replaced_by(own, gone, tuple(coordinates), rows) if gone else None
+
+
+def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[AnsweredLine], tuple[Any, ...]]:
+    """The definitions of the coordinates of an answer's own, and the coordinates of the system that it does not use.
+
+    It uses those that its equations of motion name, and those for which it states a quantity.
+    """
+    coordinates = truth.model.coordinates
+    moving = [x for x in lines if x.kind == "equation" and _has_any(x, [c.acceleration for c in coordinates])]
+    moving = moving or [x for x in lines if x.kind != "definition" and _has_any(x, [c.rate for c in coordinates])]
+    used = {name for x in moving for name in x.names or map(named, x.expr.atoms(AppliedUndef))}
+    used |= {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not is_numbered(x)}
+    used |= {key(found[1]) for line in lines if (found := _stated(line)) is not None}
+    own = {key(c.name) for c in coordinates}
+    said = {key(str(x.name)): x for x in lines if x.kind == "definition" and _is_place(truth, x)}
+    stated = [x for name, x in said.items() if name in used and name not in own]
+    return stated, tuple(c.symbol for c in coordinates if key(c.name) not in used)
+
+
+def with_own_quantities(
+    truth: Reference, lines: Sequence[AnsweredLine], own: OwnCoordinates | None
+) -> tuple[AnsweredLine, ...]:
+    """The lines, in which Q_z and p_z of a coordinate z of the answer's are no names that it defines, and Q_1 is that
+    of the coordinate in the first place."""
+    if own is None:
+        return tuple(lines)
+    coordinates = [c.name for c in truth.model.coordinates]
+    names = {key(str(x.name)): str(x.name) for x in lines if x.kind == "definition"}
+    names |= {key(name): name for name in coordinates}
+    stated = Counter(x.name for x in lines if x.kind == "definition")
+    found: list[AnsweredLine] = []
+    for line in lines:
+        quantity = _stated(line)
+        if quantity is not None and key(quantity[1]) in own.columns and stated[line.name] == 1:
+            line = replace(line, kind=quantity[0], name=names.get(key(quantity[1]), quantity[1]))
+        elif is_numbered(line) and line.name in coordinates and key(line.name) not in own.columns:
+            k = coordinates.index(line.name)
+            place = own.order[k] if k < len(own.order) else ""
+            line = replace(line, name=names.get(place, line.name))
+        found.append(line)
+    return tuple(found)
+
+
+def of_unknown(line: AnsweredLine) -> Text:
+    """What to say of a line that states a quantity for a coordinate that is neither the system's nor explained."""
+    return text(f"'{line.text}' was not judged: nothing says which coordinate {line.name} replaces.")
+
+
+def is_numbered(line: AnsweredLine) -> bool:
+    """Whether a line states the force or the momentum of a coordinate that it calls by its number."""
+    return line.kind in ("Xi", "p") and _NUMBERED.match(line.text) is not None
+
+
+def _stated(line: AnsweredLine) -> tuple[str, str] | None:
+    """Of which name a definition states a generalized force or a momentum, Q_z or p_z."""
+    return of_coordinate(str(line.name)) if line.kind == "definition" else None
+
+
+def _has_any(line: AnsweredLine, symbols: Sequence[sp.Expr]) -> bool:
+    return line.expr.has(*symbols)
+
+
+def _is_place(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line defines a name by positions alone."""
+    c = truth.model.coordinates
+    return line.expr.has(*(x.symbol for x in c)) and not line.expr.has(sp.Derivative)
