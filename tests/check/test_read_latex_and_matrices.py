@@ -46,6 +46,7 @@ def test_a_letter_that_is_given_a_matrix_is_that_matrix(written: str) -> None:
 
 COLUMNS = [
     "M = [ m1  0\n      0   m2 ]\nK = [ k -k\n     -k  k ]\nf = [{F1}  F]'\nM*q'' + K*q = f,   q = [x1 x2]'",
+    "M(q) q'' + K q = f\nq = [x1; x2]\nM = [ m1,  0 ]\n    [  0, m2 ]\nK = [k, -k]\n    [-k, k]\nf = [{F1} ; F]",
     "M q'' + K q = Q, q = (x1, x2)\nM = ((m1, 0), (0, m2)), K = ((k, -k), (-k, k)), Q = ({F1}, F)",
     "M q'' + K q = Q, q = (x1 x2)^T\nM = [m1 0; 0 m2], K = [k -k; -k k], Q = ({F1} F)^T",
     r"$\mathbf{M}\ddot{\mathbf{x}} + \mathbf{K}\mathbf{x} = \mathbf{f}$, with $\mathbf{x} = [x_1\ x_2]^T$, "
@@ -71,6 +72,17 @@ def test_a_matrix_may_have_the_letter_of_a_mass_in_it() -> None:
         "h = [b*x' - m*l*sin(theta)*theta'^2; -m*g*l*sin(theta)]\nM*q'' + h = [F; 0]"
     )
     assert derivation("cart-pole").check(written).right
+
+
+def test_a_column_of_forces_that_holds_weights_is_the_answers_own() -> None:
+    written = (
+        "M q'' + h = Q, q = (x, theta)\nM = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\n"
+        "h = [-m*l*sin(theta)*theta'^2; 0]\nQ = [F - b*x'; m*g*l*sin(theta)]"
+    )
+    assert derivation("cart-pole").check(written).right
+    verdict = derivation("cart-pole").check(written.replace("J + m*l^2", "J + m*l"))
+    assert [f.line.kind for f in verdict.findings if not f.status.right] == ["equation"]
+    assert "l is not squared" in verdict.to_text() or "m l²" in verdict.to_text()
 
 
 @pytest.mark.parametrize(

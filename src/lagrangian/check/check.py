@@ -97,9 +97,9 @@ def _checked(
         if verdict.right:
             return replace(verdict, notes=(*told, forces.note, *verdict.notes))
     verdict = _valued(truth, lines, written, hint, explain)
-    if (own := with_own_forces(lines, written, verdict)) is not None:
-        read = _valued(truth, own.lines, own.written, hint, False)
-        verdict = replace(read, notes=(*read.notes, own.note)) if read.right else verdict
+    if (own := with_own_forces(truth, lines, written, verdict)) is not None:
+        read = _valued(truth, own.lines, own.written, hint, explain and own.sure)
+        verdict = replace(read, notes=(*read.notes, own.note)) if read.right or own.sure else verdict
     return replace(verdict, notes=(*told, *verdict.notes))
 
 

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import sympy as sp
+
+from lagrangian import bounded
 from lagrangian.check.reading import generalized_force, of_coordinate
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
+
+LONGEST = 60
+"""The most characters of a line that is quoted."""
 
 
 @dataclass(frozen=True)
@@ -20,27 +27,33 @@ class OwnForces:
     lines: tuple[AnsweredLine, ...]
     written: tuple[AnsweredLine, ...]
     note: Text
+    sure: bool
 
 
 def with_own_forces(
-    lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], verdict: Verdict
+    truth: Reference, lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], verdict: Verdict
 ) -> OwnForces | None:
     """The answer with each wrong Ξ that its equations use as a name of its own, if nothing else is wrong in it.
 
-    Q_1 = τ − 2 m r r′ ψ′ and ψ″ = Q_1/J: as Ξ it is wrong, but the equation says what it is used for.
+    Q_1 = τ − 2 m r r′ ψ′ and ψ″ = Q_1/J: as Ξ it is wrong, but the equation says what it is used for. It is ``sure``
+    that it is no Ξ if it has terms of the left-hand side, with their signs on the right: weights and springs in Q of
+    M q″ + h = Q.
     """
     wrong = [f.line for f in verdict.findings if f.status is Status.WRONG]
-    if verdict.status is not Status.WRONG or not wrong or any(x.kind != "Xi" or "Ξ" in x.text for x in wrong):
+    equations = [line for line in lines if line.kind == "equation"]
+    forces = [x for x in wrong if x.kind == "Xi" and "Ξ" not in x.text and _is_used(x, equations)]
+    if verdict.status is not Status.WRONG or not forces:
         return None
-    names = {str(x.name) for x in wrong}
-    used = [line.expr for line in lines if line.kind == "equation"]
-    if not all(any(x.has(generalized_force(name)) for x in used) for name in names):
-        return None
+    moved = [x for x in forces if _has_moved_terms(truth, x)]
+    if len(forces) < len(wrong):
+        forces = moved
+    names = {str(x.name) for x in forces}
 
     def own(given: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
         return tuple(replace(x, kind="definition") if x.kind == "Xi" and str(x.name) in names else x for x in given)
 
-    return OwnForces(own(lines), own(written), _read_as_own(wrong))
+    sure = bool(moved) and len(moved) == len(forces)
+    return OwnForces(own(lines), own(written), _read_as_own(forces), sure) if forces else None
 
 
 def without_own_names(
@@ -58,5 +71,25 @@ def without_own_names(
 
 
 def _read_as_own(lines: Sequence[AnsweredLine]) -> Text:
-    table = [x for line in lines for x in (f"'{line.text}'", ", ")][:-1]
+    listed = list(dict.fromkeys(f"'{x.text}'" if len(x.text) <= LONGEST else f"Line {x.number}" for x in lines))
+    table = [x for line in listed for x in (line, ", ")][:-1]
     return text(*table, " was read as a name of your own; as Ξ it would be wrong.")
+
+
+def _is_used(line: AnsweredLine, equations: Sequence[AnsweredLine]) -> bool:
+    """Whether an equation of the answer uses a Ξ, or the column of which it is an entry."""
+    letter = line.text.partition("=")[0].strip()
+    alone = re.compile(rf"(?<![\w\\]){re.escape(letter)}(?!\w)") if letter else None
+    used = (x for x in equations if x.expr.has(generalized_force(str(line.name))) or (alone and alone.search(x.text)))
+    return any(used)
+
+
+def _has_moved_terms(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a Ξ has terms of the left-hand side too much, with their signs on the right."""
+    names = [c.name for c in truth.model.coordinates]
+    if line.name not in names:
+        return False
+    k = names.index(line.name)
+    more = bounded.expand(truth.expand(line.expr) - truth.expand(truth.Xi[k]))
+    left = bounded.expand(-truth.expand(truth.rows[k]) - truth.expand(truth.Xi[k]))
+    return more != 0 and not set(sp.Add.make_args(more)).isdisjoint(sp.Add.make_args(left))

@@ -37,8 +37,8 @@ _OPERATOR = "+-−–*/^·×=,;"
 _TIMES = re.compile(r"\s*[*·×@]?\s*")
 _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
-_NAMED_ROW = re.compile(r"\s*+[^\W\d]\w*+\s*+=\s*+\[[^\[\]=;,]++(?P<close>\])\s*\Z")
-_ROW_ALONE = re.compile(r"\s*+(?P<open>\[)[^\[\]=;,]++(?P<close>\])\s*\Z")
+_NAMED_ROW = re.compile(r"\s*+[^\W\d]\w*+\s*+=\s*+\[(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
+_ROW_ALONE = re.compile(r"\s*+(?P<open>\[)(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
 _ATOM = r"[^\W\d]\w{0,15}['’′]{0,2}"
 _BRACED_NAME = re.compile(rf"(?<![_^\w{{,])\{{[ \t]*+(?P<name>{_ATOM}|0)[ \t]*+\}}")
 _BRACED_COLUMN = re.compile(r"(?<![_^\w{,])\{(?P<entries>[^{}=;]{0,200}(?:;[^{}=;]{0,200}){1,20})\}")
@@ -73,19 +73,32 @@ def on_one_line(written: TracedText) -> TracedText:
 
 
 def _named_rows(written: TracedText) -> TracedText:
-    """A matrix with a name and rows in brackets in lines below each other, M = [a  b], [c  d], as M = [a  b; c  d]."""
+    """A matrix with a name and rows in brackets in lines below each other, M = [a  b], [c  d], as M = [a  b; c  d].
+
+    Rows whose entries have commas between them have the same number of entries.
+    """
     edits: list[Edit] = []
-    above, at, end = False, 0, 0
+    above, at, end = -1, 0, 0
     for line in written.text.split("\n"):
-        row = _ROW_ALONE.match(line) if above and len(line) < 2000 else None
-        if row is not None:
+        row = _ROW_ALONE.match(line) if above >= 0 and len(line) < 2000 else None
+        if row is not None and _commas(row["row"]) == above:
             edits.append((end, at + row.end("open"), "; "))
-        first = _NAMED_ROW.match(line) if len(line) < 2000 else None
-        above = row is not None or first is not None
-        match = row or first
+        else:
+            row = None
+        match = row or (_NAMED_ROW.match(line) if len(line) < 2000 else None)
+        above = _commas(match["row"]) if match is not None else -1
         end = at + match.start("close") if match is not None else 0
         at += len(line) + 1
     return written.edited(edits)
+
+
+def _commas(row: str) -> int:
+    """The number of commas between the entries of a row, and not in brackets."""
+    depths, commas = 0, 0
+    for c in row:
+        depths += (c == "(") - (c == ")")
+        commas += c == "," and not depths
+    return commas
 
 
 def _joined(written: TracedText) -> TracedText:
