@@ -37,6 +37,7 @@ def motor() -> Derivation:
         "L*idot + R*i + K*phidot = u\nJ*phiddot + b*phidot = K*i\n[i is the current, idot its derivative]",
         "x1 = phi, x2 = phi', x3 = i\nx1' = x2\nx2' = (K x3 - b x2)/J\nx3' = (u - R x3 - K x2)/L",
         "L q'' + R q' + K phi' = u\nJ phi'' + b phi' = K i\ni = q'",
+        "i' = (u - R*i - K*w)/L\nphi' = w\nw' = (K*i - b*w)/J",
         "q' = i\nL i' + R i + K w = u\nJ w' + b w = K i",
         "L i_a' + R i_a + K phi' = u\nJ phi'' + b phi' = K i_a",
         r"$$L\dot{i} + R i + K\dot\varphi = u$$ $$J\ddot\varphi + b\dot\varphi = K i$$",

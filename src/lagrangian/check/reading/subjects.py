@@ -209,7 +209,7 @@ class Subjects:
         if order:
             if self._taken(token):
                 return None
-            own = self.names.is_own(base) or key(base) in self.defined
+            own = self.names.is_own(base) or key(base) in self.defined or key(base) in self.names.implied
             return Subject("identity" if own else "definition", base, Token("NAME", base), order)
         plain = key(str(token)) in self.plain
         if not moving and not plain and (kind := energy_of(token, self.model, lhs=True)) is not None:
