@@ -45,6 +45,19 @@ def test_a_generalized_force_with_the_wrong_sign_is_on_no_wrong_side() -> None:
     assert "wrong sign" in said and "side" not in said
 
 
+KINETIC = "T = (M+m)*x'^2/2 + m*l*x'*theta'*cos(theta) + (J+m*l^2)*theta'^2/2"
+MOMENTUM = "dT/dtheta' = (J+m*l^2)*theta' + m*l*x'*cos(theta)"
+RATE = "d/dt dT/dtheta' = (J+m*l^2)*theta'' + m*l*x''*cos(theta) - m*l*x'*theta'*sin(theta)"
+
+
+def test_a_wrong_derivative_is_told_by_its_term_and_one_that_is_right_is_no_cause() -> None:
+    sheet = f"{KINETIC}\n{MOMENTUM}\n{RATE}\ndT/dtheta = 0\n{CART}\n{POLE} - m*l*x'*theta'*sin(theta)"
+    verdict = derivation("cart-pole").check(sheet.replace("= 0 -", "-") + " = 0")
+    assert [f.line.number for f in verdict.findings if f.status is Status.WRONG and not f.follows] == [4]
+    assert str(verdict.mistakes[0].what) == "In ∂T*/∂theta, the term -l*m*sin(theta)*theta'*x' is missing."
+    assert len(verdict.mistakes) == 1
+
+
 @pytest.mark.slow
 def test_both_strands_of_a_belt_are_taken_alike() -> None:
     way, speed = "(r*p + R*q)", "(r*p' + R*q')"

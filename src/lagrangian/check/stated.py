@@ -17,7 +17,7 @@ from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reading import OwnCoordinates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
-from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
@@ -106,7 +106,7 @@ def judge(
     line = lines[k]
     i = index_of(truth, line.name)
     stated_for = _stated_for(truth, lines, line, change)
-    own = line.kind == "derived" or (line.kind == "identity" and bool(stated_for))
+    own = line.kind in OWN_SLOPES or (line.kind == "identity" and bool(stated_for))
     stated_for = stated_for if line.kind in OF_COORDINATES else []
     rights = [_of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi)) for by in stated_for]
     right = rights[0] if rights else right_value(truth, line, None)
@@ -230,7 +230,7 @@ def right_value(truth: Reference, line: AnsweredLine, i: int | None) -> sp.Expr 
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
     if line.kind == "D":
         return dissipation(truth)
-    if line.kind in ("identity", "derived"):
+    if line.kind in ("identity", *OWN_SLOPES):
         return sp.S.Zero
     if i is None or line.kind not in OF_COORDINATES:
         return None

@@ -31,6 +31,10 @@ class Status(StrEnum):
         return self not in (Status.INCOMPLETE, Status.WRONG)
 
 
+OWN_SLOPES = ("T-rate", "T-slope", "V-slope", "D-slope")
+"""The kinds of lines that give derivatives of the answer's own T*, V and D."""
+
+
 @dataclass(frozen=True)
 class AnsweredLine(Brief):
     """One line of an answer: what kind it is and what it states. ``expr`` is the energy, the force, or left minus

@@ -14,11 +14,11 @@ from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import index_of, right_value
-from lagrangian.check.verdict import Finding, Status
+from lagrangian.check.verdict import OWN_SLOPES, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 
-DERIVATIVES = ("p", "p-rate", "slope", "left", "derived")
+DERIVATIVES = ("p", "p-rate", "slope", "left", *OWN_SLOPES)
 """∂L/∂ξ̇, its d/dt, ∂L/∂ξ, what is left of the equation, and derivatives of the answer's own T*, V and D."""
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
@@ -52,7 +52,7 @@ def _extra(truth: Reference, finding: Finding) -> Iterator[tuple[int, int, Array
         return
     rest = line.expr - right
     made = [rest] if line.kind != "p" else []
-    made += [bounded.diff(rest, time)] if line.kind in ("p", "derived") else []
+    made += [bounded.diff(rest, time)] if line.kind == "p" else []
     for values in CompiledExpressions(made).at(truth.states):
         if np.isfinite(values).all() and np.abs(values).max() > 0:
             yield line.number, i, values

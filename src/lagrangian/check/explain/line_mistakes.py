@@ -11,16 +11,17 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.derivative_lines import elsewhere
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Force, Torque
 from lagrangian.page.formula import text
 
 ENERGIES = ("T", "V", "L", "Xi")
-DERIVED = ("p-rate", "slope", "left", "derived")
+DERIVED = ("p-rate", "slope", "left", *OWN_SLOPES)
 """d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
 MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
@@ -105,6 +106,7 @@ def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
         return []
     found = [e for e in singles(pool, [pool.W[:, i]], values) if e.cost <= EXOTIC]
+    found = [e for e in found if not any(elsewhere(pool.truth, line, t.mistake) for t in e.told)]
     found = [e for e in found if e.told[0].mistake.name != "sine_for_cosine"] or found  # no angle is measured here
     own = [e if _step(e.told[0].mistake) == LINES["equation"] else replace(e, cost=e.cost + ELSEWHERE) for e in found]
     return sorted(own, key=lambda e: e.cost)

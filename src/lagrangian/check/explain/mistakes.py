@@ -14,6 +14,7 @@ from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
 from lagrangian.check.explain.changes.pool import Pool, pool_of
+from lagrangian.check.explain.derivative_lines import RESTATED, against_derivatives, slip_in, with_slip
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.line_mistakes import (
     MOST_TOLD,
@@ -88,10 +89,12 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     pool = pool_of(truth)
-    against = contradicted(pool, [f.line for f in findings if f.status.right], lines)
+    true = [f.line for f in findings if f.status.right]
+    against = contradicted(pool, true, lines) | against_derivatives(pool, true)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     left: list[AnsweredLine] = []
+    slips: dict[int, Mistake] = {}
     bodies = BodiesSaid(truth, lines)
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
@@ -108,6 +111,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
                 found = found if found and found[0].cost <= EXOTIC else []
                 more = [] if found else [p.mistake for p in said]
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
+            if (term := slip_in(truth, line, lines)) is not None:
+                slips[id(line)] = term
+                more = more if found or more else [term]
             own += more
             left += [] if found or more else [line]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
@@ -133,6 +139,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
     of_first = [of_derivative_of(wrong[0], m) for m in named.told]
+    if of_first and (term := slips.get(id(wrong[0]))) is not None:
+        of_first[0] = with_slip(of_first[0], term)
+        named = replace(named, others=tuple(m for m in named.others if m.name not in RESTATED))
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first

@@ -21,7 +21,10 @@ Kind: TypeAlias = Literal[
     "p-rate",
     "slope",
     "left",
-    "derived",
+    "T-rate",
+    "T-slope",
+    "V-slope",
+    "D-slope",
     "definition",
     "identity",
     "statement",
@@ -35,8 +38,8 @@ Kind: TypeAlias = Literal[
     Xi          the generalized force Ξ of the coordinate ``name``
     p           ∂L/∂ξ̇ of the coordinate ``name``;  p-rate: d/dt ∂L/∂ξ̇;  slope: ∂L/∂ξ
     left        d/dt ∂L/∂ξ̇ − ∂L/∂ξ of the coordinate ``name``, worked out
-    derived     a derivative of the answer's own T*, V or D by ξ, ξ̇ or t: what the equation of the coordinate ``name``
-                has too much by it
+    T-rate      d/dt ∂T*/∂ξ̇ of the answer's own T*; T-slope: ∂T*/∂ξ, V-slope: ∂V/∂ξ, D-slope: ∂D/∂ξ̇, of its own V and
+                D: what the equation of the coordinate ``name`` has too much by it
     definition  a name of the person's own, or a coordinate of the model in new ones
     identity    lhs = rhs holds whatever the motion: the rate of a name that was defined before
     given       the value of a parameter of the model in others, which is an assumption: J = m R²/2

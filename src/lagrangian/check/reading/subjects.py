@@ -226,21 +226,28 @@ class Subjects:
         for (side, own), (_, value) in (sides, sides[::-1]):
             found = self._added_by(side)
             if found is not None and not is_general(own - value):
-                name, sign = found
-                left, right = (value, own) if sign > 0 else (own, value)
-                return "derived" if sign else "identity", left, right, name
+                kind, name = found
+                left, right = (own, value) if kind in ("identity", "T-slope") else (value, own)
+                return kind, left, right, name
         return None
 
-    def _added_by(self, side: Node) -> tuple[str, int] | None:
-        """Which equation a derivative adds to, and with which sign; ∂T*/∂ξ̇ itself adds to none: 0."""
+    def _added_by(self, side: Node) -> tuple[Kind, str] | None:
+        """Which derivative a side is, and of which coordinate; ∂T*/∂ξ̇ itself adds to no equation: an identity."""
         side, rate = inside(side), False
         if isinstance(side, Tree) and side.data == "rate" and side.children[1] == 1:
             side, rate = inside(side.children[0]), True
         if not isinstance(side, Tree) or side.data != "partial" or (by := self._by(side.children[1])) is None:
             return None
-        signs = {("T", 1): int(rate), ("T", 0): -1, ("V", 0): 1, ("D", 1): 1}
-        sign = signs.get((str(side.children[0]), by[1]))
-        return None if sign is None or (rate and sign != 1) else (by[0], sign)
+        of = (str(side.children[0]), by[1])
+        if rate:
+            return ("T-rate", by[0]) if of == ("T", 1) else None
+        kinds: dict[tuple[str, int], Kind] = {
+            ("T", 1): "identity",
+            ("T", 0): "T-slope",
+            ("V", 0): "V-slope",
+            ("D", 1): "D-slope",
+        }
+        return (kinds[of], by[0]) if of in kinds else None
 
     def _derivative_of_energy(self, side: Node) -> Subject | None:
         """Recognize ∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""

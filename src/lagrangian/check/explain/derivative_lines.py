@@ -1,0 +1,144 @@
+"""What a line that gives a derivative says: which term of it is wrong, and which mistakes were not made if it is right.
+
+∂T*/∂r = m r θ̇²  below  T* = … + m A Ω r θ̇ cos θ        In ∂T*/∂r, the term m A Ω θ̇ cos θ is missing.
+d/dt ∂T*/∂ṙ      right                                     What θ̇ adds to it does not count twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.own_terms import WHY, term_replaced
+from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.reference import Reference
+from lagrangian.check.stated import given, index_of, right_value
+from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.model import time
+from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
+
+RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
+"""The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
+RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
+"""What a missing or wrong term of a derivative would also be called."""
+LONGEST = 200
+"""A derivative with more terms is not compared term by term."""
+
+
+def against_derivatives(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
+    """The possible mistakes, by their identity, that would be made in a derivative that is right."""
+    said = {x for line in right if (x := _given(pool.truth, line)) is not None}
+    return {id(p) for p in pool.all if part_of(pool.truth, p) in said} if said else set()
+
+
+def elsewhere(truth: Reference, line: AnsweredLine, possible: Possible) -> bool:
+    """Whether a mistake would be made in another derivative than the one that a line gives."""
+    own, of = _given(truth, line), part_of(truth, possible)
+    return own is not None and of is not None and own != of
+
+
+def _given(truth: Reference, line: AnsweredLine) -> tuple[str, int] | None:
+    """Which derivative of T* a line gives, and of which coordinate, by its place."""
+    i = index_of(truth, line.name)
+    if i is None or line.kind not in (*RATES, *SLOPES):
+        return None
+    return "rate" if line.kind in RATES else "slope", i
+
+
+def part_of(truth: Reference, possible: Possible) -> tuple[str, int] | None:
+    """In which derivative of T*, and of which coordinate, a mistake was made if its words say so."""
+    parts: Sequence[object] = ()
+    if possible.change is not None:
+        parts = possible.change.site.brief
+    elif possible.wrong is not None:
+        parts = possible.wrong.variant.what.parts
+    for part in parts:
+        whole = part.of if isinstance(part, Minus) else part
+        inner = whole.of if isinstance(whole, Total) else whole
+        if not isinstance(inner, Partial):
+            continue
+        of_rate = [i for i, c in enumerate(truth.model.coordinates) if inner.by == c.rate]
+        of_place = [i for i, c in enumerate(truth.model.coordinates) if inner.by == c.symbol]
+        if isinstance(whole, Total) and of_rate:
+            return "rate", of_rate[0]
+        return ("slope", of_place[0]) if of_place else None
+    return None
+
+
+def with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
+    """A mistake in a derivative, told by the term of it that is wrong; the cause is a possible one, if it is any."""
+    if mistake.name in RESTATED:
+        return slip
+    formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr)]
+    if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
+        return mistake
+    brief = mistake.brief if mistake.brief is not None else mistake.what
+    return replace(mistake, what=text(*slip.what.parts, REASON, *mistake.what.parts), brief=brief)
+
+
+def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Mistake | None:
+    """The one term of a derivative that is wrong, against what the energies above it give; None if it is more."""
+    i = index_of(truth, line.name)
+    found = _derivative(truth, line, i, lines) if i is not None else None
+    if i is None or found is None:
+        return None
+    title, own, more = found
+    rest, right = ([x for x in sp.Add.make_args(bounded.expand(e)) if x != 0] for e in (more, own))
+    if not 1 <= len(rest) <= 2 or len(right) > LONGEST:
+        return None
+    pair = _replaced(rest, right)
+    if pair is None:
+        return None
+    written, belongs = pair
+    if belongs == 0:
+        name, said = "term_too_much", text("The term ", written, " does not belong there.")
+    else:
+        name, said = term_replaced(written, belongs)
+    first, *others = said.parts
+    words = str(first)
+    brief = text("A term of ", title, " is not right.")
+    what = text("In ", title, ", ", words[:1].lower() + words[1:], *others)
+    if words.startswith("In "):
+        what = text("In ", title, ": ", words[:1].lower() + words[1:], *others)
+    return Mistake(name, what, WHY, 5, None, truth.model.coordinates[i].name, brief)
+
+
+def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:
+    """The term that was written (0: none) and the one that belongs there (0: none), where the derivative has the terms
+    ``right``, and the line has ``rest`` too much."""
+    if len(rest) == 1:
+        for t in right:
+            if (number := bounded.cancel(rest[0] / t)).is_number:
+                return cast("sp.Expr", (1 + number) * t), t
+        return rest[0], sp.S.Zero
+    for more, less in (rest, rest[::-1]):
+        if -less in right and more not in right:
+            return more, -less
+    return None
+
+
+def _derivative(
+    truth: Reference, line: AnsweredLine, i: int, lines: Sequence[AnsweredLine]
+) -> tuple[Left, sp.Expr, sp.Expr] | None:
+    """The derivative that a line gives, in words; what it is, and what the line has too much."""
+    above = given(truth, [x for x in lines if x.number <= line.number])
+    c = truth.model.coordinates[i]
+    q, v = truth.derivation.coordinates[i], c.rate
+    T = above.T if above.T is not None else truth.T
+    V = above.V if above.V is not None else truth.V
+    if line.kind == "T-rate":
+        return Total(Partial(Name("T*"), v)), bounded.diff(T, v, time), line.expr
+    if line.kind == "T-slope":
+        return Partial(Name("T*"), q), bounded.diff(T, c.symbol), cast("sp.Expr", -line.expr)
+    if line.kind == "V-slope":
+        return Partial(Name("V"), q), bounded.diff(V, c.symbol), line.expr
+    right = right_value(truth, line, i) if line.kind in ("p-rate", "slope") else None
+    if right is None:
+        return None
+    L = Name("L")
+    return (Total(Partial(L, v)) if line.kind == "p-rate" else Partial(L, q)), right, line.expr - right
