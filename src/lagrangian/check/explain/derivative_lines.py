@@ -18,10 +18,13 @@ from lagrangian.check.explain.own_terms import WHY, term_replaced
 from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Mistake
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
 
+DERIVED = ("p-rate", "slope", "left", *OWN_SLOPES)
+"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
+WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
 RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
@@ -70,7 +73,26 @@ def part_of(truth: Reference, possible: Possible) -> tuple[str, int] | None:
     return None
 
 
-def with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
+def of_derivative_of(
+    truth: Reference,
+    line: AnsweredLine,
+    lines: Sequence[AnsweredLine],
+    told: Sequence[Mistake],
+    others: Sequence[Mistake],
+) -> tuple[list[Mistake], tuple[Mistake, ...]]:
+    """The mistakes behind the first wrong ``line``, and second choices, in the words for a derivative if it is one.
+
+    The term that is wrong is told; a sine in place of a cosine was differentiated wrongly.
+    """
+    if not told or line.kind not in DERIVED:
+        return list(told), tuple(others)
+    found = [replace(m, why=WHY_FUNCTION) if m.name == "sine_cosine" else m for m in told]
+    if (slip := slip_in(truth, line, lines)) is None:
+        return found, tuple(others)
+    return [_with_slip(found[0], slip), *found[1:]], tuple(m for m in others if m.name not in RESTATED)
+
+
+def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
     """A mistake in a derivative, told by the term of it that is wrong; the cause is a possible one, if it is any."""
     if mistake.name in RESTATED:
         return slip

@@ -11,25 +11,21 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
-from lagrangian.check.explain.derivative_lines import elsewhere
+from lagrangian.check.explain.derivative_lines import DERIVED, elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
-from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Mistake
+from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Force, Torque
-from lagrangian.page.formula import text
 
 ENERGIES = ("T", "V", "L", "Xi")
-DERIVED = ("p-rate", "slope", "left", *OWN_SLOPES)
-"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
 MOST_TOLD = 24
 """The largest number of explanations of a line that are put into words."""
 MOST_TOGETHER = 10
 """The largest number of explanations of each of two lines that are tried together."""
 ELSEWHERE = 0.8
 """What it costs more to take a mistake of another step for one that shows in a derivative of an energy."""
-WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
@@ -50,7 +46,9 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
             found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind in DERIVED and i is not None:
-        return _of_derivative(pool, line, i), []
+        found = _of_derivative(pool, line, i)
+        slip = None if found else slip_in(truth, line, lines)
+        return found, [slip] if slip is not None else []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -110,11 +108,6 @@ def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
     found = [e for e in found if e.told[0].mistake.name != "sine_for_cosine"] or found  # no angle is measured here
     own = [e if _step(e.told[0].mistake) == LINES["equation"] else replace(e, cost=e.cost + ELSEWHERE) for e in found]
     return sorted(own, key=lambda e: e.cost)
-
-
-def of_derivative_of(line: AnsweredLine, mistake: Mistake) -> Mistake:
-    """A mistake in the words for a derivative: a sine in place of a cosine was differentiated wrongly."""
-    return replace(mistake, why=WHY_FUNCTION) if mistake.name == "sine_cosine" and line.kind in DERIVED else mistake
 
 
 def _step(possible: Possible) -> int | None:

@@ -14,14 +14,13 @@ from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
 from lagrangian.check.explain.changes.pool import Pool, pool_of
-from lagrangian.check.explain.derivative_lines import RESTATED, against_derivatives, slip_in, with_slip
+from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.line_mistakes import (
     MOST_TOLD,
     UNNATURAL,
     contradicted,
     followed,
-    of_derivative_of,
     of_forces,
     of_line,
     stated,
@@ -94,7 +93,6 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     left: list[AnsweredLine] = []
-    slips: dict[int, Mistake] = {}
     bodies = BodiesSaid(truth, lines)
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
@@ -111,9 +109,6 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
                 found = found if found and found[0].cost <= EXOTIC else []
                 more = [] if found else [p.mistake for p in said]
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
-            if (term := slip_in(truth, line, lines)) is not None:
-                slips[id(line)] = term
-                more = more if found or more else [term]
             own += more
             left += [] if found or more else [line]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
@@ -138,15 +133,12 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
-    of_first = [of_derivative_of(wrong[0], m) for m in named.told]
-    if of_first and (term := slips.get(id(wrong[0]))) is not None:
-        of_first[0] = with_slip(of_first[0], term)
-        named = replace(named, others=tuple(m for m in named.others if m.name not in RESTATED))
+    of_first, others = of_derivative_of(truth, wrong[0], lines, named.told, named.others)
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     rows_left = tuple(line for line in left if line.kind == "equation")
-    return replace(named, told=told, certain=certain, left=rows_left, sure=sure)
+    return replace(named, told=told, others=others, certain=certain, left=rows_left, sure=sure)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
