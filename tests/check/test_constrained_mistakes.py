@@ -200,6 +200,15 @@ def test_what_follows_from_a_wrong_constraint_is_no_mistake(bob: lg.Derivation) 
     assert [f.follows for f in verdict.findings] == [False, False, False, True]
 
 
+def test_equations_that_stand_there_twice_are_no_other_ones(bob: lg.Derivation) -> None:
+    rows = ROWS.replace("2 lambda y", "-2 lambda y")
+    verdict = bob.check(f"x^2 - y^2 = l^2\nd/dt(m x') = 2 lambda x\nd/dt(m y') + m g = -2 lambda y\n\ni.e.\n{rows}")
+    (mistake,) = verdict.mistakes
+    assert mistake.name == "constraint_wrong" and "follow from it" in str(mistake.what)
+    assert [f.status.right for f in verdict.findings] == [False, True, False, True, False]
+    assert all(f.follows for f in verdict.findings[1:] if not f.status.right)
+
+
 # -- the special case in which what nothing explains would be right --------------------------------------------------
 
 ON_CIRCLE = "x = l sin theta\ny = -l cos theta\n"

@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.constraints.multipliers import with_own_multipliers
 from lagrangian.check.explain.constraint_mistakes import beside_constraints
 from lagrangian.check.explain.constraint_slips import wrong_constraints
@@ -34,6 +35,9 @@ def named_beside_multipliers(
     keys = _keys([f.line for f in verdict.findings])
     aside = {k: x for k, f in zip(keys, verdict.findings, strict=True) for x in wrong if x.finding is f}
     kept = [(k, x) for k, x in zip(_keys(lines), lines, strict=True) if k not in aside]
+    again = _repeated([x for _, x in kept])
+    again = {kept[j][0]: kept[k][0] for j, k in again.items()}
+    kept = [x for x in kept if x[0] not in again]
     lines = [x for _, x in kept]
     read = with_own_multipliers(truth, lines)
     if read is None and not wrong:
@@ -62,7 +66,8 @@ def named_beside_multipliers(
     for k, f in zip(keys, verdict.findings, strict=True):
         if f.line.kind == "equation" and f.status.right and not f.line.expr.has(*forces):
             better[k] = f  # true without any multiplier, however these are read
-    findings = tuple(_without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True))
+    found = {k: _without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True)}
+    findings = tuple(_as_above(f, found.get(again.get(k))) for k, f in found.items())
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
@@ -78,6 +83,26 @@ def _keys(lines: Lines) -> list[tuple[int, str, int]]:
         count = seen[line.number, line.text, judged]
         found.append((line.number, line.text, count if judged else -count))
     return found
+
+
+def _repeated(lines: Lines) -> dict[int, int]:
+    """The places of the equations that stand above once more, with the place of the first."""
+    first: dict[sp.Expr, int] = {}
+    found: dict[int, int] = {}
+    for j, line in enumerate(lines):
+        if line.kind == "equation":
+            expr = bounded.expand(line.expr)
+            same = first.setdefault(-expr if expr.could_extract_minus_sign() else expr, j)
+            if same != j:
+                found[j] = same
+    return found
+
+
+def _as_above(finding: Finding, first: Finding | None) -> Finding:
+    """The finding of an equation that stands above once more."""
+    if first is None:
+        return finding
+    return replace(first, line=finding.line, follows=first.status is Status.WRONG, differences=())
 
 
 def _without_forces(truth: Reference, finding: Finding) -> Finding:
