@@ -255,7 +255,8 @@ class LatexParser(LatexFractions):
             end += 1
         within = [x.kind for x in self.tokens[at + 2 : end]]
         letters = next((x.text for x in self.tokens[at + 2 : end] if x.kind == "letters"), "")
-        single = not within or (len(within) == 1 and (len(letters) <= 1 or self.known(letters)))
+        whole = "".join(x.text for x in self.tokens[at + 2 : end])
+        single = not within or (len(within) == 1 and len(letters) <= 1) or self.known(whole)
         name_first = bool(within) and within[0] in ("accent", "decoration", "symbol", "upright", "letters")
         if single or (name_first and len(within) > 1 and within[1] in ("_", "lowered", "{", "letters", "symbol")):
             return None

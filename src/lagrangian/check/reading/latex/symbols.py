@@ -46,11 +46,26 @@ class LatexSymbols(Parser):
         if token.kind != "letters":
             return token.text, 0, token.start
         self.i -= 1
+        if (end := self._whole_name()) > self.i + 1:
+            base = "".join(x.text for x in self.tokens[self.i : end])
+            self.i = end
+            return base, 0, token.start
         self._cut(self._first_name(token))
         token = self.take()
         if self._digits_belong(token):
             return token.text + self.take().text, 0, token.start
         return token.text, 0, token.start
+
+    def _whole_name(self) -> int:
+        """The token behind a name of the system with digits between its letters, x2r; the next one if there is none."""
+        end = self.i + 1
+        while self.tokens[end].kind in ("letters", "number") and self.tokens[end].start == self.tokens[end - 1].end:
+            end += 1
+        while end > self.i + 2:
+            if "".join(x.text for x in self.tokens[self.i : end]) in self.names.model.symbols:
+                return end
+            end -= 1
+        return self.i + 1
 
     def _digits_belong(self, token: AnswerToken) -> bool:
         """Whether the number directly after a letter is part of its name: x1."""

@@ -3,6 +3,7 @@
 eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
+{a, b} == {c, d}                               a = c⏎ b = d
 \\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX, also with [ ]
 """
 
@@ -22,6 +23,9 @@ _LIST = re.compile(
     r"(?P<open>[\[{(])"
 )
 _SETS = (re.compile(r"(?P<opens>\\left\s?\\\{)|\\right\s?\\\}"), re.compile(r"(?P<opens>\\left\s?\[)|\\right\s?\]"))
+_SOLVED = re.compile(r"(?:\\[ ,;:!]\s*+)?\\(?:ddot(?![a-z])|frac\s?\{d\^)[^:=]{1,80}:")
+"""A second derivative in LaTeX and a colon, as SymPy prints a solution."""
+_SIDE = re.compile(r"\s*+={1,2}\s*+\{")
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -38,8 +42,13 @@ def without_sets(written: TracedText) -> TracedText:
     text, edits = written.text, list[Edit]()
     for start, opened, closed, end in (x for form in _SETS for x in _pairs(text, form)):
         spans = _entries(text, opened, closed)
-        if len(spans) > 1 and all("=" in text[a:b] for a, b in spans) and "\\begin" not in text[opened:closed]:
-            edits += _listed(text, start, end, spans, "")
+        if "\\begin" in text[opened:closed]:
+            continue
+        if spans and all("=" in text[a:b] for a, b in spans):
+            edits += _listed(text, start, end, spans, "", between=" \\\\")
+        elif spans and all(_SOLVED.match(text, a, b) for a, b in spans):
+            edits += _listed(text, start, end, spans, "", between=" \\\\")
+            edits += ((at := text.index(":", a), at + 1, "=") for a, _ in spans)
     return written.edited(apart(sorted(edits)))
 
 
@@ -61,6 +70,8 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     if match is None:
         return
     close = closes(text, match.end() - 1)
+    if match["open"] == "{" and (other := _SIDE.match(text, close + 1, end)) is not None:
+        yield from _side_by_side(text, start, match.end(), close, other.end(), end)
     if close < 0 or text[close + 1 : end].strip(" \t\n;,.") != (")" if match["call"] else ""):
         return
     name = match["name"]
@@ -68,22 +79,32 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
         return
     spans = list(_inner(text, _entries(text, match.end(), close)))
     written = [text[a:b] for a, b in spans]
-    if match["open"] != "{" and len(spans) > (0 if match["call"] else 1):
+    maps = [_MAPS.search(x) for x in written]
+    if written and all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
+        yield from _listed(text, start, end, spans, "")
+        yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
+    elif match["open"] != "{" and len(spans) > (0 if match["call"] else 1):
         if any("=" in x or "Eq(" in x for x in written) or not any(map(carries, written)):
             return
         yield from _listed(text, start, end, spans, " = 0")
-    elif match["open"] == "{":
-        maps = [_MAPS.search(x) for x in written]
-        if all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
-            yield from _listed(text, start, end, spans, "")
-            yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
 
 
-def _listed(text: str, start: int, end: int, spans: Sequence[tuple[int, int]], behind: str) -> Iterator[Edit]:
-    """The edits that leave the entries of a list, each on a line, with what is put behind them."""
+def _side_by_side(text: str, start: int, first: int, last: int, other: int, end: int) -> Iterator[Edit]:
+    """The edits that write {a, b} == {c, d} as a = c and b = d, one a line."""
+    close = closes(text, other - 1)
+    left, right = _entries(text, first, last), _entries(text, other, close) if close > 0 else []
+    if len(left) == len(right) and not text[close + 1 : end].strip(" \t\n;,."):
+        yield start, end, "\n".join(f"{text[a:b]} = {text[c:d]}" for (a, b), (c, d) in zip(left, right, strict=True))
+
+
+def _listed(
+    text: str, start: int, end: int, spans: Sequence[tuple[int, int]], behind: str, *, between: str = ""
+) -> Iterator[Edit]:
+    """The edits that leave the entries of a list, each on a line, with what is put behind them, and between two."""
     cuts = [start, *(x for span in spans for x in span), end]
     for k, (a, b) in enumerate(zip(cuts[::2], cuts[1::2], strict=True)):
-        yield a, b, f"{behind if k else ''}\n" if k < len(spans) else behind
+        ends = f"{behind}{between}\n" if k else "\n"
+        yield a, b, ends if k < len(spans) else behind
     for a, b in spans:
         yield from ((k, k + 1, " ") for k in range(a, b) if text[k] == "\n")
 
@@ -93,7 +114,7 @@ def _entries(text: str, start: int, end: int) -> list[tuple[int, int]]:
     depth, cuts = 0, [start - 1]
     for at in range(start, end):
         depth += (text[at] in "([{") - (text[at] in ")]}")
-        if depth == 0 and text[at] in ",;":
+        if depth == 0 and text[at] in ",;" and text[at - 1] != "\\":  # a space in LaTeX
             cuts.append(at)
     cuts.append(end)
     bare = [(a + 1, text[a + 1 : b]) for a, b in pairwise(cuts)]

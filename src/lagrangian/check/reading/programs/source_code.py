@@ -20,9 +20,12 @@ from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 _NAME = r"[^\W\d]\w{0,39}+"
-_LABEL = re.compile(r"^[ \t]*+\(%(?P<kind>[io])\d{1,4}\)", re.MULTILINE)
+_LABEL = re.compile(r"^[ \t]*+[(\[]%(?P<kind>[io])(?P<number>\d{1,4})[)\]]", re.MULTILINE)
+_MATRIX = re.compile(r"(?<!\w)matrix\((?=\s*\[)")
+_SHOWS = re.compile(r"[^\n=:]{1,80};[ \t]*+$", re.MULTILINE)
+"""What only shows something: eq1;"""
 _ASSIGNS = re.compile(rf"\s*+(?P<name>{_NAME})(?P<sign>[ \t]*+:)(?!=)")
-_SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|\(%i\d|In[ \t]?\[\d)", re.MULTILINE)
+_SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|[(\[]%i\d|In[ \t]?\[\d)", re.MULTILINE)
 _MAPLE = re.compile(r"^[ \t]*+>[ \t][^\n]*+$", re.MULTILINE)
 _TYPED = re.compile(r"^[ \t]*+>[ \t]++(?P<said>[^\n#]*?;[ \t]*+(?:#[^\n]*+)?$)", re.MULTILINE)
 """A statement of Maple behind its prompt."""
@@ -46,14 +49,26 @@ MOST_CALLS = 60
 
 def without_maxima(written: TracedText) -> TracedText:
     """Return an answer in which statements that are typed into Maxima end with semicolons and assign with =; the name
-    of an equation is left out."""
+    of an equation, and what only shows one, is left out. A matrix is one of SymPy."""
+    written = written.edited(_matrices(written.text))
     text, edits = written.text, list[Edit]()
     labels = list(islice(_LABEL.finditer(text), MOST))
     ends = [*(m.start() for m in labels[1:]), len(text)]
     for label, end in zip(labels, ends, strict=False):
-        if label["kind"] == "i":
+        shows = _SHOWS.match(text, label.end(), end) if label["kind"] == "i" else None
+        if shows is not None and text[end : end + 20].lstrip(" \t([").startswith(f"%o{label['number']}"):
+            edits.append((label.start(), shows.end(), ""))
+        elif label["kind"] == "i":
             edits += _typed(text, label.end(), end)
     return written.edited(edits)
+
+
+def _matrices(text: str) -> Iterator[Edit]:
+    """The edits that write matrix([a, b], [c, d]) as Matrix([[a, b], [c, d]])."""
+    for match in islice(_MATRIX.finditer(text), MOST):
+        if (end := closes(text, match.end() - 1)) > 0:
+            yield *match.span(), "Matrix(["
+            yield end, end, "]"
 
 
 def _typed(text: str, at: int, end: int) -> Iterator[Edit]:

@@ -6,7 +6,7 @@ diff(x(t), t$2)  diff(x(t), `$`(t, 2))  D(x)(t)  (D@@2)(x)(t)              diff(
 Derivative[2][x][t]  \\[Theta]  Subscript[m, 1]     x''  θ  m_1                          Mathematica
 D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
-m*D(D(x)) ~ F                                       m*x'' = F                            Julia
+m*D(D(x)) ~ F  Differential(t)(x(t))                m*x'' = F  x'                        Julia
 """
 
 from __future__ import annotations
@@ -35,7 +35,12 @@ _FIRST = re.compile(rf"(?<=[\w)'′])\.\s*diff\((?:{_T}(?:,\s*1\s*)?|\s*)\)")
 _ENERGY = re.compile(rf"(?<![\w.])(?P<of>T|V|L|D|ℒ)\.diff\(\s*(?P<by>{_NAME}(?:\(t\))?['’′]*)\s*\)")
 _TIMES = re.compile(r"(?<=[,(\s])t\s*\$\s*(?P<order>[12])(?=\s*[,)])")
 _SEQUENCE = re.compile(r"`\$`\(\s*t\s*,\s*(?P<order>[12])\s*\)")
-_OPERATOR = re.compile(rf"(?<!\w)(?:\(\s*D\s*@@\s*2\s*\)|(?P<once>D))\(\s*(?P<of>{_NAME})\s*\)\(\s*t\s*\)")
+_OPERATOR = re.compile(
+    rf"(?<!\w)(?:\(\s*D\s*@@\s*2\s*\)|`@@`\(\s*D\s*,\s*2\s*\)|(?P<once>D))\(\s*(?P<of>{_NAME})\s*\)\(\s*t\s*\)"
+)
+_JULIA = re.compile(
+    rf"(?P<outer>Differential\(t\)\()?Differential\(t(?:,\s*(?P<two>2))?\)\(\s*(?P<of>{_NAME})\(t\)\s*\)(?(outer)\))"
+)
 _FULL_FORM = re.compile(rf"\bDerivative\[(?P<order>[12])\]\[(?P<of>{_NAME})\](?:\[t\])?")
 _LONG_NAME = re.compile(r"\\\[(?P<capital>Capital)?(?P<letter>Curly(?:Theta|Phi|Epsilon)|[A-Z][a-z]{1,6})\]")
 _SUBSCRIPT = re.compile(r"\bSubscript\[\s*(?P<of>\w+|\\\[\w+\])\s*,\s*(?P<index>\w+)\s*\]")
@@ -110,6 +115,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
     written = written.sub(_OPERATOR, lambda m: m.group() if taken("D") else m["of"] + ("'" if m["once"] else "''"))
+    written = written.sub(_JULIA, lambda m: m["of"] + ("''" if m["outer"] or m["two"] else "'"))
     written = written.sub(_FULL_FORM, lambda m: m["of"] + "'" * int(m["order"]))
     written = (
         written.sub(_QUOTED, lambda m: "").sub(_TWO_LINES, lambda m: "_").sub(_EQUALS, lambda m: f"{m['left']} = ")
