@@ -86,7 +86,9 @@ MATLAB_TEX = Tex((r"\frac{{\partial }}{{\partial t}} {}\left(t\right)",
 MAPLE_TEX = Tex((r"\frac{{d}}{{d t}}{} \! \left(t \right)", r"\frac{{d^{{2}}}}{{d t^{{2}}}}{} \! \left(t \right)"),
                 r" \! \left(t \right)")  # fmt: skip
 MATHEMATICA_TEX = Tex(("{} '(t)", "{} ''(t)"), "(t)", names=r"\text{{{}}}")
-MAXIMA_TEX = Tex((r"{{{{d}}\over{{d\,t}}}}\,{}", r"{{{{d^2}}\over{{d\,t^2}}}}\,{}"), "", r"\,")
+MAXIMA_TEX = Tex(
+    (r"\left({{{{d}}\over{{d\,t}}}}\,{}\right)", r"\left({{{{d^2}}\over{{d\,t^2}}}}\,{}\right)"), "", r"\,"
+)
 
 SHAPES: dict[str, tuple[Callable[[sp.Eq], str], Shape]] = {
     "MATLAB, a row": (MATLAB.doprint, within("ans =\n \n[", "]")),
