@@ -206,3 +206,28 @@ $m_2 (\ddot{x}_1 + \ddot{z}) + k_2 z + k_3 (x_1 + z) + b \dot{z} = F$"""
     assert carts().check(text).right
     assert not carts().check(text.replace("Q_z = F -", "Q_z = F +")).right
     assert not carts().check(text.replace("$Q_{x_1} = F$", "$Q_{x_1} = -F$")).right
+
+
+VARIANTS = r"""\section*{Half a car}
+I count $z$ downwards ($z = -y$), and $\vartheta = -\theta$.
+\begin{align*}
+T &= \tfrac12 m \dot z^2 + \tfrac12 J\dot\vartheta^2\\
+V &= \tfrac12 k_1 (z + a\vartheta)^2 + \tfrac12 k_2 (z - b\vartheta)^2 - m g z\\
+Q_z &= -F - c(\dot z + a\dot\vartheta)\\
+Q_\vartheta &= F b - c a(\dot z + a\dot\vartheta)\\
+m\ddot z + c(\dot z + a\dot\vartheta) + k_1(z + a\vartheta) + k_2(z - b\vartheta) &= m g - F\\
+J\ddot\vartheta + c a(\dot z + a\dot\vartheta) + k_1 a(z + a\vartheta) - k_2 b(z - b\vartheta) &= b F
+\end{align*}
+"""
+
+
+def test_two_forms_of_a_letter_are_two_names_where_one_is_given_by_the_other() -> None:
+    found = beam().check(VARIANTS)
+    assert found.right, found.to_text()
+    for now, wrong in ((r"Q_\vartheta &= F b", r"Q_\vartheta &= -F b"), (r"(z - b\vartheta)^2", r"(z + b\vartheta)^2")):
+        assert now in VARIANTS and not beam().check(VARIANTS.replace(now, wrong)).right
+    same = VARIANTS.replace(r"$\vartheta = -\theta$", "no other angle").replace(r"\dot\vartheta", r"\dot\theta")
+    for now, other in (("z = -y", "z = y"), ("-F - c", "F - c"), ("F b -", "-F b -"), ("- m g z", "+ m g z")):
+        same = same.replace(now, other)
+    same = same.replace("m g - F", "F - m g").replace("&= b F", "&= -b F")
+    assert r"\theta" in same and r"\vartheta" in same and beam().check(same).right  # one letter in two forms

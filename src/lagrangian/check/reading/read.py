@@ -27,6 +27,7 @@ from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
+from lagrangian.check.reading.latex.variants import with_variants_apart
 from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import MULTIPLIERS, Lines
@@ -194,7 +195,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     remarks = without_side_remarks(text, model, lines.names.known)
     text = remarks.text if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
-    plain = _without_notations(typed, lines)
+    plain = with_variants_apart(_without_notations(typed, lines))
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
