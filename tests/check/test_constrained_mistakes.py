@@ -200,6 +200,14 @@ def test_what_follows_from_a_wrong_constraint_is_no_mistake(bob: lg.Derivation) 
     assert [f.follows for f in verdict.findings] == [False, False, False, True]
 
 
+@pytest.mark.parametrize("name", ["la", "La", "lam"])
+def test_a_short_name_between_a_number_and_a_sum_is_a_factor(trolley: lg.Derivation, name: str) -> None:
+    """That la is an article in French does not cut the equation."""
+    rows = f"M s'' + k s = -2 {name} (x - s)\nm x'' = 2 {name} (x - s)\nm y'' = 2 {name} y - m g"
+    assert trolley.check(rows).right
+    assert not trolley.check(rows.replace(f"= 2 {name} (x - s)", f"= 2 {name} (x + s)")).right
+
+
 def test_equations_that_stand_there_twice_are_no_other_ones(bob: lg.Derivation) -> None:
     rows = ROWS.replace("2 lambda y", "-2 lambda y")
     verdict = bob.check(f"x^2 - y^2 = l^2\nd/dt(m x') = 2 lambda x\nd/dt(m y') + m g = -2 lambda y\n\ni.e.\n{rows}")

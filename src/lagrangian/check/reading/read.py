@@ -49,7 +49,7 @@ from lagrangian.check.reading.programs.spellings import without_marks_of_latex, 
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, led_names
-from lagrangian.check.reading.prose.words_or_mathematics import LINKING, is_statement
+from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
@@ -84,6 +84,8 @@ _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{NAME}))")
+_COUNTED = re.compile(rf"(?<![\w.])\d{{1,3}}[ \t]+((?>{NAME}))[ \t]*\((?=[^()=\n]{{1,80}}[-+−])")
+"""A name between a number and a sum in brackets: 2 lam (x1 - x2)."""
 _PRIMED = re.compile(rf"(?<![\w/])((?>{NAME}))['’′″](?!s\b)")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{NAME}))")
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
@@ -363,6 +365,7 @@ def _words(lines: Lines, text: str) -> Words:
             own.setdefault(match[2])
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
+    used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.taken = frozenset(key(name) for name in own)

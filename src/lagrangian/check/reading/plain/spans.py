@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from lagrangian.check.reading.plain.tokens import TOKEN
 from lagrangian.check.reading.prose.words import Words, function_of
-from lagrangian.check.reading.prose.words_or_mathematics import ADDING, LINKING, moves
+from lagrangian.check.reading.prose.words_or_mathematics import ADDING, ARTICLES, LINKING, moves
 from lagrangian.records import dataclass
 
 MOST = 400
@@ -170,6 +170,8 @@ def _tokens(text: str, words: Words) -> list[_Token]:
 def _is_word(written: str, words: Words) -> bool:
     """Whether this is a word of a sentence: no name, no function and no product of names."""
     if words.is_name(written) or function_of(written) is not None or written in _CALLS:
+        return False
+    if written in ARTICLES and words.is_used(written):
         return False
     if written.lower() in LINKING and len(written) > 1 and not words.is_product(written):
         return True

@@ -131,6 +131,10 @@ class Words:
         """Whether the system or the answer has this name; energies do not count."""
         return bool(self.names.scope.meanings(word)[0]) or key(undotted(word)[0]) in self._own
 
+    def is_used(self, word: str) -> bool:
+        """Whether the answer uses a word as a name: with primes, next to an operator, or between a number and a sum."""
+        return key(word) in self._used
+
     def is_own(self, word: str) -> bool:
         """Whether the answer defines this name, and the system does not have it."""
         return key(word) in self._own and not self.names.scope.meanings(word)[0]

@@ -89,6 +89,8 @@ _LISTED = (
 )
 LINKING = frozenset(_LISTED.split())
 """Words of English, German and French that are seldom names."""
+ARTICLES = frozenset(["la", "le"])
+"""Those of them that are names where they are used as such: 2 la (x1 - x2)."""
 
 _MOST = 40
 """The largest number of words behind a statement."""
