@@ -149,6 +149,10 @@ def test_expressions_beside_every_generalized_force_are_left_hand_sides() -> Non
         assert not right(sheet.replace("F - b", "F + b"))
         assert not right(sheet.replace("6) Xi_x = F - b x'\n", ""))
         assert not right(sheet.replace("sin theta\n", "sin theta = 0\n"))
+        labelled = f"Step 5\n{rows}\nStep 6\n  x: F - b x'\n  theta: 0\nstep 5 = step 6"
+        assert right(labelled)
+        assert not right(labelled.replace("F - b", "F + b"))
+        assert not right(labelled.replace("theta: 0", "theta: F l"))
 
 
 def test_a_letter_e_of_the_answer_is_not_the_base_of_powers() -> None:

@@ -23,6 +23,7 @@ from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.indexed import counted_names, without_indices
+from lagrangian.check.reading.labelled_forces import with_labelled_forces
 from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
@@ -325,6 +326,8 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_stated_values(with_derivatives(with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]))), taken)
         said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
+        of = [c.name for c in lines.model.coordinates]
+        said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     bare = without_functions(said, [c.name for c in lines.model.coordinates])
     plain = without_programs(bare, names.changes, taken)
     if not _LATEX.search(plain.text):

@@ -1,0 +1,51 @@
+"""Right-hand sides that stand apart, below the left-hand sides, behind the same coordinates: steps 5 and 6.
+
+x: m x'' + k x          x: m x'' + k x
+y: m y''                y: m y''
+x: F - b x'             Xi_x = F - b x'
+y: 0                    Xi_y = 0
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+
+from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.read.letters import undotted
+
+_NAME = r"[^\W\d](?:\w|[\u0307\u0308]){0,24}+"
+_LABELLED = re.compile(
+    rf"^[ \t]*+(?:[-*•][ \t]++)?(?P<label>(?P<name>{_NAME})[ \t]*+:)(?P<value>[ \t]++[^=:;\n]{{1,400}}+)$", re.MULTILINE
+)
+_TWICE = re.compile(r"['’′]{2}|″|[\u0308ẍÿẅ¨]|ddot|dd\b")
+_WORD = re.compile(_NAME)
+
+
+def with_labelled_forces(
+    written: TracedText, coordinates: Callable[[str], Sequence[str]], known: Callable[[str], bool], count: int
+) -> TracedText:
+    """Return a plain text in which such right-hand sides are generalized forces.
+
+    ``coordinates`` are those that a name can mean, ``count`` is how many the system has, and ``known`` tells whether
+    the system has a name.
+    """
+
+    def is_read(word: str) -> bool:
+        stems = [undotted(word)[0], *(stem for _, stem in spelled_rates(word))]
+        return function_of(word) is not None or any(map(known, stems))
+
+    left, right = list[str](), list[re.Match[str]]()
+    for match in _LABELLED.finditer(written.text):
+        if len(meant := coordinates(match["name"])) != 1:
+            continue
+        if _TWICE.search(match["value"]):
+            left.append(meant[0])
+        elif left and all(map(is_read, _WORD.findall(match["value"]))):
+            right.append(match)
+    named = [coordinates(match["name"])[0] for match in right]
+    if not len(left) == len(named) == len(set(left)) == len(set(named)) == count:
+        return written
+    return written.edited([(*m.span("label"), f"Xi_{name} = ") for m, name in zip(right, named, strict=True)])
