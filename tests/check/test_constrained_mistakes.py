@@ -200,6 +200,13 @@ def test_what_follows_from_a_wrong_constraint_is_no_mistake(bob: lg.Derivation) 
     assert [f.follows for f in verdict.findings] == [False, False, False, True]
 
 
+def test_a_multiplier_is_read_with_the_signs_that_most_equations_agree_on(trolley: lg.Derivation) -> None:
+    verdict = trolley.check("M*s'' + k*s = -S*(x - s)/l\nm*x'' = -S*(x - s)/l\nm*y'' = -m*g - S*y")
+    assert [f.status.right for f in verdict.findings] == [False, True, False]
+    assert [(m.name, m.coordinate) for m in verdict.mistakes] == [("multiplier_sign", "s"), ("multiplier_factor", "y")]
+    assert str(verdict.mistakes[1].what).endswith("y/l belongs there.")
+
+
 @pytest.mark.parametrize("name", ["la", "La", "lam"])
 def test_a_short_name_between_a_number_and_a_sum_is_a_factor(trolley: lg.Derivation, name: str) -> None:
     """That la is an article in French does not cut the equation."""

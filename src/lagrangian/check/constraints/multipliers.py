@@ -80,7 +80,10 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     right, _ = min(fixed, key=lambda x: (len(x[0].mistakes) + x[1], x[1]), default=(None, 0))
     if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
         return right
-    found = _read(truth, lines, rows, possible[scores.index(max(scores))])
+    best = [k for k, x in enumerate(scores) if x == max(scores)]
+    if len(best) > 1:  # the signs that most equations agree on
+        best.sort(key=lambda k: -_signs(truth, exprs, possible[k], matches[k]))
+    found = _read(truth, lines, rows, possible[best[0]])
     if not found.mistakes:
         return found
     plain_ones = [k for k, x in enumerate(possible) if all(c in (1, -1) for _, c in x.values())]
@@ -127,6 +130,18 @@ def _against(truth: Reference, exprs: Sequence[sp.Expr], found: Sequence[_Match]
             ratio = bounded.cancel(expr.diff(c.acceleration) / right) if right != 0 else sp.S.Zero
             count += bool(ratio.is_number and ratio < 0)
     return count
+
+
+def _signs(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, found: Sequence[_Match]) -> int:
+    """How often a multiplier stands in a row with the right sign, whatever its factor."""
+    pairs = [
+        (cast("sp.Expr", expr.diff(s)) * c, _right(truth, match, x))
+        for expr, match in zip(exprs, found, strict=True)
+        for s, (x, c) in reading.items()
+    ]
+    compared = [(a, b) for a, b in pairs if a != 0 and b is not None and b != 0]
+    values = CompiledExpressions([y for pair in compared for y in pair]).at(truth.states) if compared else []
+    return sum(bool((a * b > 0).all()) for a, b in zip(values[::2], values[1::2], strict=True))
 
 
 def _is_odd(mistake: Mistake) -> bool:
