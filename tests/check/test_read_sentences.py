@@ -329,3 +329,15 @@ def test_a_name_of_the_system_is_never_split_in_latex() -> None:
     row = r"J \ddot\phi + \left(kt + k \tau\right) \phi{\left(t \right)} = 0"
     assert derived.check(row).right
     assert not derived.check(row.replace("kt", "k t")).right
+
+
+@pytest.mark.parametrize(
+    "written",
+    ["S = {left}\nwhere S = {right}", "{left} = S, where S is {right}.", "{left} = S with S being {right} and b > 0"],
+)
+def test_a_side_has_the_value_that_is_given_below_it(written: str) -> None:
+    left, right_side = "m L^2 theta''", "-b theta' - m g L sin theta"
+    answer = written.format(left=left, right=right_side)
+    pendulum = derivation("pendulum")
+    assert pendulum.check(answer).right
+    assert not pendulum.check(answer.replace("-b", "b")).right

@@ -123,8 +123,8 @@ class Lines:
 
     def _is_general(self, i: int, error: ParseError) -> bool:
         """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""
-        listed = [token for side in self._statements[i].sides for token, _ in names_in(side)]
-        new = [x for x in sorted(set(map(str, listed))) if not self._explains(x)]
+        listed = {str(token) for side in self._statements[i].sides for token, _ in names_in(side)}
+        new = [x for x in sorted(listed) if not self._explains(x)]
         if error.code != "E701" or not new:
             return False
         written = " ".join(self._statements[i].source.text.split())
@@ -148,15 +148,14 @@ class Lines:
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
         self._places = {i for i, s in enumerate(self._statements) if is_place(s, self.names)}
         self._made |= {i: [] for i in self._places}
-        first = [
-            None if i in self._places else self.subjects.turned(list(s.sides))[0]
-            for i, s in enumerate(self._statements)
-        ]
+        turned = [self.subjects.turned(list(s.sides)) for s in self._statements]
+        first = [None if i in self._places else subject for i, (subject, _) in enumerate(turned)]
         self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
         self._solved = {i for i, subject in defining if subject.order > 1}
-        for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0])):
-            _, same = self.subjects.sharing(subject, self.subjects.turned(list(self._statements[i].sides))[1])
+        ends = {i for i, _ in defining if any(map(self.subjects.accelerates, self._statements[i].sides))}
+        for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0] in ends, x[0])):
+            _, same = self.subjects.sharing(subject, turned[i][1])
             for token in (subject.token, *same):
                 self._waiting.setdefault(key(undotted(str(token))[0]), i)  # omega = theta' before omega' = …
         named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
@@ -206,9 +205,9 @@ class Lines:
             del self._waiting[base]
         before = set(self.names.unknown)
         lines = self.names.fitting(sides, read)
-        if all(line.kind == "statement" for line in lines):  # a general statement may use its own letters: ξ_i
-            for new in set(self.names.unknown) - before:
-                del self.names.unknown[new]
+        general = all(line.kind == "statement" for line in lines)  # it may use its own letters: ξ_i
+        for new in set(self.names.unknown) - before if general else ():
+            del self.names.unknown[new]
         self._made[i] = lines
         self.names.moving, self.names.matrices, self.names.statement = above
 
@@ -312,7 +311,7 @@ class Lines:
                 for n, x in zip(names, value, strict=True)
             ]
         self.names.define(token, value)
-        rates = {k for k, x in spelled_rates(str(token)) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
+        rates = {k for k, x in spelled_rates(token) if x in COLUMNS and not self.names.scope.meanings(x)[0]}
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
             pairs = zip([c.symbol.diff(time, 2) for c in self.model.coordinates], value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]

@@ -89,6 +89,13 @@ _VALUED = re.compile(
     r"(?P<value>[^\s,;=]{0,60}[-+*/^·²³(][^,;=\n]{0,200}?)(?P<end>[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
     re.MULTILINE | re.IGNORECASE,
 )
+_IS_VALUE = re.compile(
+    rf"(?<!\w)(?:with|where|and|mit|wobei|und)[ \t]++(?P<new>{_NAME})[ \t]++(?:is|being|denotes|means|ist|bezeichnet)"
+    r"[ \t]++(?P<value>[^\n;:=]{0,60}?[-−+*/^·²³(][^\n;:=]{0,200}?)"
+    rf"(?P<end>[ \t]*(?:;|\.(?=\s|$)|$|(?=,?[ \t]+(?:and|und|where|with|wobei|mit)[ \t]+{_NAME}[ \t])))",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name and its value: where N is -b theta' - m g L sin theta."""
 _IN_BRACKETS = re.compile(
     rf"(?<![\w.*/^+])(?P<new>{_NAME})(?:[ \t]*+(?::|=|,|\bis\b|\bdenotes\b)[ \t]++|[ \t]++)"
     rf"(?P<words>(?:{_WORD}[ \t]++){{1,6}})"
@@ -143,16 +150,16 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
     rate in brackets behind them."""
     written = _with_listed_states(written)
     edits: list[Edit] = []
-    for match in _VALUED.finditer(written.text):
-        names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
-        if names and all(map(taken, names)) and not any(map(taken, [match["new"], *match["words"].split()])):
-            edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
-            edits.append((*match.span("end"), ";"))
-    for form in (_IN_BRACKETS, _IS_RATE, _BY):
+    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _IS_RATE, _BY):
         for match in form.finditer(written.text):
             spoken = match.groupdict().get("words") or ""
             names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
-            if names and all(map(taken, names)) and not any(map(taken, [match["new"], *spoken.split()])):
+            if not names or not all(map(taken, names)) or any(map(taken, [match["new"], *spoken.split()])):
+                continue
+            if "end" in form.groupindex:  # a long value keeps its places
+                edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
+                edits.append((*match.span("end"), ";"))
+            else:
                 edits.append((*match.span(), f"; {match['new']} = {match['value']};"))
     return written.edited(apart(edits))
 
