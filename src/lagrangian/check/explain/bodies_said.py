@@ -17,6 +17,7 @@ from lagrangian import bounded
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quoted import letters_in
@@ -43,6 +44,8 @@ NOT_OF_BODIES = (
 )
 """Mistakes that are not made in the speed, the position or the inertia of a body."""
 LEFT_OUT = ("left_out_of_a_sum", "lost", "lost_in_a_sum", "not_squared")
+MOST_LACKING = 2
+"""The most terms that are added to what is written, to say what is right."""
 LONGEST = 60
 """The largest number of operations of such a definition."""
 
@@ -192,7 +195,7 @@ def _speeds(s: Ingredients, b: Any, said: sp.Expr) -> Found:
     m, v = s.expand(b.mass), s.velocity(b)
     right = sp.Add(*[x**2 for x in v])
     for square in (said**2, said):
-        words = (f"The square of the speed of {b.title} is ", right, ", not ", square, ".")
+        words = (f"The square of the speed of {b.title} is ", _beside(s, right, square), ", not ", square, ".")
         yield "speed", words, m * (square - right) / 2, 0
     for x in v:
         if x != 0:
@@ -202,6 +205,16 @@ def _speeds(s: Ingredients, b: Any, said: sp.Expr) -> Found:
         J, w = turning
         words = (f"The angular velocity of {b.title} is ", w, ", not ", said, ".")
         yield "turning", words, J * (said**2 - w**2) / 2, 0
+
+
+def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
+    """What is right, as what is written and the few terms that this lacks, if these are few: (h θ̇ + ṡ)² + s² θ̇²."""
+    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
+    try:
+        lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
+    except TooLong:
+        return right
+    return written + ring.expr(lacking) if len(lacking) <= MOST_LACKING else right
 
 
 def _positions(s: Ingredients, b: Any, said: sp.Expr) -> Found:
