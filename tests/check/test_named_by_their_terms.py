@@ -163,3 +163,17 @@ def test_a_wrong_definition_is_one_mistake() -> None:
     assert all(f.follows for f in verdict.findings if f.status is Status.WRONG and f.line.number > 1)
     assert shaft().check("delta = p/n - q\n" + rows.format("-")).right
     assert not shaft().check("delta = p/n + q\n" + rows.format("-")).right
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("(M+m)*x'", "the term l*m*cos(theta)*theta' is missing."),
+        (
+            "(M+m)*x' + m*l*sin(theta)*theta'",
+            "the term l*m*sin(theta)*theta' should be l*m*cos(theta)*theta'.",
+        ),
+    ],
+)
+def test_a_derivative_that_nothing_else_explains_is_told_by_its_terms(written: str, said: str) -> None:
+    assert first("cart-pole", f"dL/dx' = {written}").endswith(said)

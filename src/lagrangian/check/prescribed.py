@@ -107,6 +107,13 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     right = truth.expand(rate)
     what = text(rate, " is ", right, ", not ", right - line.expr, ".")
     if right.has(*(c.symbol for c in truth.model.coordinates)):
+        written = right - line.expr
+        if _is_negative(right) != _is_negative(written) and right + written != 0:  # a sense of its own
+            what = text("But for its sign, ", rate, " is ", -right, ", not ", written, ".")
         brief = text(f"What {base} is, is not right.")
         return Mistake("definition_wrong", what, WHY_DEFINED, 1, None, None, brief)
     return Mistake("prescribed_motion", what, WHY, 2, None, None, text("A prescribed motion is not right."))
+
+
+def _is_negative(expr: sp.Expr) -> bool:
+    return not isinstance(expr, sp.Add) and expr.could_extract_minus_sign()

@@ -20,6 +20,7 @@ from lagrangian.model import Definition
 
 KEPT = "definitions"
 """The first entry of the key of a reference with other definitions."""
+MOST_KEPT = 4
 Judge: TypeAlias = Callable[[Reference, Sequence[AnsweredLine]], Sequence[Finding]]
 
 
@@ -29,18 +30,23 @@ def follow_from_definitions(truth: Reference, findings: Sequence[Finding], judge
     wrong = {f.line.name: f for f in findings if f.line.kind == "identity" and f.status is Status.WRONG}
     table = {d.name: truth.expand(d.symbol) - wrong[d.name].line.expr for d in own if d.name in wrong}
     open_lines = [f for f in findings if f.status is Status.WRONG and f.line.name not in table]
-    if not table or not open_lines or (other := _redefined(truth, table)) is None:
+    if not table or not open_lines:
         return list(findings)
     lines = [f.line for f in findings if f.line.name not in table]
-    right = {id(f.line) for f in judge(other, lines) if f.status.right}
+    right: set[int] = set()
+    for sign in (1, -1):  # an angle may be counted in the other sense
+        other = _redefined(truth, {name: sign * x for name, x in table.items()})
+        found = {id(f.line) for f in judge(other, lines) if f.status.right} if other is not None else set[int]()
+        right = max(right, found, key=len)
     return [replace(f, follows=True) if id(f.line) in right and f in open_lines else f for f in findings]
 
 
 def _redefined(truth: Reference, table: Mapping[str, sp.Expr]) -> Reference | None:
-    """The reference of the system with other definitions; None if there is no such system. The last one is kept."""
+    """The reference of the system with other definitions; None if there is no such system. The last few are kept."""
     key = (KEPT, *table.items())
     if key not in truth.others:
-        truth.others = {k: x for k, x in truth.others.items() if not (isinstance(k, tuple) and k[0] == KEPT)}
+        for old in [k for k in truth.others if isinstance(k, tuple) and k[0] == KEPT][: 1 - MOST_KEPT]:
+            del truth.others[old]
         truth.others[key] = _made(truth, table)
     return truth.others[key]
 

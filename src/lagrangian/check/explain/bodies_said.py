@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import combinations
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -214,7 +214,9 @@ def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
         lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
     except TooLong:
         return right
-    return written + ring.expr(lacking) if len(lacking) <= MOST_LACKING else right
+    found = cast("sp.Expr", written + ring.expr(lacking))
+    shorter = len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
+    return found if len(lacking) <= MOST_LACKING and shorter else right
 
 
 def _positions(s: Ingredients, b: Any, said: sp.Expr) -> Found:

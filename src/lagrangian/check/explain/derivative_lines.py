@@ -18,7 +18,7 @@ from lagrangian.check.explain.own_terms import WHY, term_replaced
 from lagrangian.check.explain.term_said import REASON
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Mistake
+from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Finding, Mistake
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
 
@@ -29,6 +29,8 @@ RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
 RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
 """What a missing or wrong term of a derivative would also be called."""
+MOST_TERMS_TOLD = 2
+"""The largest number of terms of ∂L/∂ξ̇ that are told to be wrong."""
 LONGEST = 200
 """A derivative with more terms is not compared term by term."""
 
@@ -128,6 +130,21 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     if words.startswith("In "):
         what = text("In ", title, ": ", words[:1].lower() + words[1:], *others)
     return Mistake(name, what, WHY, 5, None, truth.model.coordinates[i].name, brief)
+
+
+def of_differences(finding: Finding) -> list[Mistake]:
+    """The terms in which ∂L/∂ξ̇ is wrong, if they are few, as one mistake."""
+    if finding.line.kind != "p" or not 0 < len(finding.differences) <= MOST_TERMS_TOLD:
+        return []
+    written = sp.Add(*[d.written for d in finding.differences])
+    right = sp.Add(*[d.term for d in finding.differences if d.kind != "extra"])
+    name, what = term_replaced(*map(sp.factor_terms, (written, right)))
+    if right == 0:
+        name, what = "term_too_much", text("The term ", written, " does not belong there.")
+    first, *more = what.parts
+    title = finding.line.title
+    said = text(f"In {title}, {str(first)[:1].lower()}{str(first)[1:]}", *more)
+    return [Mistake(name, said, WHY, 4, None, finding.coordinate, text(f"A term of {title} is not right."))]
 
 
 def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:

@@ -14,7 +14,12 @@ from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
 from lagrangian.check.explain.changes.pool import Pool, pool_of
-from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of
+from lagrangian.check.explain.derivative_lines import (
+    DERIVED,
+    against_derivatives,
+    of_derivative_of,
+    of_differences,
+)
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.line_mistakes import (
     MOST_TOLD,
@@ -87,7 +92,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
-    pool = pool_of(truth)
+    pool, judged = pool_of(truth), {id(f.line): f for f in findings}
     true = [f.line for f in findings if f.status.right]
     against = contradicted(pool, true, lines) | against_derivatives(pool, true)
     groups: list[list[Explanation]] = []
@@ -108,6 +113,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
                 found = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
                 found = found if found and found[0].cost <= EXOTIC else []
                 more = [] if found else [p.mistake for p in said]
+            more = more or (of_differences(judged[id(line)]) if not found else [])
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
             left += [] if found or more else [line]
@@ -133,6 +139,9 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
+    followers = [f for f in findings if f.follows and f.line.kind == "equation"]
+    if followers and not groups and not own and any(line.kind in DERIVED for line in left):
+        return mistakes(truth, lines, [replace(f, follows=False) if f in followers else f for f in findings])
     of_first, others = of_derivative_of(truth, wrong[0], lines, named.told, named.others)
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers

@@ -272,7 +272,9 @@ def _in_scale(site: Site, factor: sp.Expr | None) -> Site:
     """The site with the term that its words hold multiplied by ``factor``."""
     if factor is None or not (site.single and site.rows) or not isinstance(site.words[1], sp.Expr):
         return site
-    return replace(site, words=(site.words[0], bounded.expand(factor * site.words[1]), *site.words[2:]))
+    term = factor * site.words[1]
+    whole = term if factor in (1, -1) else bounded.expand(term)
+    return replace(site, words=(site.words[0], whole, *site.words[2:]))
 
 
 def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, Text]:

@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
-from lagrangian.check.explain.changes.change import LocalChange
+from lagrangian.check.explain.changes.change import LocalChange, Site
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import Mistake
@@ -39,7 +39,7 @@ PLAIN = (
 
 def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake) -> Mistake:
     """The mistake, told by the term of an equation that is wrong, if it shows as that alone."""
-    if under is None or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
+    if under is None or pool.truth.values or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
         return mistake
     term, times = found
     row = term.site.coordinate
@@ -58,7 +58,15 @@ def _is_plain(possible: Possible) -> bool:
     if possible.wrong is not None:
         return possible.wrong.name in PLAIN
     change = possible.change
-    return change is not None and change.kind == "part" and (change.site.single or change.site.step in (3, 6))
+    if change is None or change.kind != "part":
+        return False
+    site = change.site
+    return site.single or site.step in (3, 6) or (len(site.rows) == 1 and site.element is not None and _is_whole(site))
+
+
+def _is_whole(site: Site) -> bool:
+    """Whether a place in an equation is all that an element adds to it: "what gravity adds to the equation of φ"."""
+    return isinstance(site.words[0], str) and site.words[0].startswith("what ")
 
 
 def _term(pool: Pool, told: Told) -> tuple[LocalChange, Fraction] | None:
