@@ -132,9 +132,10 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     return Mistake(name, what, WHY, 5, None, truth.model.coordinates[i].name, brief)
 
 
-def of_differences(finding: Finding) -> list[Mistake]:
+def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mistake]:
     """The terms in which ∂L/∂ξ̇ is wrong, if they are few, as one mistake."""
-    if finding.line.kind != "p" or not 0 < len(finding.differences) <= MOST_TERMS_TOLD:
+    finding = next(f for f in findings if f.line is line)
+    if line.kind != "p" or not 0 < len(finding.differences) <= MOST_TERMS_TOLD:
         return []
     written = sp.Add(*[d.written for d in finding.differences])
     right = sp.Add(*[d.term for d in finding.differences if d.kind != "extra"])

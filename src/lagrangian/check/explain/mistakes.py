@@ -87,12 +87,23 @@ class NamedMistakes:
 def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
     """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
 
-    A mistake that would be visible in a line that is right is not considered.
+    A mistake that would be visible in a line that is right is not considered. If nothing explains a derivative, the
+    equations that follow from it are explained.
     """
+    named = _of_lines(truth, lines, findings)
+    derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
+    if named.told or not derived or not any(f.follows for f in findings):
+        return named
+    free = [replace(f, follows=f.follows and f.line.kind != "equation") for f in findings]
+    return _of_lines(truth, lines, free)
+
+
+def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
+    """The mistakes behind the wrong lines that do not follow from others."""
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
-    pool, judged = pool_of(truth), {id(f.line): f for f in findings}
+    pool = pool_of(truth)
     true = [f.line for f in findings if f.status.right]
     against = contradicted(pool, true, lines) | against_derivatives(pool, true)
     groups: list[list[Explanation]] = []
@@ -113,7 +124,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
                 found = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
                 found = found if found and found[0].cost <= EXOTIC else []
                 more = [] if found else [p.mistake for p in said]
-            more = more or (of_differences(judged[id(line)]) if not found else [])
+            more = more or (of_differences(line, findings) if not found else [])
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
             left += [] if found or more else [line]
@@ -139,9 +150,6 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
-    followers = [f for f in findings if f.follows and f.line.kind == "equation"]
-    if followers and not groups and not own and any(line.kind in DERIVED for line in left):
-        return mistakes(truth, lines, [replace(f, follows=False) if f in followers else f for f in findings])
     of_first, others = of_derivative_of(truth, wrong[0], lines, named.told, named.others)
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
