@@ -248,3 +248,11 @@ def test_an_energy_of_energies_without_values_is_told_if_it_says_more() -> None:
     verdict = cart().check(f"L = T - V + k x\n{CART}\n{BOB}")
     assert "'L = T - V + k x' was not judged: an energy in it has no value." in map(str, verdict.notes)
     assert not cart().check(f"L = T - V\n{CART}\n{BOB}").notes
+
+
+def test_letters_with_d_are_rates_of_what_moves_alone() -> None:
+    sheet = "kd = k/2\nF_ad = F_a - kd x\nmd = M + m\n" + CART.replace("(M+m)", "md")
+    sheet = sheet.replace("+ k x = F_a", "+ kd x = F_ad") + "\n" + BOB
+    assert accepted(sheet)
+    assert not accepted(sheet.replace("kd = k/2", "kd = k"))
+    assert accepted(f"{CART}\n{BOB}".replace("x''", "xdd").replace("theta'", "thetad").replace("thetad'", "thetadd"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import cast
 
@@ -107,7 +108,7 @@ class Subjects:
         order = len(primes or "") + dots
         if self.names.scope.meanings(token)[0]:
             return order
-        return order + max((k for k, stem in spelled_rates(base) if self.names.changes(stem)), default=0)
+        return order + max((k for k, stem in self._rates(base) if self.names.changes(stem)), default=0)
 
     def _new(self, subject: Subject) -> bool:
         """Whether a statement is the first to say what a name is."""
@@ -199,13 +200,21 @@ class Subjects:
     def _taken(self, token: Token) -> bool:
         """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
         scope = self.names.scope
-        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in spelled_rates(token))
+        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in self._rates(token))
+
+    def _rates(self, written: str) -> Iterator[tuple[int, str]]:
+        """The orders and names that a name can mean as a rate in letters: Fd and kd are names, as x and not F and k
+        has a rate, but Fdot is one."""
+        for order, stem in spelled_rates(written):
+            found = self.names.scope.meanings(stem)[0]
+            if "dot" in written or not found or self.names.scope[found[0]] in self.names.moving_symbols:
+                yield order, stem
 
     def _named(self, token: Token, primes: int, moving: bool) -> Subject | None:
         base, dots = undotted(token)
         order = primes + dots
         if not order and not self._taken(token):
-            order, base = next(((k, x) for k, x in spelled_rates(base) if self.names.changes(x)), (0, base))
+            order, base = next(((k, x) for k, x in self._rates(base) if self.names.changes(x)), (0, base))
         if order:
             if self._taken(token):
                 return None
