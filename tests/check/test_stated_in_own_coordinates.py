@@ -231,3 +231,10 @@ def test_two_forms_of_a_letter_are_two_names_where_one_is_given_by_the_other() -
         same = same.replace(now, other)
     same = same.replace("m g - F", "F - m g").replace("&= b F", "&= -b F")
     assert r"\theta" in same and r"\vartheta" in same and beam().check(same).right  # one letter in two forms
+
+
+def test_a_rate_of_a_coordinate_of_the_answers_own_does_not_follow_from_energies() -> None:
+    rows = """m*y'' + k1*(y + a*th) + k2*(y - b*th) + m*g = F - c*(y' + a*thd)
+J*theta'' + k1*a*(y + a*th) - k2*b*(y - b*th) = -b*F - c*a*(y' + a*thd)"""
+    found = beam().check(f"th = theta\nthd = theta'\n{rows}")
+    assert found.right and "energies" not in found.to_text()

@@ -17,7 +17,7 @@ from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reading import OwnCoordinates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
-from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Finding, Status
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
@@ -106,8 +106,7 @@ def judge(
     line = lines[k]
     i = index_of(truth, line.name)
     stated_for = _stated_for(truth, lines, line, change)
-    own = line.kind in OWN_SLOPES or (line.kind == "identity" and bool(stated_for))
-    stated_for = stated_for if line.kind in OF_COORDINATES else []
+    own = line.kind in OWN_DERIVATIVES
     rights = [_of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi)) for by in stated_for]
     right = rights[0] if rights else right_value(truth, line, None)
     if right is None:
@@ -116,7 +115,7 @@ def judge(
     rest = line.expr - right
     if zero_everywhere(truth, rest):
         return Finding(line, Status.RIGHT, text("it follows from the energies above") if own else None, coordinate)
-    if line.kind == "identity" and line.name is not None and not own:
+    if line.kind == "identity" and line.name is not None:
         return Finding(line, Status.WRONG)
     if own:
         return Finding(line, Status.WRONG, text("it is not the derivative of what is stated above"), coordinate)
@@ -152,7 +151,7 @@ def _stated_for(
     truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine, change: OwnCoordinates | None
 ) -> list[By]:
     """What a line states a quantity for: a coordinate of the system, and one of the answer's with the same name."""
-    if line.kind not in (*OF_COORDINATES, "identity"):
+    if line.kind not in OF_COORDINATES:
         return []
     i, name = index_of(truth, line.name), key(line.name or "")
     found = [(_system(truth), name)] if i is not None and change is None else []
@@ -230,7 +229,7 @@ def right_value(truth: Reference, line: AnsweredLine, i: int | None) -> sp.Expr 
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
     if line.kind == "D":
         return dissipation(truth)
-    if line.kind in ("identity", *OWN_SLOPES):
+    if line.kind in ("identity", *OWN_DERIVATIVES):
         return sp.S.Zero
     if i is None or line.kind not in OF_COORDINATES:
         return None

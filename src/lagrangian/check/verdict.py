@@ -32,7 +32,8 @@ class Status(StrEnum):
 
 
 OWN_SLOPES = ("T-rate", "T-slope", "V-slope", "D-slope")
-"""The kinds of lines that give derivatives of the answer's own T*, V and D."""
+"""The kinds of lines that give derivatives of the answer's own T*, V and D that equations add up."""
+OWN_DERIVATIVES = ("T-p", *OWN_SLOPES)
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ LONGEST = 60
 """The largest number of operations of such a relation."""
 
 _STATES = frozenset(
-    ["equation", "identity", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "given", "definition"]
+    ["equation", "identity", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "T-p", "given", "definition"]
 )
 
 

@@ -21,6 +21,7 @@ Kind: TypeAlias = Literal[
     "p-rate",
     "slope",
     "left",
+    "T-p",
     "T-rate",
     "T-slope",
     "V-slope",
@@ -38,6 +39,7 @@ Kind: TypeAlias = Literal[
     Xi          the generalized force Ξ of the coordinate ``name``
     p           ∂L/∂ξ̇ of the coordinate ``name``;  p-rate: d/dt ∂L/∂ξ̇;  slope: ∂L/∂ξ
     left        d/dt ∂L/∂ξ̇ − ∂L/∂ξ of the coordinate ``name``, worked out
+    T-p         ∂T*/∂ξ̇ of the answer's own T*, for the coordinate ``name``
     T-rate      d/dt ∂T*/∂ξ̇ of the answer's own T*; T-slope: ∂T*/∂ξ, V-slope: ∂V/∂ξ, D-slope: ∂D/∂ξ̇, of its own V and
                 D: what the equation of the coordinate ``name`` has too much by it
     definition  a name of the person's own, or a coordinate of the model in new ones

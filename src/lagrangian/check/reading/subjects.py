@@ -236,12 +236,12 @@ class Subjects:
             found = self._added_by(side)
             if found is not None and not is_general(own - value):
                 kind, name = found
-                left, right = (own, value) if kind in ("identity", "T-slope") else (value, own)
+                left, right = (own, value) if kind in ("T-p", "T-slope") else (value, own)
                 return kind, left, right, name
         return None
 
     def _added_by(self, side: Node) -> tuple[Kind, str] | None:
-        """Which derivative a side is, and of which coordinate; ∂T*/∂ξ̇ itself adds to no equation: an identity."""
+        """Which derivative a side is, and of which coordinate; ∂T*/∂ξ̇ itself adds to no equation."""
         side, rate = inside(side), False
         if isinstance(side, Tree) and side.data == "rate" and side.children[1] == 1:
             side, rate = inside(side.children[0]), True
@@ -251,7 +251,7 @@ class Subjects:
         if rate:
             return ("T-rate", by[0]) if of == ("T", 1) else None
         kinds: dict[tuple[str, int], Kind] = {
-            ("T", 1): "identity",
+            ("T", 1): "T-p",
             ("T", 0): "T-slope",
             ("V", 0): "V-slope",
             ("D", 1): "D-slope",
