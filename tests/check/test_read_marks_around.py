@@ -27,6 +27,8 @@ ANSWERS = [
     f">> S = solve([eq1, eq2], [xdd, thdd]);\n>> simplify(S.xdd)\n \nans =\n \n{CART_SOLVED}\n \n>> S.thdd\n \nans ="
     f"\n \n{POLE_SOLVED}\n \n% xdd = x'', thdd = theta''",
     f"{CART}\n{POLE}\nPower of the force: P = F x'",
+    f"{CART}  q.e.d.\n{POLE}, Q.E.D.",
+    f"{CART} (w.z.b.w.)\n{POLE}. ∎",
     f"{KINETIC}\n(d/dt)(dT/dx') = (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta\n{CART}\n{POLE}",
 ]
 

@@ -94,6 +94,14 @@ def test_equations_in_numbers_behind_the_same_in_letters_are_judged_with_values(
     assert verdict.mistakes
 
 
+def test_values_of_a_list_and_the_value_of_the_system_for_a_letter_in_no_list_are_put_in_together() -> None:
+    sheet = (
+        "m = 0,5 kg; L_0 = 0,6 m; k = 30 N/m\n" + SPRING.replace(" - 0,5 r θ'^2", " - m r θ'^2").split("\n0,5 r^2")[0]
+    )
+    assert right(f"{sheet}\n0,5 r^2 θ'' + r r' θ' + 4,905 r sin θ = 0", "elastic-pendulum")
+    assert not right(f"{sheet}\n0,5 r^2 θ'' + r r' θ' + 4,9 r sin θ = 0", "elastic-pendulum")
+
+
 MOTOR = (
     "{0} = 1/2 L q'^2\nT = 1/2 (J + m l^2) theta'^2\nV = -m g l cos theta\nL q'' + R q' + K theta' = u\n"
     "(J + m l^2) theta'' + m g l sin theta = K q' - b theta'"

@@ -112,6 +112,8 @@ def _valued(
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE:
         return verdict
+    if (listed := _with_all_values(truth, lines, hint, explain=explain)) is not None:
+        return listed
     if (beside := with_numbers_beside(truth, written, partial(_alone, hint=hint, explain=explain))) is not None:
         return beside
     if not values:
@@ -126,6 +128,14 @@ def _valued(
         note = text("It would be right with ", *ones[:-1], " = 1; a letter that is given must be written.")
         return replace(verdict, notes=(*verdict.notes, note))
     return verdict
+
+
+def _with_all_values(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, explain: bool) -> Verdict | None:
+    """The verdict on an answer that lists values, with those of the system for what it does not list, as 15.696 for
+    m g c where g is in no list; None if it is not right so, or if it lists none."""
+    more = {p: v for p, v in values_of(truth, ()).items() if v != 1} if truth.values else {}
+    put = _put(truth, lines, more, hint, explain=explain) if more else None
+    return put if put is not None and put.right else None
 
 
 def _alone(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:

@@ -28,6 +28,19 @@ _TEX = re.compile(r"\\[A-Za-z]")
 _DELIMITED = re.compile(r"\\[\[(]|\$|\\begin\{(?:equation|align|gather|cases)")
 _OVER = re.compile(r"\\over(?![A-Za-z])")
 
+_PROVED = re.compile(
+    r"[ \t,.;]{0,9}(?:∎|□|■|\\(?:qed|blacksquare|square|Box)(?![A-Za-z]))[ \t.]{0,9}$"
+    r"|(?<!\w)[,.;]?[ \t]{0,9}(?:[(\[])?(?:[qQ]\.[ ]?[eE]\.[ ]?[dD]\.?|[wW]\.[ ]?[zZ]\.[ ]?[bB]\.[ ]?[wW]\.?"
+    r"|Q\.?E\.?D\.?|qed|wzbw|WZBW)[)\]]?[ \t.!]{0,9}$",
+    re.MULTILINE,
+)
+"""What says at the end of a line that something is proved: q.e.d., w.z.b.w., ∎."""
+
+
+def without_proved(written: TracedText) -> TracedText:
+    """Return an answer without q.e.d. and its like, which are no part of the equation in front of them."""
+    return written.sub(_PROVED, lambda m: "")
+
 
 def without_copying(written: TracedText) -> TracedText:
     """Return an answer in which these marks are as they were before it was copied."""

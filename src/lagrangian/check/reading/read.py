@@ -13,7 +13,7 @@ from lagrangian.check.reading.arguments import dependents, with_own_functions
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
-from lagrangian.check.reading.copied import without_copying
+from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
@@ -295,7 +295,9 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
 
     commands: list[int] = []
     typed_in = without_crossed_out(
-        without_terminators(without_maxima(with_drawn_pieces(with_tall_brackets(without_copying(TracedText(text)))))),
+        without_terminators(
+            without_maxima(with_drawn_pieces(with_tall_brackets(without_copying(without_proved(TracedText(text))))))
+        ),
         names.notes,
     )
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(typed_in))))
