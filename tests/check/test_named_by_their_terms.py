@@ -10,6 +10,7 @@ import sympy as sp
 import lagrangian as lg
 from built_in import derivation
 from lagrangian.check.verdict import Status
+from lagrangian.model import time
 
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2 = F"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"
@@ -56,6 +57,30 @@ def test_a_wrong_derivative_is_told_by_its_term_and_one_that_is_right_is_no_caus
     assert [f.line.number for f in verdict.findings if f.status is Status.WRONG and not f.follows] == [4]
     assert str(verdict.mistakes[0].what) == "In ∂T*/∂theta, the term -l*m*sin(theta)*theta'*x' is missing."
     assert len(verdict.mistakes) == 1
+
+
+@cache
+def shaken() -> lg.Derivation:
+    """A pendulum with a spring, whose support moves as a sin(w t)."""
+    s = lg.System("shaken")
+    r, theta = s.coordinates("r theta")
+    m, k, a, w = s.parameters("m k a w")
+    support = s.point("A", (a * sp.sin(w * time), 0))
+    s.particle(m, at=s.point("B", (r * sp.sin(theta), -r * sp.cos(theta)), relative_to=support))
+    s.spring(k, deflection=r)
+    return s.derive()
+
+
+def test_a_kinetic_energy_with_an_index_is_that_of_derivatives_and_a_wrong_function_of_time_is_told() -> None:
+    verdict = shaken().check(
+        "d^2/dt^2 (a sin(w t)) = -a w^2 cos(w t)\nT_rel = m (r'^2 + r^2 theta'^2)/2\nd/dt(dT/dr') = m r''\n"
+        "d/dt(dT/dtheta') = m r^2 theta''\ndT/dr = m r theta'^2\n"
+        "m r'' - m r theta'^2 + k r = m a w^2 cos(w t) sin(theta)"
+    )
+    assert [f.status is Status.WRONG for f in verdict.findings] == [True, False, True, False, True]
+    assert str(verdict.mistakes[0].what) == "In line 1, a*w^2*cos(t*w) is not the same as a*w^2*sin(t*w)."
+    assert any("2*m*r*r'*theta' is missing" in str(m.what) for m in verdict.mistakes[:2])
+    assert not any("T_rel" in str(note) and "not judged" in str(note) for note in verdict.notes)
 
 
 @pytest.mark.slow

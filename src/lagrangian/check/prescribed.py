@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
@@ -17,12 +18,19 @@ from lagrangian.model import time
 from lagrangian.page.formula import text
 
 WHY = text("Differentiate by time with the chain rule: the inner derivative, such as Ω in sin Ωt, is a factor.")
+WHY_FUNCTIONS = text(
+    "The derivative of a sine is the cosine, that of a cosine minus the sine, times the inner derivative."
+)
+FUNCTIONS = "functions of time"
+"""The name of a line that equates them."""
 WHY_DEFINED = text("Move one coordinate alone and hold the others: by how much does it change, and in which direction?")
 
 
 def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     """An equation that only says what a prescribed motion of the system or its rate is, as an identity with the name of
     this, z or z', which is the right less what is written; as a statement if it is right. Others as they are."""
+    if _equates_functions(truth, line):
+        return replace(line, kind="identity", name=FUNCTIONS)
     own = [d.symbol for d in truth.model.definitions if d.moving and line.expr.has(d.symbol)]
     if line.kind != "equation" or len(own) != 1:
         return line
@@ -95,10 +103,23 @@ def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:
     return number if number.is_number and number != 0 else None
 
 
+def _equates_functions(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line wrongly equates functions of time alone: d²/dt² (a sin Ωt) = a Ω² cos Ωt."""
+    if line.kind != "equation" or not line.expr.has(time) or line.expr.atoms(AppliedUndef):
+        return False
+    known = line.expr.free_symbols <= {p.symbol for p in truth.model.parameters} | {time}
+    return known and not zero_everywhere(truth, line.expr)
+
+
 def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
     """What is wrong in a line on a prescribed motion; None for any other line."""
     if line.kind != "identity" or line.name is None:
         return None
+    if line.name == FUNCTIONS:
+        first, *rest = sp.Add.make_args(bounded.expand(line.expr))
+        what = text(f"In line {line.number}, ", first, " is not the same as ", -sp.Add(*rest), ".")
+        brief = text(f"What line {line.number} equates is not equal.")
+        return Mistake("prescribed_motion", what, WHY_FUNCTIONS, 2, None, None, brief)
     base, order = line.name.rstrip("'"), line.name.count("'")
     symbols: list[Any] = [d.symbol for d in truth.model.definitions if str(d.symbol.func) == base]
     if not symbols:

@@ -20,7 +20,7 @@ from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.check.reading.shortened import AnswerScope
-from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate
+from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate, own_kinetic
 from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
@@ -256,6 +256,12 @@ class Names:
         """An energy as stated so far; the Lagrangian also from T* and V."""
         if kind == "L" and "L" not in self.stated and {"T", "V"} <= self.stated.keys():
             return self.stated["T"] - self.stated["V"]
+        if kind == "T" and "T" not in self.stating and (base := own_kinetic(self.own)) is not None:
+            name, value = self.mine(base) or (base, None)
+            for note in [x for x in self.notes if x.endswith(f"nothing else uses {name}.")]:
+                del self.notes[note]
+            self.notes.setdefault(f"T was read as {name}: no line states T.")
+            return value
         return self.stated.get(kind)
 
     def coordinates(self) -> OwnCoordinates | None:

@@ -7,7 +7,10 @@ parameter already has its value; everywhere else L means what the model says.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import sympy as sp
 
 from lagrangian.model import Model
 from lagrangian.read.letters import find, key, normal, spelled
@@ -38,6 +41,7 @@ _CAREFUL = frozenset(["K", "P", "R", "U"])
 """Letters that are read as an energy only if a line states them."""
 
 _FORCE = re.compile(r"(?P<letter>Xi|Q|tau)_?\(?(?P<index>\w*)\)?\Z")
+_OF_T = re.compile(r"T_?[A-Za-z]\w{0,12}")
 _MOMENTUM = re.compile(r"p_?(?P<index>\w+)\Z")
 
 
@@ -53,6 +57,19 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
         return kind
     constants = {p.name for p in model.parameters}
     return kind if lhs and taken[0] in constants else None
+
+
+def own_kinetic(own: Mapping[str, tuple[str, Any]]) -> str | None:
+    """Return the one name of an answer's own, with its values by their keys, that is a T with an index and has squares
+    of rates: T_rel = m x'^2/2; None if there is none, or more than one."""
+    found = [base for base, (_, value) in own.items() if _OF_T.fullmatch(base) and _is_kinetic(value)]
+    return found[0] if len(found) == 1 else None
+
+
+def _is_kinetic(value: Any) -> bool:
+    rates = value.atoms(sp.Derivative) if isinstance(value, sp.Expr) else set[Any]()
+    squares = isinstance(value, sp.Expr) and any(value.has(r**2) for r in rates)
+    return squares and all(r.derivative_count == 1 for r in rates)
 
 
 def force_of(name: str, model: Model, *, named: bool = False) -> str | None:
