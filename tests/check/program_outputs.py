@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
+from pprint import pformat
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -80,6 +82,8 @@ MAPLE = Line(("(diff({}(t), t))", "(diff(diff({}(t), t), t))"))
 OPERATORS = Line(("D({})(t)", "`@@`(D, 2)({})(t)"))
 MAXIMA = Line(("'diff({},t,1)", "'diff({},t,2)"), of_time="")
 MATHEMATICA = Line(("Derivative[1][{}][t]", "Derivative[2][{}][t]"), " == ", "[t]", "[]")
+MATHEMATICA_SHOWN = Line((r"({}^\[Prime])[t]", r"({}^\[Prime]\[Prime])[t]"), " == ", "[t]", "[]")
+MATHEMATICA_DOTS = Line(("OverDot[{}][t]", "OverDot[{}, 2][t]"), " == ", "[t]", "[]")
 JULIA = Line(("Differential(t)({}(t))", "Differential(t)(Differential(t)({}(t)))"), " ~ ")
 MATLAB_TEX = Tex((r"\frac{{\partial }}{{\partial t}} {}\left(t\right)",
                   r"\frac{{\partial ^2}}{{\partial t^2}} {}\left(t\right)"), r" \left(t\right)", r"\,")  # fmt: skip
@@ -102,6 +106,8 @@ SHAPES: dict[str, tuple[Callable[[sp.Eq], str], Shape]] = {
     "Maxima, TeX": (MAXIMA_TEX.doprint, each("$${0}$$")),
     "Mathematica, TeXForm": (MATHEMATICA_TEX.doprint, within(r"$$\left\{", r"\right\}$$", ",")),
     "Mathematica, InputForm": (MATHEMATICA.doprint, within("Out[5]//InputForm=\n{", "}")),
+    "Mathematica, StandardForm": (MATHEMATICA_SHOWN.doprint, within("Out[5]= {", "}")),
+    "Mathematica, dots": (MATHEMATICA_DOTS.doprint, lines),
     "Julia": (JULIA.doprint, lines),
     "SymPy, LaTeX of a list": (sp.latex, within(r"$\displaystyle \left[ ", r"\right]$", r", \  ")),
     "a conversation, shown": (vlatex, each("[\n{0}\n]")),
@@ -122,6 +128,10 @@ def solutions(equations: Sequence[sp.Eq], accelerations: Sequence[sp.Expr]) -> d
     return {
         "SymPy, a solution": str(found),
         "SymPy, LaTeX of a solution": f"$\\displaystyle {sp.latex(found[0])}$",
+        "Python, a dictionary": pformat({str(a.args[0].func): e for a, e in zip(accelerations, left, strict=True)}),
+        "JSON": json.dumps(
+            {str(a.args[0].func): f"{vsprint(e)} = 0" for a, e in zip(accelerations, left, strict=True)}
+        ),
         "Maxima, a matrix": f"(%o3) matrix({','.join(f'[{MAXIMA.doprint(x)}]' for x in left)})",
         "Mathematica, sides": f"{{{', '.join(map(MATHEMATICA.doprint, left))}}} == {{{zeros}}}",
     }

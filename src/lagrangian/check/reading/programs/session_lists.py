@@ -3,6 +3,7 @@
 eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
+{'x': m*x'' - F, 'phi': J*phi'' - M}           m*x'' - F = 0⏎ J*phi'' - M = 0          also {"x": "m*x'' = F"}
 {a, b} == {c, d}                               a = c⏎ b = d
 \\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX, also with [ ]
 """
@@ -26,6 +27,10 @@ _SETS = (re.compile(r"(?P<opens>\\left\s?\\\{)|\\right\s?\\\}"), re.compile(r"(?
 _SOLVED = re.compile(r"(?:\\[ ,;:!]\s*+)?\\(?:ddot(?![a-z])|frac\s?\{d\^)[^:=]{1,80}:")
 """A second derivative in LaTeX and a colon, as SymPy prints a solution."""
 _SIDE = re.compile(r"\s*+={1,2}\s*+\{")
+_KEY = re.compile(
+    rf"(?:(?P<quote>['\"])(?P<name>[^\"\n:]{{1,60}}?)(?P=quote)|(?P<bare>{_NAME}))[ \t]*+:(?!=)\s*+(?=\S)"
+)
+"""The name of an entry in a dictionary of Python or JSON."""
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -72,21 +77,34 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     close = closes(text, match.end() - 1)
     if match["open"] == "{" and (other := _SIDE.match(text, close + 1, end)) is not None:
         yield from _side_by_side(text, start, match.end(), close, other.end(), end)
-    if close < 0 or text[close + 1 : end].strip(" \t\n;,.") != (")" if match["call"] else ""):
+    if close < 0 or text[close + 1 : end].partition("#")[0].strip(" \t\n;,.") != (")" if match["call"] else ""):
         return
     name = match["name"]
     if name is not None and len(re.findall(rf"(?<!\w){name}(?!\w)", text)) > 1:
         return
     spans = list(_inner(text, _entries(text, match.end(), close)))
     written = [text[a:b] for a, b in spans]
+    keys = [_KEY.match(x) for x in written] if match["open"] == "{" else []
     maps = [_MAPS.search(x) for x in written]
-    if written and all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
+    if keys and all(key is not None and not is_acceleration(key["name"] or key["bare"]) for key in keys):
+        yield from _called(
+            text, start, close + 1, [(a + key.end(), b) for (a, b), key in zip(spans, keys, strict=True) if key]
+        )
+    elif written and all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
         yield from _listed(text, start, end, spans, "")
         yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
     elif match["open"] != "{" and len(spans) > (0 if match["call"] else 1):
         if any("=" in x or "Eq(" in x for x in written) or not any(map(carries, written)):
             return
         yield from _listed(text, start, end, spans, " = 0")
+
+
+def _called(text: str, start: int, end: int, values: Sequence[tuple[int, int]]) -> Iterator[Edit]:
+    """The edits that leave the entries of a dictionary with names of equations; what is no equation is zero."""
+    values = [(a + 1, b - 1) if text[a] == text[b - 1] == '"' else (a, b) for a, b in values]
+    stated = ["=" in text[a:b] or "Eq(" in text[a:b] for a, b in values]
+    if any(carries(text[a:b]) for a, b in values) and (all(stated) or not any(stated)):
+        yield from _listed(text, start, end, values, "" if all(stated) else " = 0")
 
 
 def _side_by_side(text: str, start: int, first: int, last: int, other: int, end: int) -> Iterator[Edit]:

@@ -3,7 +3,7 @@
 np.sin(x)  sp.Rational(1, 2)  Math.pow(x, 2)        sin(x)  ((1)/(2))  ((x)^(2))         NumPy, SymPy, JavaScript
 x.diff(t, 2)  x(t).diff(t).diff(t)  L.diff(x')      x''  x''  diff(L, x')                SymPy
 diff(x(t), t$2)  diff(x(t), `$`(t, 2))  D(x)(t)  (D@@2)(x)(t)              diff(x(t), t, 2)  x'  x''            Maple
-Derivative[2][x][t]  \\[Theta]  Subscript[m, 1]     x''  θ  m_1                          Mathematica
+Derivative[2][x][t]  (x^\\[Prime])[t]  \\[Theta]     x''  x'  θ                            Mathematica
 D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
 m*D(D(x)) ~ F  Differential(t)(x(t))                m*x'' = F  x'                        Julia
@@ -43,6 +43,13 @@ _JULIA = re.compile(
 )
 _FULL_FORM = re.compile(rf"\bDerivative\[(?P<order>[12])\]\[(?P<of>{_NAME})\](?:\[t\])?")
 _LONG_NAME = re.compile(r"\\\[(?P<capital>Capital)?(?P<letter>Curly(?:Theta|Phi|Epsilon)|[A-Z][a-z]{1,6})\]")
+_ONE_NAME = rf"(?:\\\[\w+\]|{_NAME})"
+_RAISED = re.compile(
+    rf"(?:\([ \t]?(?P<of>{_ONE_NAME})[ \t]?\^[ \t]?|Superscript\[[ \t]?(?P<in>{_ONE_NAME})[ \t]?,[ \t]?)"
+    r"(?P<primes>(?:\\\[Prime\][ \t]?){1,2}|(?:\\\[DoublePrime\]))[ \t]?(?(of)\)|\])(?:\[t\])?"
+)
+"""How Mathematica shows a rate as text: (x^\\[Prime]\\[Prime])[t]."""
+_OVER = re.compile(rf"\bOverDot\[\s*(?P<of>{_ONE_NAME})\s*(?:,\s*(?P<two>2)\s*)?\](?:\[t\])?")
 _SUBSCRIPT = re.compile(r"\bSubscript\[\s*(?P<of>\w+|\\\[\w+\])\s*,\s*(?P<index>\w+)\s*\]")
 _QUOTED = re.compile(r"(?<![\w)\]'’′])['%](?=[dD]iff\()")
 _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
@@ -91,9 +98,11 @@ def without_marks_of_latex(written: TracedText) -> TracedText:
     """Return an answer without what is LaTeX nowhere but looks like it: \\[Theta], Subscript[m, 1] of Mathematica,
     diff(x(t), t$2) of Maple."""
     written = written.sub(_SEQUENCE, lambda m: f"t, {m['order']}").sub(_TIMES, lambda m: f"t, {m['order']}")
+    written = written.sub(_OVER, _primed)
     if "\\[" not in written.text:
         return written
-    return written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_LONG_NAME, _letter)
+    written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}").sub(_RAISED, _primed)
+    return written.sub(_LONG_NAME, _letter)
 
 
 def without_programs(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
@@ -129,6 +138,13 @@ def _is_mixed(text: str) -> bool:
     words = {m["word"] for m in _COMMAND.finditer(text)}
     few = words and all(word in ("dot", "ddot") or word in _GREEK for word in words)
     return bool(few) and not re.search(r"[${}]|\\[^A-Za-z]", text) and _PLAIN_CALL.search(text) is not None
+
+
+def _primed(match: re.Match[str]) -> str:
+    """(x^\\[Prime]\\[Prime])[t] and OverDot[x, 2][t] as x''."""
+    named = match.groupdict()
+    twice = named.get("two") or named.get("primes", "").count("Prime") > 1 or "Double" in named.get("primes", "")
+    return f"{named['of'] or named['in']}{chr(39) * (2 if twice else 1)}"
 
 
 def _letter(match: re.Match[str]) -> str:
