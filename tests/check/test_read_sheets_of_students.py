@@ -167,3 +167,31 @@ def test_a_letter_e_of_the_answer_is_not_the_base_of_powers() -> None:
     sheet = rf"With $e = y - x$, \begin{{align}} V &= \frac{{1}}{{2}} k e^2 \\ {rows} \end{{align}}"
     assert d.check(sheet).right
     assert not d.check(sheet.replace("e^2", "e^3")).right
+
+
+@pytest.mark.parametrize(
+    ("legend", "first", "second"),
+    [
+        ("D1 = first time derivative, D2 = second.", "D1{}", "D2{}"),
+        ("Y1 is d/dt, Y2 is d^2/dt^2", "Y1({})", "Y2({})"),
+        ("x: cart   w behind a name = d/dt, ww = d^2/dt^2", "{}w", "{}ww"),
+    ],
+)
+def test_a_legend_of_derivatives_is_read(legend: str, first: str, second: str) -> None:
+    def written(name: str, text: str) -> str:
+        return text.replace(f"{name}''", second.format(name)).replace(f"{name}'", first.format(name))
+
+    rows = written("x", written("theta", f"{CART}\n{POLE}"))
+    assert right(f"{legend}\n\n{rows}")
+    assert not right(f"{legend}\n\n{rows.replace(first.format('theta'), second.format('theta'))}")
+
+
+def test_letters_in_a_group_are_read_though_one_ends_a_side() -> None:
+    rows = f"{CART}\n{POLE}".replace("theta", "P").replace("x", "Y")
+    assert right(f"Y, P stand for x and theta.\n\n{rows}")
+
+
+@pytest.mark.parametrize("combined", ["cos * (horizontal) + sin * (vertical):", "sin(theta)·(1) - cos(theta)·(2):"])
+def test_a_line_that_says_how_equations_are_combined_stops_nothing(combined: str) -> None:
+    assert right(f"{CART}\n{combined}\n   {POLE}")
+    assert not right(f"{CART}\n{combined}\n   2 {POLE}")

@@ -53,6 +53,7 @@ from lagrangian.check.reading.prose.words import Words, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.renamed import renamed, restored
+from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.stands_for import (
@@ -308,6 +309,8 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
+    if not _LATEX.search(session.text):
+        session = with_derivative_legends(session, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed), taken)

@@ -19,6 +19,7 @@ from lagrangian.check.reading.labels import (
 )
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.remarks import is_remark
 from lagrangian.check.reading.prose.sketches import without_sketches
@@ -118,7 +119,7 @@ _BETWEEN = re.compile(
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_headings(_STARRED.sub("T* ", without_sketches(text, words)))
-    text = without_conditions(text, words)
+    text = without_combinations(without_conditions(text, words), words)
     text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)

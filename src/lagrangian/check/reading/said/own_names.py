@@ -106,6 +106,8 @@ _ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
 _SIGNS = frozenset("-+−*/^=(·½¼²³'’′")
 _JOIN = re.compile(r"[(){}\[\]]|(?:,|;|\.(?=\s)|(?<!\w)(?:and|und|sowie)(?!\w)|\n)[ \t]*")
 _STATED = re.compile(r"(?<![\w\\])\\?([^\W\d]\w{0,15}+)\*?[ \t]*+=(?!=)")
+_LAST = re.compile(r"(?<![^\W_])[^\W\d_]\w{0,15}\Z")
+_OPERATORS = tuple("-+−*/^)·²³'’′")
 _PARAGRAPH = re.compile(r"\n[ \t]*\n")
 _MATHEMATICS = re.compile(r"[=+^]|\w[ ]?[*/][ ]?\w|[’'′](?!\w)|\w\(")
 _VARIANTS = {"varphi": "phi", "vartheta": "theta", "varepsilon": "epsilon", "varrho": "rho", "ell": "l"}
@@ -167,7 +169,9 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
     bare = _blanked(text, [x.span for x in found])
     news, owns = ({key(x.new) for x in found}, {key(x.own) for x in found})
     used = _in_formulas(bare, {*model.symbols, *(x.new for x in found)})
-    stated = {key(m[1]) for m in _STATED.finditer(bare)}
+    stated = {
+        key(m[1]) for m in _STATED.finditer(bare) if not _is_factor(bare[max(0, m.start() - 40) : m.start()], system)
+    }
     kept: dict[str, DeclaredLetter] = {}
     notes: list[str] = []
     for x in found:
@@ -190,6 +194,14 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
         stands = text[first:end].rstrip(" .!\n)")
         text = f"{blanked(text[: first - 1], start, first - 1)};{stands};".ljust(end) + text[end:]
     return DeclaredLetters({own: x.new for own, x in kept.items()}, text, tuple(notes))
+
+
+def _is_factor(before: str, system: _System) -> bool:
+    """Whether what stands before a name on its line makes it part of a formula: m g s cos P = 0."""
+    before = before.rpartition("\n")[2].rstrip(" \t")
+    word = _LAST.search(before)
+    named = word is not None and (function_of(word.group()) is not None or bool(system.find(word.group())))
+    return named or before[-1:] in _OPERATORS
 
 
 def _declared(text: str, system: _System) -> Iterator[DeclaredLetter]:

@@ -1,0 +1,50 @@
+"""Takes lines off an answer that only say how equations with names are combined.
+
+cos * (horizontal) + sin * (vertical):          m x'' cos(theta) + … = …  below it
+cos(theta)·(1) - sin(theta)·(2):
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.prose.words import Words, function_of
+
+_LINE = re.compile(r"^[^=\n]{3,120}$", re.MULTILINE)
+_NAMED = re.compile(r"(?<![^\s*·×+−(-])\((?P<said>[^()=+*/^\n]{1,40})\)")
+_NUMBER = re.compile(r"[ \t]?(?:\d{1,2}[a-z]?|[IVX]{1,4}|[A-Z]|\*{1,3})[ \t]?")
+_TIMES = re.compile(r"[*·×]")
+_WORD = re.compile(r"[^\W\d_]+")
+_FEWEST = 2
+"""The fewest equations that are combined."""
+_SHORTEST = 3
+"""The fewest letters of a word that names an equation."""
+
+
+def without_combinations(text: str, words: Words) -> str:
+    """Return an answer without such lines, as a note tells."""
+    for match in list(_LINE.finditer(text)):
+        line = match.group()
+        if _TIMES.search(line) and _combines(line, words):
+            words.names.notes.setdefault(f"'{' '.join(line.split())}' was not judged: it says what is combined.")
+            text = blank(text, *match.span())
+    return text
+
+
+def _combines(line: str, words: Words) -> bool:
+    """Whether names of equations stand in brackets, at least two, and nothing of the system outside unless a colon
+    ends the line."""
+    found = [m["said"] for m in _NAMED.finditer(line)]
+    spoken = [all(_is_said(x, words) for x in _WORD.findall(said)) and not _NUMBER.fullmatch(said) for said in found]
+    named = [a or _NUMBER.fullmatch(said) is not None for a, said in zip(spoken, found, strict=True)]
+    ends = line.rstrip().endswith(":")
+    if len(found) < _FEWEST or not all(named) or not (ends or all(spoken)):
+        return False
+    outside = _WORD.findall(_NAMED.sub(" ", line))
+    return ends or not any(words.known(x) and function_of(x) is None for x in outside)
+
+
+def _is_said(written: str, words: Words) -> bool:
+    """Whether a word is no name and no product of names."""
+    return len(written) >= _SHORTEST and not words.readable(written) and not words.is_product(written)

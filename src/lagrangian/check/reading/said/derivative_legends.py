@@ -1,0 +1,86 @@
+"""Reads what an answer in plain text says about how it writes derivatives by time.
+
+D1 = first time derivative, D2 = second      D1y, D2 y and D2(y) are y', y'' and y''
+p behind a name = d/dt, pp = d^2/dt^2        phip and phipp are phi' and phi''
+x. = first derivative, x.. = second          says nothing else and is left out
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from itertools import islice
+
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.records import dataclass
+
+_TWO = r"[ ]?(?:\^|\*\*)?[ ]?\(?(?:2|²)\)?"
+_OPERATOR = rf"d(?:{_TWO})?[ ]?/[ ]?\(?dt(?:{_TWO})?\)?(?![\w(])"
+_WORDS = (
+    r"(?:the[ ])?(?:(?:first|1st|once|second|2nd|erste|zweite|première|seconde)[ ])?(?:(?:time|total)[ -]?)?"
+    r"(?:derivative|rate|(?:zeit)?ableitung|dérivée)(?!s|[ ]of\b|[ ]von\b|[ ]de\b)"
+    r"(?:[ ](?:by|in|with[ ]respect[ ]to|w\.r\.t\.|nach)[ ](?:der[ ])?(?:time|t|zeit)\b)?"
+)
+_ALONE = r"(?:first|1st|second|2nd|erste|zweite)(?=[ \t]*(?:[,;.)]|$))"
+_WHERE = r"(?:behind|after|before|in[ ]front[ ]of|under|over|on|hinter|nach|vor|an)[ ](?:(?:an?|the|any|einem|dem)[ ])?"
+_LEGEND = re.compile(
+    r"(?<![\w.*/^+'’′-])(?P<quote>['\"`]?)(?:(?:a|an|suffix|prefix|index)[ ])?"
+    r"(?:(?P<mark>[^\W\d]{1,4}\d?)|(?P<shown>[^\W\d]\w{0,11}(?:['’′]{1,2}|\.{1,2})|['’′]{1,2}))(?P=quote)"
+    rf"(?:[ ]{_WHERE}(?:name|letter|coordinate|variable|symbol|quantity|buchstaben|namen)s?)?"
+    r"[ \t]*(?:=|:|\bmeans\b|\bis\b|\bdenotes\b|\bstands[ ]for\b|\bheißt\b|\bbedeutet\b|\bist\b)[ \t]*"
+    rf"(?P<said>{_OPERATOR}|{_WORDS}|{_ALONE})(?![\w(])[ \t]*[,;.]?",
+    re.IGNORECASE | re.MULTILINE,
+)
+_SECOND = re.compile(r"second|2nd|zweite|[2²]", re.IGNORECASE)
+_NAME = re.compile(r"(?<![\w\\])(?:(?<=/)[d∂](?=\w))?(?P<name>[^\W\d]\w{0,23})")
+_OF = re.compile(r"[ \t]?(?P<open>\()?(?P<of>[^\W\d]\w{0,23})(?(open)\)|(?![\w(]))")
+MOST = 12
+"""The most marks that an answer explains."""
+
+
+@dataclass(frozen=True)
+class _Mark:
+    """A mark in front of names or behind them, and the order of the derivative."""
+
+    text: str
+    order: int
+
+
+def with_derivative_legends(
+    written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]
+) -> TracedText:
+    """Return an answer in plain text whose names with such marks have primes, without what explains the marks.
+
+    ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
+    """
+    text = written.text
+    found = list(islice(_LEGEND.finditer(text), MOST))
+    if not any("deriv" in m["said"].lower() or "ableit" in m["said"].lower() or "/" in m["said"] for m in found):
+        return written
+    edits: list[Edit] = [(*m.span(), "") for m in found if m["shown"]]
+    marks = [
+        _Mark(m["mark"], 2 if _SECOND.search(m["said"]) else 1) for m in found if m["mark"] and not taken(m["mark"])
+    ]
+    marks.sort(key=lambda mark: -len(mark.text))
+    said = [range(*m.span()) for m in found]
+    names = [m for m in _NAME.finditer(text) if not any(m.start() in x for x in said)]
+    names = [m for m in names if not taken(m["name"]) and function_of(m["name"]) is None]
+    alone = {m["name"] for m in names}
+    uses = [edit for m in names if (edit := _use(text, m, marks, lambda x: moves(x) or x in alone)) is not None]
+    if uses:
+        edits += [*((*m.span(), "") for m in found if m["mark"]), *uses]
+    return written.edited(apart(sorted(edits)))
+
+
+def _use(text: str, match: re.Match[str], marks: Sequence[_Mark], named: Callable[[str], bool]) -> Edit | None:
+    """The edit that writes a name with a mark as one with primes, if what is left is ``named``."""
+    name = match["name"]
+    for mark in marks:
+        primes = "'" * mark.order
+        for bare in (name.removeprefix(mark.text), name.removesuffix(mark.text)):
+            if bare not in ("", name) and named(bare):
+                return *match.span("name"), f"{bare}{primes}"
+        if name == mark.text and (of := _OF.match(text, match.end())) is not None and named(of["of"]):
+            return match.start("name"), of.end(), f"{of['of']}{primes}"
+    return None
