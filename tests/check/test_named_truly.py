@@ -322,3 +322,32 @@ def test_an_exchanged_sine_and_the_sign_of_a_spring_are_two_mistakes() -> None:
     assert derived.check(rows).right
     verdict = derived.check(rows.replace("+ k*x", "- k*x").replace("m*g*e*cos", "m*g*e*sin"))
     assert {m.element for m in verdict.mistakes} == {"spring 'k'", "gravity 'g'"}
+
+
+@cache
+def tackle() -> lg.Derivation:
+    """A block that lifts a load by half its way, with a spring and a damper in between."""
+    s = lg.System("tackle")
+    x, z = s.coordinates("x z")
+    m, M, k, c = s.parameters("m M k c", m=2, M=3, k=50, c=4)
+    s.kinetic(m * x.diff() ** 2 / 2 + M * z.diff() ** 2 / 2)
+    s.spring(k, deflection=z - x / 2)
+    s.damper(c, deflection=z - x / 2)
+    return s.derive()
+
+
+@pytest.mark.parametrize(
+    ("spring", "damper", "words"),
+    [
+        ("z - x/2", "z' - x'", "The force of damper 'c' is made of -x' + z' in place of -x'/2 + z'."),
+        ("z - x", "z' - x'/2", "The deflection in the force of spring 'k' is taken as -x + z; it is -x/2 + z."),
+    ],
+)
+def test_a_force_with_a_factor_left_out_has_the_signs_of_the_answer(spring: str, damper: str, words: str) -> None:
+    verdict = tackle().check(f"F1 = k ({spring}) + c ({damper})\nm x'' = F1/2\nM z'' = -F1")
+    assert str(verdict.mistakes[0].what) == words
+
+
+def test_a_wrong_deflection_has_the_signs_of_the_right_one() -> None:
+    verdict = tackle().check("m x'' = k (z-x) + c (z'-x'/2)/2\nM z'' = -k (z-x) - c (z'-x'/2)")
+    assert "is taken as -x + z; it is -x/2 + z." in str(verdict.mistakes[0].what)

@@ -72,8 +72,13 @@ def _different(listed: Iterator[tuple[sp.Expr, str, float]], whole: sp.Expr) -> 
             yield other, kind, cost
 
 
-def _forwards(deflection: sp.Expr) -> sp.Expr:
-    """A deflection as one would write it, x + y for −x − y: its sign is squared."""
+def _forwards(deflection: sp.Expr, right: sp.Expr, q: Sequence[sp.Expr]) -> sp.Expr:
+    """A deflection as one would write it, with the signs of the right one, z − x for z − x/2, and x + y for −x − y: its
+    sign is squared."""
+    alike = [bounded.diff(deflection, x) * bounded.diff(right, x) for x in q if deflection.has(x) and right.has(x)]
+    turned = sum(x.could_extract_minus_sign() for x in alike)
+    if 2 * turned != len(alike):
+        return -deflection if 2 * turned > len(alike) else deflection
     pieces = sp.Add.make_args(deflection)
     return -deflection if all(x.could_extract_minus_sign() for x in pieces) else deflection
 
@@ -127,11 +132,14 @@ class DeflectionChanges:
         for other, kind, cost in _different(self._others(whole), whole):
             V = self._energy(strut, other)
             Xi = self._forces(strut, other, olds)
+            said = _forwards(other, whole, self.s.q)
             if V and (not strut.dampers or Xi):
                 site = Site(words=words, brief=words, step=3, element=strut.spring)
-                yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, _forwards(other))
+                yield made(kind, cost + more, site, {"V": V, "Xi": Xi}, whole, said)
             if kind in ("deflection_left_out", "deflection_sign"):
                 yield from self._in_the_force(strut, kind, cost + more + 0.2, other)
+            elif other.free_symbols <= whole.free_symbols and all(other.has(q) == whole.has(q) for q in self.s.q):
+                yield from self._in_the_force(strut, kind, cost + more + 0.2, said)
 
     def _in_the_force(self, strut: Strut, kind: str, cost: float, other: sp.Expr) -> Iterator[LocalChange]:
         """Another deflection in the force k δ + b δ′ alone, which acts where it should: ∂δ/∂ξ_i is right."""

@@ -16,8 +16,8 @@ WHY = text("The force of a damper is b times the rate of its own deflection: the
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """For every linear damper: a force from one rate on both ends, the sum of the rates, or the rate of another
-    coordinate."""
+    """For every linear damper: a force from one rate on both ends, the sum of the rates, one without its factor, or
+    the rate of another coordinate."""
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue
@@ -25,6 +25,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         held = [v for v in s.v if rate.has(v)]
         others = [put(rate, {w: sp.S.Zero for w in held if w != v}) for v in held if len(held) > 1]
         others += [put(rate, {v: -v}) for v in held if len(held) > 1]
+        others += [x for v in held if len(held) > 1 and (x := _without_factor(rate, v)) != rate]
         others += [put(rate, {v: w}) for v in held for w in s.v if w not in held]
         others += [put(rate, {v: v + sign * w}) for v in held for w in s.v if w not in held for sign in (-1, 1)]
         for other in dict.fromkeys(others):
@@ -34,6 +35,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield from _in_one(s, element, other, change)
             full = {i: -b * other * bounded.diff(other, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
+
+
+def _without_factor(rate: sp.Expr, v: sp.Expr) -> sp.Expr:
+    """A rate in which that of one coordinate has its sign alone: ż − ẋ for ż − ẋ/2."""
+    factor = bounded.diff(rate, v)
+    return bounded.expand(rate + (-v if factor.could_extract_minus_sign() else v) - factor * v)
 
 
 def _in_one(s: Ingredients, element: Damper, other: sp.Expr, change: dict[int, sp.Expr]) -> Iterator[Variant]:
