@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, permutations
 from typing import cast
@@ -54,19 +54,34 @@ def with_energies_apart(
 def without_first_parts(
     truth: Reference, lines: Sequence[AnsweredLine]
 ) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
-    """The lines, without a Ξ that another one of the same coordinate below goes on with: Q = F, then Q = F − b v.
+    """The lines, without an energy or a Ξ that another one below goes on with: Q = F, then Q = F − b v.
 
     It was what one element adds, and is not the whole, unless it is right. With notes that say so.
     """
-    forces = [(line, _terms(truth, line.expr)) for line in lines if line.kind == "Xi"]
-    right = {c.name: x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)}
+    lines = list(_with_forces_above(lines))
+    stated = [(line, _terms(truth, line.expr)) for line in lines if line.kind in ("Xi", "T", "V", "L")]
+    right = {("Xi", c.name): x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)}
+    right |= {("T", None): truth.T, ("V", None): truth.V, ("L", None): truth.L}
     whole: dict[int, AnsweredLine] = {}
-    for k, (line, own) in enumerate(forces):
-        after = [other for other, more in forces[k + 1 :] if other.name == line.name and own < more]
-        if after and not zero_everywhere(truth, truth.expand(line.expr) - right.get(line.name or "", line.expr)):
+    for k, (line, own) in enumerate(stated):
+        of = line.kind, line.name
+        after = [other for other, more in stated[k + 1 :] if (other.kind, other.name) == of and own < more]
+        if after and not zero_everywhere(truth, truth.expand(line.expr) - right.get(of, line.expr)):
             whole[id(line)] = after[-1]
     notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
     return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))
+
+
+def _with_forces_above(lines: Sequence[AnsweredLine]) -> Iterator[AnsweredLine]:
+    """The lines, in which Q = Q − b v has the Q that stands above."""
+    above: dict[str, sp.Expr] = {}
+    for line in lines:
+        if line.kind == "Xi" and line.name is not None:
+            if line.name in above:
+                own = cast("sp.Expr", line.expr.xreplace({generalized_force(line.name): above[line.name]}))
+                line = replace(line, expr=own)
+            above[line.name] = line.expr
+        yield line
 
 
 def with_forces_apart(

@@ -15,7 +15,12 @@ from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
-from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
+from lagrangian.check.reading.derived_lines import (
+    with_derivatives,
+    with_derivatives_in_latex,
+    with_energies_beside,
+    with_values_above,
+)
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
@@ -324,6 +329,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
+    said = with_values_above(said)
     if _LATEX.search(said.text):
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))

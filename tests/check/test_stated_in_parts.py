@@ -1,0 +1,69 @@
+"""Energies and forces that an answer states bit by bit, in lines that go on with what stands above.
+
+Oracle: two masses that hang on springs, by hand.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+
+
+@cache
+def hanging() -> lg.Derivation:
+    """Two masses, one above the other, on two springs, with a damper and two forces."""
+    s = lg.System("two masses")
+    x, y = s.coordinates("x y")
+    m, M, k, c, d = s.parameters("m M k c d")
+    F, P = s.inputs("F P")
+    s.particle(M, at=s.point("A", (0, -x)), name="upper")
+    s.particle(m, at=s.point("B", (0, -y)), name="lower")
+    s.gravity()
+    s.spring(k, deflection=x)
+    s.spring(c, deflection=y - x)
+    s.damper(d, deflection=x)
+    s.force(F, deflection=x)
+    s.force(P, deflection=x)
+    return s.derive()
+
+
+ROWS = """
+M x'' + d x' + k x - c (y - x) - M g = F + P
+m y'' + c (y - x) - m g = 0
+"""
+TEX = r"""
+\begin{align*}
+M \ddot x + d \dot x + k x - c (y - x) - M g &= F + P\\
+m \ddot y + c (y - x) - m g &= 0
+\end{align*}
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "more", "wrong"),
+    [
+        ("V = 1/2 k x^2 + 1/2 c (y - x)^2", "V = ... - M g x - m g y", "V = ... + M g x - m g y"),
+        ("V = 1/2 k x^2 + 1/2 c (y - x)^2", "V = … - M g x - m g y", "V = … - M g x + m g y"),
+        ("V = 1/2 k x^2 + 1/2 c (y - x)^2", "V = V - M g x - m g y", "V = V - M g x"),
+        ("T = 1/2 M x'^2", "T = ... + 1/2 m y'^2", "T = ... - 1/2 m y'^2"),
+        ("Q_x = F", "Q_x = ... + P - d x'", "Q_x = ... - P - d x'"),
+        ("V = 1/2 k x^2", "V = 1/2 k x^2 + 1/2 c (y - x)^2 - g (M x + m y)", "V = 1/2 k x^2 + 1/2 c (y - x)^2"),
+    ],
+)
+def test_a_line_may_go_on_with_what_stands_above(first: str, more: str, wrong: str) -> None:
+    found = hanging().check(f"{first}\nand then\n{more}\n{ROWS}")
+    assert found.right and "goes on with it" in found.to_text(), found.to_text()
+    assert not hanging().check(f"{first}\n\n{wrong}\n{ROWS}").right
+
+
+def test_a_line_in_latex_may_go_on_with_what_stands_above() -> None:
+    first, more = r"$V = \frac12 k x^2 + \frac12 c (y - x)^2$", r"$V = \dots - M g x - m g y$"
+    assert hanging().check(f"{first}\n\n{more}\n{TEX}").right
+    assert not hanging().check(f"{first}\n\n{more.replace('- m g', '+ m g')}\n{TEX}").right
+
+
+def test_an_energy_that_nothing_goes_on_with_is_wrong() -> None:
+    assert not hanging().check(f"V = 1/2 k x^2 + 1/2 c (y - x)^2\n{ROWS}").right
