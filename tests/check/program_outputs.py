@@ -11,6 +11,9 @@ from sympy.core.function import AppliedUndef
 from sympy.physics.vector.printing import vlatex, vsprint
 from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import precedence
+from sympy.printing.pretty.pretty import PrettyPrinter
+from sympy.printing.pretty.pretty_symbology import pretty_use_unicode
+from sympy.printing.pretty.stringpict import prettyForm
 from sympy.printing.str import StrPrinter
 
 Shape = Callable[[Sequence[str]], str]
@@ -63,6 +66,43 @@ class Tex(LatexPrinter):
         return rf"\{e.func.__name__}{power}\left({self._print(e.args[0])}\right)"
 
     _print_sin = _print_cos = _print_Function
+
+
+class Drawing(PrettyPrinter):
+    """A drawing of a program in ASCII: d/dt in front of a function, or primes behind it, and what opens a call."""
+
+    def __init__(self, *, primes: bool, equals: str) -> None:
+        super().__init__({"use_unicode": False, "wrap_line": False})
+        self.primes, self.equals, self.brackets = primes, equals, "[]" if primes else "()"
+
+    def _print_Derivative(self, e: sp.Derivative) -> prettyForm:
+        order, function = e.derivative_count, self._print(e.expr)
+        if self.primes:
+            return prettyForm(f"{e.expr.func.__name__}{chr(39) * order}[t]", binding=prettyForm.ATOM)
+        over, under = (prettyForm(x) ** prettyForm("2") if order == 2 else prettyForm(x) for x in ("d", "dt"))
+        return prettyForm(*(over / under).right(" ", function), binding=prettyForm.MUL)
+
+    def _print_Function(self, e: sp.Function) -> prettyForm:
+        opens, closes = self.brackets
+        if isinstance(e, AppliedUndef):
+            return prettyForm(f"{e.func.__name__}{opens}t{closes}")
+        name = e.func.__name__.capitalize() if self.primes else e.func.__name__
+        inside = prettyForm(*self._print(e.args[0]).parens(opens, closes))
+        return prettyForm(*inside.left(name), binding=prettyForm.ATOM)
+
+    _print_sin = _print_cos = _print_Function
+
+    def write(self, label: str, e: sp.Eq) -> str:
+        """The drawing with a label in front of the line with the equals sign."""
+        written = sp.expand(e.lhs - e.rhs) if self.primes else e.lhs - e.rhs
+        before = pretty_use_unicode(False)
+        try:
+            rows = self.doprint(written).replace("*", " ").split("\n")
+        finally:
+            pretty_use_unicode(before)
+        middle = self._print(written).baseline
+        rows[middle] += f" {self.equals} 0"
+        return "\n".join((label if k == middle else " " * len(label)) + row for k, row in enumerate(rows))
 
 
 def lines(rows: Sequence[str]) -> str:
@@ -134,4 +174,19 @@ def solutions(equations: Sequence[sp.Eq], accelerations: Sequence[sp.Expr]) -> d
         ),
         "Maxima, a matrix": f"(%o3) matrix({','.join(f'[{MAXIMA.doprint(x)}]' for x in left)})",
         "Mathematica, sides": f"{{{', '.join(map(MATHEMATICA.doprint, left))}}} == {{{zeros}}}",
+    }
+
+
+def drawings(equations: Sequence[sp.Eq]) -> dict[str, str]:
+    """Sessions in which programs draw equations over several lines."""
+    forms = {
+        "Mathematica": ("In[{k}]:= eq{k}", "Out[{k}]= ", Drawing(primes=True, equals="==")),
+        "MATLAB": (">> pretty(eq{k})", "", Drawing(primes=False, equals="==")),
+        "Maple": ("> eq{k};", "eq{k} := ", Drawing(primes=False, equals="=")),
+    }
+    return {
+        program: "\n\n".join(
+            f"{typed.format(k=k)}\n{drawing.write(label.format(k=k), e)}" for k, e in enumerate(equations, 1)
+        )
+        for program, (typed, label, drawing) in forms.items()
     }

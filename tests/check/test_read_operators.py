@@ -48,3 +48,13 @@ def test_a_name_of_the_answer_is_no_operator() -> None:
 def test_a_bracket_behind_an_unknown_d_is_not_taken_for_a_derivative() -> None:
     with pytest.raises(ParseError):
         right("m*L^2*theta'' + D(theta' - 0) + m*g*L*sin(theta) = 0")
+
+
+@pytest.mark.parametrize("weight", ["{} m g l sin theta", "m {} g l sin theta"])
+def test_a_factor_in_front_of_a_name_of_the_system_is_no_number_with_a_unit(weight: str) -> None:
+    """2 m d²/dt² is no metre times a day squared, and 2 m g no metre times a gram."""
+    rows = "2 M d^2x/dt^2 + 2 m d^2x/dt^2 + 2 m l cos theta θ'' - 2 m l sin theta (∂θ/∂t)² + 2 b ∂x/∂t = 2 F\n"
+    rows += "2 J ∂²θ/∂t² + 2 m l² ∂²θ/∂t² + 2 m l cos theta d^2x/dt^2 = "
+    judge = derivation("cart-pole")
+    assert judge.check(rows + weight.format(2)).right
+    assert not judge.check(rows + weight.format(3)).right

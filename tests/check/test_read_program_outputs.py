@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import pytest
 import sympy as sp
-from program_outputs import SHAPES, solutions
+from program_outputs import SHAPES, drawings, solutions
 
 from built_in import derivation
 
@@ -44,6 +44,13 @@ def test_solutions_and_matrices_that_a_program_prints_are_read() -> None:
     right, wrong = (solutions(*equations("cart-pole", factor)) for factor in (1, 3))
     for shape, text in right.items():
         are_read("cart-pole", text, wrong[shape])
+
+
+@pytest.mark.parametrize("name", ["pendulum", "cart-pole"])
+def test_equations_that_a_program_draws_in_a_session_are_read(name: str) -> None:
+    right, wrong = (drawings(equations(name, factor)[0]) for factor in (1, 3))
+    for program, text in right.items():
+        are_read(name, text, wrong[program])
 
 
 @pytest.mark.slow

@@ -110,6 +110,10 @@ _EXPLAINED = re.compile(
 """A name with words that say what it is: rho: radius of the drum."""
 _BY_TIME = re.compile(r"[(\[](?P<by>d/dt)[)\]](?=[ \t]?[(\[d∂])")
 """d/dt in brackets of its own: (d/dt)(∂T/∂x')."""
+_ROUND_BY_TIME = re.compile(
+    r"∂[ ]?(?P<two>²|\^2)?[ ]?(?P<of>(?![TVLDℒE]\b)[^\W\d]\w{0,23}+(?:\(t\))?)[ ]?/[ ]?∂[ ]?t(?P<twice>²|\^2)?(?!\w)"
+)
+"""A rate with round signs: ∂²x/∂t²."""
 _CHOSEN = re.compile(
     r"\bcoordinates?\b[^.;=\n]{0,60}\bthe[ ](?:angle|distance|displacement|position)[ ]"
     r"(?P<name>[^\W\d]\w{0,23}+)(?=[ ][a-z])"
@@ -334,7 +338,12 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
-        said = with_stated_values(with_derivatives(with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]))), taken)
+        said = with_stated_values(
+            with_derivatives(
+                with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
+            ),
+            taken,
+        )
         said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
         of = [c.name for c in lines.model.coordinates]
@@ -351,6 +360,11 @@ def _has_no_minus(lines: Lines, name: str) -> bool:
     if energy_of(name, lines.model, lhs=True) or force_of(name, lines.model):
         return True
     return not lines.names.scope.meanings(name)[0] and not key(name).startswith(MULTIPLIERS)
+
+
+def _straight(match: re.Match[str]) -> str:
+    """∂²x/∂t² as d²x/dt²."""
+    return f"d{match['two'] or ''}{match['of']}/dt{match['twice'] or ''}"
 
 
 def _value(lines: Lines, written: str) -> float | None:

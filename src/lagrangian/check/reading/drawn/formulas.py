@@ -32,8 +32,11 @@ _RAISED = re.compile(r"[ \t]*+\w{1,3}(?:[ \t]++\w{1,3}){0,40}+[ \t]*")
 _STATES = re.compile(r"=|d\^2/dt\^2|['’′]{2}|[\u0308ẍÿẅ]")
 _GOES_ON = re.compile(r"\s*(?:[+⋅·*/)=^,]|-\s)")
 _OPEN_END = re.compile(r"[-+⋅·*/(=^,]\s*\Z")
-_SAID = re.compile(r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2,}:[ \t]*\Z|\A[ \t]*\(%i\d{1,4}\)")
-"""A line of words, or one that was typed."""
+_SAID = re.compile(
+    r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2,}:[ \t]*\Z"
+    r"|\A[ \t]*(?:[(\[]%i\d{1,4}[)\]]|>{1,3}[ \t])|\A[^\W\d]\w{0,20};?[ \t]*\Z"
+)
+"""A line of words, or one that was typed, perhaps a name alone."""
 _BAR = re.compile("[─━]+")
 _SIGN = re.compile(r"^[ \t]*+-[ \t]", re.MULTILINE)
 """A program's minus in front of an equation, which is no bullet."""

@@ -52,6 +52,7 @@ TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for k
 _ONE = re.compile(
     r"(?P<by>\s*[/·*⋅]?\s*)(?P<unit>[^\W\d_⁰¹²³⁴-⁹]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d)|(?P<raised>[⁻⁺]?[¹²³⁴]))?"
 )
+_RATE = re.compile(r"d[ \t]?(?:\^[ \t]?2|²)?[ \t]?\w{0,24}+(?:\(t\))?[ \t]?/[ \t]?dt")
 _DEGREES = re.compile(r"\s*(?:°|deg(?:rees?)?(?!\w))")
 _WORD = re.compile(_NAME)
 _ENERGIES = frozenset("TVLDℒ")
@@ -195,24 +196,27 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
     """How many SI units the unit at a place is, and where it ends; None if it consists of names of the system.
 
     A name of the system is part of a unit after /, N and kg only, 9.81 m/s^2, 3 N m, unless it is ``sure`` that units
-    follow numbers. No term of an equation is a time: 2h are no hours.
+    follow numbers; and nothing but a divisor follows such a name, 2 m g. No term of an equation is a time: 2h are
+    no hours.
     """
     factor, end, below, foreign, before = Fraction(1), at, False, False, ""
-    times = True
+    times, product = True, False
     while (match := _ONE.match(text, end)) is not None and text[match.end() : match.end() + 1] not in _GOES_ON:
         unit, name = lookup(match["unit"]), match["unit"]
         own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
         below = below or "/" in match["by"]
+        power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
+        if not sure and ((product and not below and power > 0) or _RATE.match(text, match.start("unit"))):
+            break  # 2 m g with a mass m, 10 kg d²x/dt²
         if unit is None or unit.factor == 0 or (before == "" and match["by"].strip()):
             break
         if before and own and "/" not in match["by"] and before not in _JOINED and not sure:
             break
         if sure and before and match["by"].strip() == "*" and match["by"] != "*":
             break
-        power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
         factor *= unit.factor ** (-power if below else power)
         times = times and not below and unit.dimension == _TIME
-        foreign, before, end = foreign or sure or not own, name, match.end()
+        foreign, before, end, product = foreign or sure or not own, name, match.end(), product or own
     return (factor, end) if foreign and (sure or not times) else (None, at)
 
 

@@ -30,6 +30,10 @@ _PROMPT = re.compile(
     r"|^[ \t]*+(?:Out|Output)(?:[ \t]\d{1,4})?:[ \t]*+$",
     re.MULTILINE,
 )
+_NAME_ALONE = re.compile(
+    rf"^[ \t]*+(?:In[ \t]?\[\d{{1,4}}\][ \t]*+:?=?|>>>|julia>|sage:)[ \t]*+{_NAME};?[ \t]*+$", re.MULTILINE
+)
+"""A name behind a prompt, which only shows what it is."""
 _BREAK = re.compile(r"(?P<mark>['\"])(?:\\[nrt]){1,4}(?P=mark)")
 """A string that only breaks a line."""
 _MAGIC = re.compile(r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$", re.MULTILINE)
@@ -90,7 +94,7 @@ class Piece:
 
 def without_prompts(written: TracedText) -> TracedText:
     """Return an answer without prompts and without commands to a notebook."""
-    written = written.sub(_BREAK, lambda m: " ").sub(_PROMPT, _unprompted)
+    written = written.sub(_BREAK, lambda m: " ").sub(_NAME_ALONE, lambda m: "").sub(_PROMPT, _unprompted)
     return written.sub(_MAGIC, lambda m: "")
 
 
@@ -112,6 +116,10 @@ def _unprompted(match: re.Match[str]) -> str:
     """What stands in the place of a prompt; how far the lines of a block are indented stays as it is."""
     if match["more"]:
         return ""
+    text, width = match.string, len(match.group())
+    above = text[text.rfind("\n", 0, max(0, match.start() - 1)) + 1 : max(0, match.start() - 1)]
+    if match["before"] is not None and not match["before"].strip() and above[:width].isspace() and above.strip():
+        return " " * width  # what stands above it is drawn
     return "\n" if match["before"] == "" or match["cell"] else " "
 
 
