@@ -202,3 +202,14 @@ def test_a_wrong_definition_is_one_mistake() -> None:
 )
 def test_a_derivative_that_nothing_else_explains_is_told_by_its_terms(written: str, said: str) -> None:
     assert first("cart-pole", f"dL/dx' = {written}").endswith(said)
+
+
+def test_an_identity_beside_equations_is_a_right_line() -> None:
+    verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\nd/dt (m*x') = m*x''\n0 = 0")
+    assert verdict.right
+    assert [f.status.right for f in verdict.findings] == [True, True, True, False]
+
+
+def test_an_inductance_is_no_lagrangian_in_what_was_read() -> None:
+    told = derivation("dc-motor").check("Lq̈ + Rq̇ + Kθ̇ = u").to_text()
+    assert "Lq̈ as L q̈" in told, told

@@ -17,7 +17,7 @@ from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
-from lagrangian.page.formula import Text, text
+from lagrangian.page.formula import Text, Verbatim, text
 from lagrangian.page.report import Report
 from lagrangian.read import MAX_BYTES
 from lagrangian.records import dataclass
@@ -164,7 +164,7 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
     """The verdict with the notes of the reading, each once, but for Q_z that nothing uses and that was judged."""
     judged = tuple(f"'{f.line.text}' was not judged: nothing else uses " for f in verdict.findings)
-    read = (text(note) for note in answer.notes if not note.startswith(judged))
+    read = (text(Verbatim(note)) for note in answer.notes if not note.startswith(judged))
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(listed.values()))
 

@@ -27,6 +27,8 @@ def _finding(truth: Reference, line: AnsweredLine, row: ReferenceRow) -> Finding
         return Finding(line, Status.WRONG)
     if row.kind is Kind.NOTHING and _DERIVES.search(line.text) is not None:
         return Finding(line, Status.RIGHT, text("it follows from the energies above"))
+    if row.kind is Kind.NOTHING and len({side.strip() for side in line.text.split("=")}) > 1:
+        return Finding(line, Status.RIGHT, text("it holds by itself, with what is stated"))
     return Finding(line, _status(row), _note(truth, row, line.expr), name_of(truth, row.index))
 
 

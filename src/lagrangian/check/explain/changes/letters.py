@@ -75,13 +75,19 @@ class LetterChanges:
                 written=self._written[atom, k],
             )
         yield from self._powers(site, atom, exponents)
-        if 0 in exponents and isinstance(right, sp.Symbol):
+        if 0 in exponents and isinstance(right, sp.Symbol) and not self._is_of_one_ledger(site, atom):
             for number, kind, cost in ((0, "left_out_of_a_sum", 1.5), (-1, "sign_in_a_sum", 1.7)):
                 effect = self._put(site, atom, number - 1, scaled({((atom, 1),): Fraction(1)}, number))
                 if effect is not None:
                     one = 0.5 if number == -1 and max(map(len, effect.sums())) == 1 else 0.0  # then the term has it
                     more = cost + one + site.surcharge
                     yield LocalChange(kind=kind, cost=more, site=site, effect=effect, right=right)
+
+    def _is_of_one_ledger(self, site: Site, atom: int) -> bool:
+        """Whether all of V, of T* or of Ξ has a letter and nothing else: without g, a kinetic energy and a weight are
+        the kinetic energy alone."""
+        held = [[atom in dict(m) for m in s] for s in (site.T, site.V, *site.Xi.values()) if s]
+        return len(held) > 1 and any(all(x) for x in held) and all(all(x) or not any(x) for x in held)
 
     def _powers(self, site: Site, atom: int, exponents: set[int]) -> Iterator[LocalChange]:
         """The square of an atom for the atom, and the other way round."""
