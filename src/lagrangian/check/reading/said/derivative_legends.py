@@ -62,6 +62,7 @@ def with_derivative_legends(
     marks = [
         _Mark(m["mark"], 2 if _SECOND.search(m["said"]) else 1) for m in found if m["mark"] and not taken(m["mark"])
     ]
+    marks = [mark for mark in marks if not _is_operator(text, mark.text)]
     marks.sort(key=lambda mark: -len(mark.text))
     said = [range(*m.span()) for m in found]
     names = [m for m in _NAME.finditer(text) if not any(m.start() in x for x in said)]
@@ -71,6 +72,11 @@ def with_derivative_legends(
     if uses:
         edits += [*((*m.span(), "") for m in found if m["mark"]), *uses]
     return written.edited(apart(sorted(edits)))
+
+
+def _is_operator(text: str, mark: str) -> bool:
+    """Whether a mark stands in front of more than a name, as in D(D(x)), which operators do."""
+    return any(_OF.match(text, m.end() - 1) is None for m in islice(re.finditer(rf"(?<!\w){mark}\(", text), MOST))
 
 
 def _use(text: str, match: re.Match[str], marks: Sequence[_Mark], named: Callable[[str], bool]) -> Edit | None:
