@@ -7,6 +7,7 @@ wrong twin, in which what the sentence says is another thing, and which is not a
 from __future__ import annotations
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 from built_in import derivation
@@ -341,3 +342,16 @@ def test_a_side_has_the_value_that_is_given_below_it(written: str) -> None:
     pendulum = derivation("pendulum")
     assert pendulum.check(answer).right
     assert not pendulum.check(answer.replace("-b", "b")).right
+
+
+def test_a_title_may_hold_definitions_and_a_sentence_an_angle_in_degrees() -> None:
+    rows = """(M + m) x'' + m l c theta'' - m l theta'^2 sin theta + b x' = F
+(J + m l^2) theta'' + m l c x'' = m g l sin theta"""
+    twins(f"Exercise 6 (cart and pole) – solution with c = cos theta\n{rows}", "cos theta\n", "sin theta\n")
+    slope = System("slope")
+    s = slope.coordinate("s")
+    m, alpha = slope.parameter("m"), slope.parameter("alpha")
+    slope.particle(m, at=slope.point("P", (s * sp.cos(alpha), s * sp.sin(alpha))))
+    slope.gravity()
+    said = slope.derive().check("The angle alpha = 30° stands only in this: m s'' = -m g sin alpha")
+    assert said.right and "α = ⅙ π" in said.to_text()

@@ -21,6 +21,7 @@ from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
+from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.remarks import is_remark
 from lagrangian.check.reading.prose.sketches import without_sketches
 from lagrangian.check.reading.prose.words import Words
@@ -32,7 +33,6 @@ from lagrangian.check.reading.prose.words_or_mathematics import (
     moves,
     says_nothing,
     stated_remarks,
-    without_headings,
     without_lead,
     without_remarks,
     without_tail,

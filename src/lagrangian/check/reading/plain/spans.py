@@ -163,7 +163,10 @@ def _tokens(text: str, words: Words) -> list[_Token]:
             kind = "word"  # right-hand
         elif kind == "bracket":
             kind = match.group()
-        found.append(_Token(kind, match.group(), match.start(), match.end()))
+        start = match.start()
+        if match.group() == "°" and found and found[-1].kind == "number":
+            kind, start = "number", found.pop().start
+        found.append(_Token(kind, text[start : match.end()], start, match.end()))
     return found
 
 

@@ -117,21 +117,11 @@ def _apart(text: str) -> Iterator[tuple[int, int]]:
                 yield start, at
 
 
-_HEADING = re.compile(
-    r"^(?P<said>[ \t]*+[^\W\d_]{2,20}+(?:[ \t]++[^\W\d_]\w{0,20}+['’′]{0,2}){1,8}+)[ \t]*+=[ \t]*\n(?=[^\n]*=)",
-    re.MULTILINE,
-)
-"""Words before an equals sign that ends a line, where the next line is an equation."""
 _MEANT = re.compile(
     r"(?<=[\w)\]'’′″²³])[ \t]+(?:is|are|being|denotes?|bezeichnet|ist|est)[ \t]+"
     r"(?:the|an?|our|its|their|das|der|die|le|la)[ \t][^=\n]{0,300}\Z"
 )
 """What a value is: M_s = k (φ2 - φ1) is the torque of the shaft."""
-
-
-def without_headings(text: str) -> str:
-    """Return an answer without words that end with an equals sign before an equation: Equation for x = ⏎ m x'' = F."""
-    return _HEADING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
 
 
 def stated_remarks(text: str) -> str:
