@@ -147,6 +147,14 @@ class Effects:
         """ΔW, (variants, n, size)."""
         return self._values[:, 2 + self.truth.n :]
 
+    def momenta(self, i: int) -> Array:
+        """∂ΔT/∂ξ̇_i for variants that are visible in a line of T*, otherwise 0, (variants, size)."""
+        compiled = CompiledExpressions([])
+        g, v = compiled.graph, compiled.input(self.truth.model.coordinates[i].rate)
+        nodes = [compiled.node(self.truth.put(w.variant.T)) for w in self.wrongs]
+        compiled.ids = [vjp(g, [node], [g.one], [v])[0] for node in nodes]
+        return compiled.at(self.truth.states) * self._shown("T")
+
     def _shown(self, key: str) -> Array:
         """1 for the variants that are visible in a line of this kind, which excludes those of single equations."""
         shown = [key in w.variant.stated and w.variant.only is None for w in self.wrongs]

@@ -79,6 +79,7 @@ def of_derivative_of(
     truth: Reference,
     line: AnsweredLine,
     lines: Sequence[AnsweredLine],
+    findings: Sequence[Finding],
     told: Sequence[Mistake],
     others: Sequence[Mistake],
 ) -> tuple[list[Mistake], tuple[Mistake, ...]]:
@@ -86,6 +87,9 @@ def of_derivative_of(
 
     The term that is wrong is told; a sine in place of a cosine was differentiated wrongly.
     """
+    if told and line.kind == "p":
+        terms = of_differences(line, findings)
+        return [*([_with_slip(told[0], terms[0])] if terms else told[:1]), *told[1:]], tuple(others)
     if not told or line.kind not in DERIVED:
         return list(told), tuple(others)
     found = [replace(m, why=WHY_FUNCTION) if m.name == "sine_cosine" else m for m in told]

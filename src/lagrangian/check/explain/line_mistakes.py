@@ -49,6 +49,8 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
         found = _of_derivative(pool, line, i)
         slip = None if found else slip_in(truth, line, lines)
         return found, [slip] if slip is not None else []
+    if line.kind == "p" and i is not None:
+        return _of_momentum(pool, line, i), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -94,6 +96,15 @@ def of_forces(pool: Pool, wrong: Sequence[AnsweredLine], lines: Sequence[Answere
     rows = tuple(rests)
     vectors: Vectors = pool.kept(("vectors", "Xi", rows), lambda: Vectors(pool, pool.Xi[:, list(rows)]))
     return [e for e in vectors.pairs(rest) if e.cost <= UNNATURAL]
+
+
+def _of_momentum(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:
+    """The likely mistakes in T* that lead to its ∂L/∂ξ̇."""
+    right = right_value(pool.truth, line, i)
+    values = CompiledExpressions([line.expr - right]).at(pool.truth.states) if right is not None else None
+    if values is None or not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return []
+    return [e for e in singles(pool, [pool.momenta(i)], values) if e.cost <= EXOTIC]
 
 
 def _of_derivative(pool: Pool, line: AnsweredLine, i: int) -> list[Explanation]:

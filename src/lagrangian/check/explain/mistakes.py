@@ -151,7 +151,7 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
-    of_first, others = of_derivative_of(truth, lead, lines, named.told, named.others)
+    of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first

@@ -139,10 +139,11 @@ def _factors(term: sp.Expr, right: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
     """
     quotient = bounded.cancel(term / right)
     bases = [f.as_base_exp()[0] for f in sp.Mul.make_args(quotient)]
-    if not all(x.is_number or x.is_Symbol or isinstance(x, (sp.sin, sp.cos)) for x in bases):
-        return None
     more, less = sp.fraction(quotient)
-    return more, less
+    moving = [x for x in bases if isinstance(x, (sp.Derivative, AppliedUndef))]
+    if not all(x.is_number or x.is_Symbol or x in moving or isinstance(x, (sp.sin, sp.cos)) for x in bases):
+        return None
+    return None if moving and 1 not in (more, less) else (more, less)
 
 
 def own_terms(pool: Pool, exprs: Sequence[sp.Expr], P: Array, found: Sequence[Alignment]) -> list[OwnTerm] | None:

@@ -110,6 +110,21 @@ class Pool:
         found = [p for k in near if (p := self.all[k]).change is not None and p.change.kind == kind]
         return min(found, key=lambda p: p.cost, default=None)
 
+    def momenta(self, i: int) -> Array:
+        """What every possible mistake adds to ∂L/∂ξ̇_i, (C, S); 0 for one that is made in an equation alone."""
+        return self.kept(("momenta", i), lambda: self._momenta(i))
+
+    def _momenta(self, i: int) -> Array:
+        changes = [p.change if p.change is not None and p.change.effect.only is None else None for p in self.all]
+        T, table = _table([c.effect.T if c is not None else {} for c in changes])
+        found = table @ AtomSlopes(self.truth, self.sites.ring).momenta(T)[:, i]
+        own = self.effects.momenta(i)
+        place = {id(w): k for k, w in enumerate(self.effects.wrongs)}
+        for k, p in enumerate(self.all):
+            if p.wrong is not None:
+                found[k] = own[place[id(p.wrong)]]
+        return np.where(np.isfinite(found).all(axis=1)[:, None], found, 0.0)
+
     @property
     def places(self) -> dict[int, int]:
         """The place of every possible mistake in the arrays, by its identity."""

@@ -95,5 +95,11 @@ class AtomSlopes:
         with np.errstate(all="ignore"):
             return self.values(monomials)[:, None] * self._summed(e, self.by_q)
 
+    def momenta(self, monomials: Sequence[Monomial]) -> Array:
+        """∂μ/∂ξ̇_i, (M, n, S)."""
+        e = self.exponents(monomials)
+        with np.errstate(all="ignore"):
+            return self.values(monomials)[:, None] * self._summed(e, self.by_v)
+
     def _summed(self, e: Array, of_atoms: Array) -> Array:
         return (e @ of_atoms.reshape(self.count, -1)).reshape(len(e), self.n, self.size)

@@ -23,5 +23,5 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 turned = any(w.has(v) for w in s.omega(body))
                 own = s.coupling(body, j, j)[0] * v**2 / 2
                 if turned and own not in (0, s.translation(body)):
-                    what = text(f"J of {body.title} is about its centre of mass: the m d² of its swing is missing.")
+                    what = text(f"J of {body.title} is about its centre of mass: the ½mv² of its swing is missing.")
                     yield Variant(what=what, T=-own, element=body)
