@@ -61,24 +61,6 @@ def with_energies_beside(text: TracedText) -> TracedText:
     return text.edited((*m.span("said"), f"; {m['name']} = ") for m in _ENERGY_BESIDE.finditer(text.text))
 
 
-_GOES_ON = re.compile(
-    r"(?<![\w\\])(?P<name>[TVLUKEPD]\*?|(?:\\?Xi|Ξ|Q)[ ]?_?[ ]?(?:\{[^{}\n]{1,20}\}|\\?\w{1,20}))"
-    r"(?P<is>[ \t]{0,9}&?[ \t]{0,9}=[ \t]{0,9})(?:\.{3,6}|…|\\[lc]?dots)(?=[ \t]{0,9}[-+−–])"
-)
-"""A quantity that is what stands above, and more."""
-
-
-def with_values_above(text: TracedText) -> TracedText:
-    """Return a text in which … in front of a term has the value that the quantity has above: V = … + m g y."""
-
-    def named(match: re.Match[str]) -> str:
-        above = re.compile(rf"(?<![\w\\]){re.escape(match['name'])}[ \t]{{0,9}}&?[ \t]{{0,9}}=(?!=)")
-        whole = f"{match['name']}{match['is']}{match['name']}"
-        return whole if above.search(text.text, 0, match.start()) else match.group()
-
-    return text.sub(_GOES_ON, named)
-
-
 _ENERGY = r"(?:[TLVD]|\\math(?:cal|scr)\s?\{[^{}]\}|\\mathcal\s[A-Z])(?:\^\s?(?:\*|\{\*\}))?"
 _FRACTION = r"\\[dt]?frac\s?"
 _LATEX_SLOPE = (

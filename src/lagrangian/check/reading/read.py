@@ -9,18 +9,14 @@ from dataclasses import replace
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
+from lagrangian.check.reading.applied import with_functions_applied, with_values_above
 from lagrangian.check.reading.arguments import dependents, with_own_functions
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
-from lagrangian.check.reading.derived_lines import (
-    with_derivatives,
-    with_derivatives_in_latex,
-    with_energies_beside,
-    with_values_above,
-)
+from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
@@ -324,6 +320,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed), taken)
     latex = bool(_LATEX.search(tagless.text))
+    tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")

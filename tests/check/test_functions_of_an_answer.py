@@ -1,0 +1,74 @@
+"""Functions that an answer states for a letter of their own, e_r(β), and uses for its coordinates.
+
+Oracle: an arm on the rim of a disc and two masses on springs that harden, by hand. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+@cache
+def arm() -> lg.Derivation:
+    """A mass on an arm of length l, hinged to the rim of a disc of radius R."""
+    s = lg.System("arm")
+    phi, psi = s.coordinates("phi psi")
+    J, R, l, m = s.parameters("J R l m")
+    tau = s.inputs("tau")
+    disc = s.frame(phi, name="disc")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=disc, name="disc")
+    at = (R * sp.cos(phi) + l * sp.cos(phi + psi), R * sp.sin(phi) + l * sp.sin(phi + psi))
+    s.particle(m, at=s.point("E", at), name="mass")
+    s.torque(tau, on=disc)
+    return s.derive()
+
+
+@cache
+def masses() -> lg.Derivation:
+    """Two masses, coupled by a spring with the force k u + c u³."""
+    s = lg.System("two masses")
+    x, y = s.coordinates("x y")
+    M, m, k, c = s.parameters("M m k c")
+    s.particle(M, at=s.point("A", (x, 0)), name="first")
+    s.particle(m, at=s.point("B", (y, 0)), name="second")
+    s.potential(k * (y - x) ** 2 / 2 + c * (y - x) ** 4 / 4)
+    return s.derive()
+
+
+ARM = """\
+e_r(β) = (cos β, sin β), e_φ(β) = (−sin β, cos β)
+r = R·e_r(φ) + l·e_r(φ+ψ)
+v = R·φ̇·e_φ(φ) + l·(φ̇ + ψ̇)·e_φ(φ+ψ)
+v² = R²·φ̇² + l²·(φ̇ + ψ̇)² + 2·R·l·φ̇·(φ̇ + ψ̇)·cos ψ
+T = ½·J·φ̇² + ½·m·v²
+(J + m·R² + m·l² + 2·m·R·l·cos ψ)·φ̈ + (m·l² + m·R·l·cos ψ)·ψ̈ − 2·m·R·l·φ̇·ψ̇·sin ψ − m·R·l·ψ̇²·sin ψ = τ
+(m·l² + m·R·l·cos ψ)·φ̈ + m·l²·ψ̈ + m·R·l·φ̇²·sin ψ = 0
+"""
+FORCE = """\
+f(u) = k u + c u^3
+M x'' = f(y - x)
+m y'' = -f(y - x)
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [("+ l·(φ̇ + ψ̇)·e_φ(φ+ψ)", "+ l·(φ̇ + ψ̇)·e_φ(ψ)"), ("e_φ(β) = (−sin β, cos β)", "e_φ(β) = (−sin β, sin β)")],
+)
+def test_unit_vectors_are_functions_of_an_angle(now: str, wrong: str) -> None:
+    assert arm().check(ARM).right
+    assert now in ARM and not arm().check(ARM.replace(now, wrong)).right
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [("c u^3", "c u^2"), ("= f(y - x)", "= f(x - y)"), ("-f(y - x)", "-f(y)"), ("f(u) = k u", "f(u) = 2 k u")],
+)
+def test_a_force_is_a_function_of_a_deflection(now: str, wrong: str) -> None:
+    assert masses().check(FORCE).right
+    assert now in FORCE and not masses().check(FORCE.replace(now, wrong)).right
