@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from lagrangian.check.sides_of_terms import on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
 from lagrangian.model import Model
@@ -247,7 +248,8 @@ def _terms(verdict: Verdict) -> Iterator[Item]:
 
 
 def _said(finding: Finding, d: TermDifference) -> tuple[str | Left, ...]:
-    return (f"{finding.line.title}: ", *_differs(d), *_source(d))
+    side, said = on_side(finding.line, d)
+    return (f"{finding.line.title}{f', {side}' if side else ''}: ", *_differs(said), *_source(said))
 
 
 def _differs(d: TermDifference) -> tuple[str | Left, ...]:

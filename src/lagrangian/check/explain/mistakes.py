@@ -48,6 +48,7 @@ from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.explain.term_said import with_term
 from lagrangian.check.explain.undivided import undivided
+from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.prescribed import of_prescribed
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
@@ -156,6 +157,7 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     rows_left = tuple(line for line in left if line.kind == "equation")
+    told, others = of_equations(told, lines), of_equations(others, lines)
     return replace(named, told=told, others=others, certain=certain, left=rows_left, sure=sure)
 
 

@@ -1,0 +1,71 @@
+"""Words for mistakes in answers that state no energy: of the equations, not of T* and V, which nobody wrote down.
+
+The weight of the bob has the wrong sign in V: …     The weight of the bob has the wrong sign: …
+l is not squared in the energy of the bob, T*.       l is not squared in what the bob adds to the equations.
+The energy of the spring has the wrong sign in V.    What the spring adds to the equations has the wrong sign.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from lagrangian.check.explain.derivative_lines import DERIVED
+from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.page.formula import Name, Text, text
+
+WHOLE = {"T*": "the terms of the kinetic energy", "V": "the terms of the weights and springs"}
+"""What an energy is in equations."""
+_ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-slope")}
+"""The kinds of lines that speak of an energy."""
+_PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
+"""The names of energies, and of parts of them."""
+_IN = re.compile(r"(?P<link>,| in) (?P<name>T\*|V)(?=[.:,; ]|$)")
+_OF = re.compile(r"(?<![½\w])(?P<the>[Tt])he energy of (?P<element>[a-z ]{3,30}'[^']{1,60}'|[a-z]{3,20} \w{1,20})")
+
+
+def of_equations(mistakes: Sequence[Mistake], lines: Sequence[AnsweredLine]) -> tuple[Mistake, ...]:
+    """The mistakes in the words of equations, as far as the ``lines`` of an answer do not speak of the energy."""
+    named = {line.name for line in lines if line.name is not None and line.kind in ("definition", "statement")}
+    parts = {x[0] for x in named if _PART.fullmatch(x)}
+    kinds = {line.kind for line in lines}
+    silent = {e for e, own in _ENERGY.items() if kinds.isdisjoint(own) and parts.isdisjoint(set(own) | {"U", "E", "e"})}
+    return tuple(replace(m, what=_said(m, silent)) for m in mistakes) if silent else tuple(mistakes)
+
+
+def _said(mistake: Mistake, silent: set[str]) -> Text:
+    """What was done, without the names of energies that are ``silent``."""
+    joined = list(_joined(mistake.what))
+
+    def without(match: re.Match[str]) -> str:
+        if match["name"] not in silent:
+            return match.group()
+        return "" if mistake.element is not None or match["link"] == "," else f" in {WHOLE[match['name']]}"
+
+    def of_element(match: re.Match[str]) -> str:
+        return f"{'W' if match['the'] == 'T' else 'w'}hat {match['element']} adds to the equations"
+
+    whole = len(silent) == len(_ENERGY)
+    found = [
+        _IN.sub(without, x).replace(" sign: lower is less, not more", " sign") if isinstance(x, str) else x
+        for x in joined
+    ]
+    halved = any(isinstance(x, str) and "½ in" in x for x in found)
+    found = [_OF.sub(of_element, x) if isinstance(x, str) and whole and not halved else x for x in found]
+    return text(*found)
+
+
+def _joined(said: Text) -> Iterator[object]:
+    """The parts of a text, with the names of energies as words."""
+    words = ""
+    for part in said.parts:
+        if isinstance(part, str) or part in (Name("T*"), Name("V")):
+            words += part if isinstance(part, str) else str(text(part))
+            continue
+        if words:
+            yield words
+        yield part
+        words = ""
+    if words:
+        yield words
