@@ -151,7 +151,7 @@ def test_terms_are_compared_in_any_form_of_their_functions(right: str, wrong: st
 def test_an_equation_that_is_reduced_from_right_ones() -> None:
     rows = "m*x'' + k*x = F + lambda\nJ*theta'' = tau - lambda*h/cos(theta)^2\nx = h*tan(theta)\n"
     said = first(slot(), rows + REDUCED.replace("k*h^2*tan(theta)/cos(theta)^2", "k*h^2*tan(theta)"))
-    assert "energy of spring" in said and "h/cos(theta)^2, not h" in said
+    assert "what spring 'k' adds" in said and "h/cos(theta)^2, not h" in said
 
 
 def test_an_equation_follows_from_a_wrong_derivative() -> None:

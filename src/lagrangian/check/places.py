@@ -175,6 +175,9 @@ def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
     rows = [cast("sp.Expr", row.xreplace(still)) for row in truth.rows]
     rows = [row for row in rows if row.atoms(AppliedUndef) == {place}]
     own = cast("sp.Expr", expr.xreplace(still))
+    rows = [row for row in rows if not _moves_by_itself(row, place)]
+    if _moves_by_itself(own, place):
+        return False
     names = sorted(own.free_symbols.union(*(row.free_symbols for row in rows)) - place.free_symbols, key=str)
     table = numbers_for(names)
     f, *balance = (cast("sp.Expr", x.xreplace(table)) for x in (own, *rows))
@@ -183,6 +186,11 @@ def _is_at_rest(truth: Reference, expr: sp.Expr, place: AppliedUndef) -> bool:
     found = [root for start in STARTS if (root := _root(f, place, start)) is not None]
     elsewhere = any(abs(root) > sp.Float(10) ** (10 - DIGITS) for root in found)
     return elsewhere and any(all(_vanishes(row, place, root) for root in found) for row in balance)
+
+
+def _moves_by_itself(expr: sp.Expr, place: AppliedUndef) -> bool:
+    """Whether an expression holds time beside a coordinate: a prescribed motion is never at rest."""
+    return expr.xreplace({place: sp.Dummy()}).has(time)
 
 
 def _proportional(f: sp.Expr, row: sp.Expr, place: AppliedUndef) -> bool:

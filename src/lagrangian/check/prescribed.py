@@ -104,8 +104,10 @@ def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:
 
 
 def _equates_functions(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a line wrongly equates functions of time alone: d²/dt² (a sin Ωt) = a Ω² cos Ωt."""
+    """Whether a line wrongly equates functions of time alone, d²/dt² (a sin Ωt) = a Ω² cos Ωt; t = 0 is an instant."""
     if line.kind != "equation" or not line.expr.has(time) or line.expr.atoms(AppliedUndef):
+        return False
+    if line.expr.diff(time) in (1, -1):
         return False
     known = line.expr.free_symbols <= {p.symbol for p in truth.model.parameters} | {time}
     return known and not zero_everywhere(truth, line.expr)
