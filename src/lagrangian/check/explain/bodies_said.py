@@ -20,6 +20,7 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.search import SMALL, Explanation
 from lagrangian.check.reference import Reference
@@ -53,6 +54,7 @@ WHY = {
     "speed": text("The velocity is the derivative of the position; every coordinate that moves the body adds to it."),
     "turning": text("ω is how fast the body itself turns against the fixed axes."),
     "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
+    "axis": text("About a parallel axis it is J + m·a², where a is the distance of this axis from the centre of mass."),
     "position": text("Go along the way from the fixed point to the body: every piece of it counts."),
 }
 
@@ -76,7 +78,9 @@ class SaidOfBody:
     def mistake(self) -> Mistake:
         """The mistake in words."""
         step = 3 if self.T == 0 else 2
-        words = {"turning": "angular velocity", "inertia": "moment of inertia"}.get(self.kind, self.kind)
+        words = {"turning": "angular velocity", "inertia": "moment of inertia", "axis": "moment of inertia"}.get(
+            self.kind, self.kind
+        )
         brief = text(f"The {words} of {self.body.title} is not right.")
         return Mistake(f"{self.kind}_of_body", self.what, WHY[self.kind], step, self.body.title, None, brief)
 
@@ -189,6 +193,10 @@ def _inertias(s: Ingredients, b: Any, said: sp.Expr) -> Found:
     if (turning := _turning(s, b)) is not None:
         J, w = turning
         yield "inertia", (f"The moment of inertia of {b.title} is ", J, ", not ", said, "."), (said - J) * w**2 / 2, 0
+        for square in arms(s, b) if J.free_symbols and J.free_symbols <= said.free_symbols else ():
+            right = J + s.expand(b.mass) * square
+            words = (f"The moment of inertia of {b.title} about its pivot is ", right, ", not ", said, ".")
+            yield "axis", words, (said - right) * w**2 / 2, 0
 
 
 def _speeds(s: Ingredients, b: Any, said: sp.Expr) -> Found:

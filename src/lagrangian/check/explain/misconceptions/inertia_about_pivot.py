@@ -28,7 +28,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if not omega:
             continue
         squared = sp.Add(*[w**2 for w in omega])
-        for distance in _arms(s, body):
+        for distance in arms(s, body):
             yield Variant(
                 what=text(f"{body.title[:1].upper() + body.title[1:]} has J about its pivot and ½mv² as well."),
                 T=s.expand(body.mass) * distance * squared / 2,
@@ -36,7 +36,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             )
 
 
-def _arms(s: Ingredients, body: object) -> list[sp.Expr]:
+def arms(s: Ingredients, body: object) -> list[sp.Expr]:
     """The squared distances of the centre of mass from points of attachment that are constant."""
     away = sp.Add(*[(a - b) ** 2 for a, b in zip(s.position(body), s.parent(body), strict=True)])
     slopes = [sp.Add(*[bounded.diff(x, q) ** 2 for x in s.position(body)]) for q in s.q]
