@@ -27,10 +27,10 @@ DERIVED = yo_yo().derive()
     ("answer", "said"),
     [
         ("y = r*phi\nJ*phi'' + b*r^2*phi' = m*g*r", "½mv² of rigid body 'yo-yo' is missing."),
-        ("(m + J/r) y'' + b y' = m g", "r is not squared in the energy of rigid body 'yo-yo', T*."),
-        ("(m + J/r^2) y'' + b y' = -m g", "The weight of rigid body 'yo-yo' has the wrong sign in V"),
+        ("(m + J/r) y'' + b y' = m g", "r is not squared in what rigid body 'yo-yo' adds to the equations."),
+        ("(m + J/r^2) y'' + b y' = -m g", "The weight of rigid body 'yo-yo' has the wrong sign"),
         ("(m + J/r^2) y'' = m g", "Damper 'b' is missing."),
-        ("y'' = (-m*g - b*y')/(m + J/r^2)\nphi'' = y''/r", "The weight of rigid body 'yo-yo' has the wrong sign in V"),
+        ("y'' = (-m*g - b*y')/(m + J/r^2)\nphi'' = y''/r", "The weight of rigid body 'yo-yo' has the wrong sign"),
     ],
 )
 def test_one_mistake_in_a_reduced_equation(answer: str, said: str) -> None:
