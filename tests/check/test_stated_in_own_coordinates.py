@@ -238,3 +238,49 @@ def test_a_rate_of_a_coordinate_of_the_answers_own_does_not_follow_from_energies
 J*theta'' + k1*a*(y + a*th) - k2*b*(y - b*th) = -b*F - c*a*(y' + a*thd)"""
     found = beam().check(f"th = theta\nthd = theta'\n{rows}")
     assert found.right and "energies" not in found.to_text()
+
+
+@cache
+def plane() -> lg.Derivation:
+    """A mass in a plane, on a spring to the origin."""
+    s = lg.System("plane")
+    x, y = s.coordinates("x y")
+    m, k = s.parameters("m k")
+    at, F = s.point("P", (x, y)), s.inputs("F")
+    s.particle(m, at=at)
+    s.potential(k * (x**2 + y**2) / 2)
+    s.force((F, 0), at=at)
+    return s.derive()
+
+
+POLAR = """\
+x = r cos(phi)
+y = r sin(phi)
+T = 1/2 m (r'^2 + r^2 phi'^2)
+V = 1/2 k r^2
+Q_r = F cos(phi)
+Q_phi = -F r sin(phi)
+∂T/∂r = m r phi'^2
+∂L/∂phi = 0
+d/dt ∂L/∂phi' = m r^2 phi'' + 2 m r r' phi'
+m r'' - m r phi'^2 + k r = F cos(phi)
+m r^2 phi'' + 2 m r r' phi' = -F r sin(phi)
+"""
+
+
+@pytest.mark.parametrize(
+    ("now", "wrong"),
+    [
+        ("Q_r = F cos", "Q_r = F sin"),
+        ("Q_phi = -F r", "Q_phi = F r"),
+        ("∂T/∂r = m r", "∂T/∂r = -m r"),
+        ("∂L/∂phi = 0", "∂L/∂phi = F"),
+        ("phi'' + 2 m r r' phi'\nm r''", "phi'' + m r r' phi'\nm r''"),
+        ("m r^2 phi'' + 2 m r r' phi' = -F", "m r^2 phi'' + m r r' phi' = -F"),
+        ("x = r cos(phi)\ny = r sin(phi)", "x = r cos(phi)\ny = 2 r sin(phi)"),
+    ],
+)
+def test_coordinates_of_the_system_may_be_any_functions_of_the_answers(now: str, wrong: str) -> None:
+    found = plane().check(POLAR)
+    assert found.right and "other coordinates" in found.to_text(), found.to_text()
+    assert now in POLAR and not plane().check(POLAR.replace(now, wrong, 1)).right

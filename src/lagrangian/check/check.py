@@ -14,7 +14,7 @@ from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
-from lagrangian.check.coordinates.chart import chart, with_own_quantities
+from lagrangian.check.coordinates.chart import chart, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
@@ -209,7 +209,19 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
             notes=notes,
             hint=verdict.hint,
         )
-    return None
+    return _put_in(truth, spelling, verdict) if new else None
+
+
+def _put_in(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict on an answer that is right in the coordinates in which it gives those of the system: x = r cos φ."""
+    if truth.derivation.multipliers or (own := without_constraints(truth, spelling.lines)) is None:
+        return None
+    lines = with_own_quantities(own.truth, own.lines, system_coordinates(own.truth))
+    judged = judged_lines(own.truth, lines, compared=False)
+    if not judged.status.right:
+        return None
+    notes = (*spelling.notes, own.change.told, *judged.notes)
+    return Verdict(Status.OTHER_COORDINATES, judged.findings, notes=notes, hint=verdict.hint)
 
 
 def _tells(lines: Sequence[AnsweredLine]) -> bool:

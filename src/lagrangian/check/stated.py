@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.coordinates.chart import OF_COORDINATES, chart
+from lagrangian.check.coordinates.chart import OF_COORDINATES, chart, system_coordinates
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reading import OwnCoordinates
@@ -154,7 +154,7 @@ def _stated_for(
     if line.kind not in OF_COORDINATES:
         return []
     i, name = index_of(truth, line.name), key(line.name or "")
-    found = [(_system(truth), name)] if i is not None and change is None else []
+    found = [(system_coordinates(truth), name)] if i is not None and change is None else []
     own = change if change is not None else chart(truth, tuple(lines))
     if own is not None and name in own.columns:
         found.append((own, name))
@@ -171,12 +171,6 @@ def _in_own(truth: Reference, own: OwnCoordinates) -> Text:
     return text("with ", *new[:-1], " in place of ", *gone[:-1]) if new else text("with the constraint put in")
 
 
-def _system(truth: Reference) -> OwnCoordinates:
-    """The coordinates of the system."""
-    names = {key(c.name): ((c.symbol, sp.S.One),) for c in truth.model.coordinates}
-    return OwnCoordinates(names, tuple(names))
-
-
 def _on_constraints(truth: Reference) -> OnConstraints | None:
     """The reference at states on the constraints; None for a system without any."""
     return held(truth) if truth.derivation.multipliers else None
@@ -190,7 +184,7 @@ def without_dampers(
 
     None if it is meant as the whole.
     """
-    return None if i is None else _undamped(truth, line, (_system(truth), key(str(line.name))), lines)
+    return None if i is None else _undamped(truth, line, (system_coordinates(truth), key(str(line.name))), lines)
 
 
 def _undamped(truth: Reference, line: AnsweredLine, by: By, lines: Sequence[AnsweredLine]) -> sp.Expr | None:
@@ -233,7 +227,7 @@ def right_value(truth: Reference, line: AnsweredLine, i: int | None) -> sp.Expr 
         return sp.S.Zero
     if i is None or line.kind not in OF_COORDINATES:
         return None
-    by = _system(truth), key(truth.model.coordinates[i].name)
+    by = system_coordinates(truth), key(truth.model.coordinates[i].name)
     return _of_coordinate(line.kind, by, truth.L, _forces(truth, truth.Xi))
 
 

@@ -116,7 +116,7 @@ def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence
         return None
     rows = [cast("sp.Expr", truth.expand(cast("sp.Expr", r.position)).xreplace(table)) for r in rows_of(model)]
     values = CompiledExpressions(rows).at(other.states)
-    return other if np.isfinite(values).all() and np.abs(values).max() <= SMALL else None
+    return other if np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL else None
 
 
 class _Free(Carrier):

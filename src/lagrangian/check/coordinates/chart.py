@@ -60,6 +60,12 @@ def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[Answ
     return stated, tuple(c.symbol for c in coordinates if key(c.name) not in used)
 
 
+def system_coordinates(truth: Reference) -> OwnCoordinates:
+    """The coordinates of the system."""
+    names = {key(c.name): ((c.symbol, sp.S.One),) for c in truth.model.coordinates}
+    return OwnCoordinates(names, tuple(names))
+
+
 def with_own_quantities(
     truth: Reference, lines: Sequence[AnsweredLine], own: OwnCoordinates | None
 ) -> tuple[AnsweredLine, ...]:
