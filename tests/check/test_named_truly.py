@@ -351,3 +351,17 @@ def test_a_force_with_a_factor_left_out_has_the_signs_of_the_answer(spring: str,
 def test_a_wrong_deflection_has_the_signs_of_the_right_one() -> None:
     verdict = tackle().check("m x'' = k (z-x) + c (z'-x'/2)/2\nM z'' = -k (z-x) - c (z'-x'/2)")
     assert "is taken as -x + z; it is -x/2 + z." in str(verdict.mistakes[0].what)
+
+
+def test_a_damper_that_is_put_into_the_equation_of_another_body_is_said_to_be_there() -> None:
+    s = lg.System("two carts")
+    x, y = s.coordinates("x y")
+    m, M, k, b = s.parameters("m M k b")
+    s.particle(m, at=s.point("A", (x, 0)))
+    s.particle(M, at=s.point("B", (y, 0)))
+    s.spring(k, deflection=y - x)
+    s.damper(b, deflection=x, name="brake")
+    said = s.derive().check("m x'' + k (x - y) = 0\nM y'' + b y' + k (y - x) = 0").mistakes[0].what
+    assert str(said) == (
+        "Damper 'brake' is counted in the equation of y, with y'; it belongs to that of x, with x'."
+    ), said
