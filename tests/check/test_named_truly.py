@@ -365,3 +365,9 @@ def test_a_damper_that_is_put_into_the_equation_of_another_body_is_said_to_be_th
     assert str(said) == (
         "Damper 'brake' is counted in the equation of y, with y'; it belongs to that of x, with x'."
     ), said
+
+
+def test_a_weight_that_is_forgotten_is_no_small_angle() -> None:
+    verdict = derivation("cart-pole").check("V = 0")
+    said = [str(m.what) for m in (*verdict.mistakes, *verdict.alternatives)]
+    assert said and not any("small" in x for x in said), said

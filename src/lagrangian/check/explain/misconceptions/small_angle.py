@@ -21,7 +21,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     table = {f: small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
     if table:
         yield Variant(what=what, V=put(s.V, table) - s.V)
-        yield Variant(what=what, V=put(s.V, {f: small(f) for f in table}) - s.V)
+        if any(isinstance(f, sp.sin) for f in table):  # cos θ = 1 in V leaves the weight out
+            yield Variant(what=what, V=put(s.V, {f: small(f) for f in table}) - s.V)
         for kind in (sp.sin, sp.cos):
             some = {f: x for f, x in table.items() if isinstance(f, kind)}
             if 0 < len(some) < len(table):
