@@ -10,7 +10,10 @@ from lagrangian.check.explain.misconceptions.ends import both_ends
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("Action and reaction are opposite: the two bodies are pushed in opposite directions.")
+WHY = text(
+    "Action and reaction are opposite: two bodies are pushed in opposite directions, and where a motor drives with K·i, "
+    "its voltage is against the current with K·ω."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
