@@ -54,7 +54,7 @@ def with_energies_apart(
 def without_first_parts(
     truth: Reference, lines: Sequence[AnsweredLine]
 ) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
-    """The lines, without an energy or a Ξ that another one below goes on with: Q = F, then Q = F − b v.
+    """The lines, without a Ξ that another one below goes on with, Q = F, then Q = F − b v; an energy where it says so.
 
     It was what one element adds, and is not the whole, unless it is right. With notes that say so.
     """
@@ -66,10 +66,18 @@ def without_first_parts(
     for k, (line, own) in enumerate(stated):
         of = line.kind, line.name
         after = [other for other, more in stated[k + 1 :] if (other.kind, other.name) == of and own < more]
+        after = [x for x in after if x.kind == "Xi" or _names_itself(x)]
         if after and not zero_everywhere(truth, truth.expand(line.expr) - right.get(of, line.expr)):
             whole[id(line)] = after[-1]
     notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
     return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))
+
+
+def _names_itself(line: AnsweredLine) -> bool:
+    """Whether a line says what its name is by that name: V = V + m g y."""
+    name, _, value = line.text.partition("=")
+    name = name.strip(" \t$&")
+    return bool(name) and re.search(rf"(?<![\w\\]){re.escape(name)}(?!\w)", value) is not None
 
 
 def _with_forces_above(lines: Sequence[AnsweredLine]) -> Iterator[AnsweredLine]:
