@@ -241,3 +241,13 @@ def test_a_wrong_moment_of_inertia_about_a_pivot_is_told_as_it_is_written() -> N
     energy = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 JA theta'^2"
     said = first("cart-pole", f"JA = J + m (l/2)^2\n{energy}\n{CART}\n{POLE.replace('m*l^2', 'm*l^2/4')}")
     assert said.startswith("The moment of inertia of rigid body 'pole' about its pivot is J + "), said
+
+
+def test_a_wrong_velocity_is_told_by_rates() -> None:
+    s = lg.System("sleeve")
+    theta, x = s.coordinates("theta x")
+    m, l, g = s.parameters("m l g")
+    s.particle(m, at=s.point("sleeve", (x, x - 2 * l * sp.cos(theta))), name="sleeve")
+    s.gravity((0, -1), g)
+    said = first(s.derive(), "T = m*(x'^2 + (x' + l*sin(theta)*theta')^2)/2\nV = m*g*(x - 2*l*cos(theta))")
+    assert "l*sin(theta)*theta' stands in place of 2*l*sin(theta)*theta'" in said, said

@@ -119,7 +119,8 @@ class GeometryChanges:
             yield made(kind, cost, site, {"T": T, "V": V}, right, written)
             yield made(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
         if T:
-            yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, right, written)
+            rates = [self.s.rate(x) if isinstance(x, sp.Expr) and self.s.moves(x) else x for x in (right, written)]
+            yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, *rates)
 
     def _lifted(self, b: Any, position: list[sp.Expr]) -> Any:
         """What a moved position adds to m g h."""
