@@ -117,7 +117,9 @@ def _in_any_form(
     for kind, term, written, whole in islice(entries(truth, right.expr(), mine.expr()), MAX_DIFFERENCES):
         own = truth.form(whole) if kind != "extra" else None
         scaled = [x if abs(factor) == 1 else bounded.expand(factor * x) for x in (term, written)]
-        found.append(TermDifference(kind, *scaled, name, _origins(truth, own, index) if own is not None else ()))
+        found.append(
+            TermDifference(kind, scaled[0], scaled[1], name, _origins(truth, own, index) if own is not None else ())
+        )
     return tuple(found)
 
 

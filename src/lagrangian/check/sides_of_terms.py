@@ -70,7 +70,7 @@ def _names(written: str) -> frozenset[str]:
 def _names_in(term: sp.Expr) -> frozenset[str]:
     """The names in a term."""
     moving = {x.func.__name__ for x in term.atoms(AppliedUndef)}
-    return frozenset(map(key, moving | {x.name for x in term.free_symbols if x != time})) | {
+    return frozenset(map(key, moving | {str(x) for x in term.free_symbols if x != time})) | {
         str(f.func) for f in term.atoms(sp.sin, sp.cos)
     }
 

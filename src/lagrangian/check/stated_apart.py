@@ -60,7 +60,9 @@ def without_first_parts(
     """
     lines = list(_with_forces_above(lines))
     stated = [(line, _terms(truth, line.expr)) for line in lines if line.kind in ("Xi", "T", "V", "L")]
-    right = {("Xi", c.name): x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)}
+    right: dict[tuple[str, str | None], sp.Expr] = {
+        ("Xi", c.name): x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)
+    }
     right |= {("T", None): truth.T, ("V", None): truth.V, ("L", None): truth.L}
     whole: dict[int, AnsweredLine] = {}
     for k, (line, own) in enumerate(stated):
@@ -84,11 +86,11 @@ def _with_forces_above(lines: Sequence[AnsweredLine]) -> Iterator[AnsweredLine]:
     """The lines, in which Q = Q − b v has the Q that stands above."""
     above: dict[str, sp.Expr] = {}
     for line in lines:
-        if line.kind == "Xi" and line.name is not None:
-            if line.name in above:
-                own = cast("sp.Expr", line.expr.xreplace({generalized_force(line.name): above[line.name]}))
+        if line.kind == "Xi" and (name := line.name) is not None:
+            if name in above:
+                own = cast("sp.Expr", line.expr.xreplace({generalized_force(name): above[name]}))
                 line = replace(line, expr=own)
-            above[line.name] = line.expr
+            above[name] = line.expr
         yield line
 
 

@@ -67,7 +67,7 @@ def named_beside_multipliers(
         if f.line.kind == "equation" and f.status.right and not f.line.expr.has(*forces):
             better[k] = f  # true without any multiplier, however these are read
     found = {k: _without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True)}
-    findings = tuple(_as_above(f, found.get(again.get(k))) for k, f in found.items())
+    findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 from lagrangian.check.explain.derivative_lines import DERIVED
 from lagrangian.check.verdict import AnsweredLine, Mistake
-from lagrangian.page.formula import Name, Text, text
+from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
 WHOLE = {"T*": "the terms of the kinetic energy", "V": "the terms of the weights and springs"}
 """What an energy is in equations."""
@@ -56,7 +56,7 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
     return text(*found)
 
 
-def _joined(said: Text) -> Iterator[object]:
+def _joined(said: Text) -> Iterator[str | Left | Verbatim]:
     """The parts of a text, with the names of energies as words."""
     words = ""
     for part in said.parts:
