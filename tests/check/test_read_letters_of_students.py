@@ -256,3 +256,17 @@ def test_letters_with_d_are_rates_of_what_moves_alone() -> None:
     assert accepted(sheet)
     assert not accepted(sheet.replace("kd = k/2", "kd = k"))
     assert accepted(f"{CART}\n{BOB}".replace("x''", "xdd").replace("theta'", "thetad").replace("thetad'", "thetadd"))
+
+
+def test_a_legend_of_rates_is_no_equation() -> None:
+    legend = "(th = theta, d.. = rate, dd.. = acceleration; m is the bob)\n"
+    rows = f"{CART}\n{BOB}".replace("theta''", "ddth").replace("theta'", "dth").replace("x''", "ddx")
+    assert accepted(f"{rows}\n{legend}".replace("(theta)", "(th)"))
+    assert accepted(f"..' = velocity, ..'' = second derivative\n{CART}\n{BOB}")
+
+
+def test_a_derivative_of_positions_is_no_equation_of_motion() -> None:
+    verdict = cart().check(f"(chain rule with d/dt(x + ell sin(theta)) = x' + cos(theta) theta')\n{CART}\n{BOB}")
+    assert [f.line.kind for f in verdict.findings] == ["identity", "equation", "equation"]
+    assert [f.status.right for f in verdict.findings] == [False, True, True]
+    assert accepted(f"d/dt(x + ell sin(theta)) = x' + ell cos(theta) theta'\n{CART}\n{BOB}")

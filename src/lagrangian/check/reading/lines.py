@@ -369,7 +369,7 @@ class Lines:
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
 
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
-        kind: Kind = "equation"
+        kind: Kind = "identity" if self.subjects.is_chain_rule((a, left), (b, right)) else "equation"
         for side, value in ((a, right), (b, left)):
             if (subject := self.subjects.left_side(side)) is not None and accelerates(value):
                 return made_line("left", None, value, subject.name, a, b, reader)

@@ -49,6 +49,7 @@ from lagrangian.check.reading.programs.sessions import without_prompts, without_
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.prose.changing_words import changing_words
+from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
@@ -318,7 +319,8 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_derivative_legends(session, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    tagless = solved_matrices(without_drawn_formulas(without_references(indexed), typed), taken)
+    referred = without_legend(without_references(indexed))
+    tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(_LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)

@@ -240,6 +240,15 @@ class Subjects:
                 return kind, left, right, name
         return None
 
+    def is_chain_rule(self, *sides: tuple[Tree, sp.Expr]) -> bool:
+        """Whether a statement differentiates an expression of positions: d/dt(a + l sin θ) = l cos θ θ'."""
+        for (side, own), (_, value) in (sides, sides[::-1]):
+            tree = inside(side)
+            rated = tree.data == "rate" and tree.children[1] == 1 and only_name(inside(tree.children[0])) is None
+            if rated and not self.model.constraints and value.has(sp.Derivative):
+                return not accelerates(own) and not accelerates(value)
+        return False
+
     def _added_by(self, side: Node) -> tuple[Kind, str] | None:
         """Which derivative a side is, and of which coordinate; ∂T*/∂ξ̇ itself adds to no equation."""
         side, rate = inside(side), False

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.traced_text import TracedText
 
 _COMMAND = re.compile(r"\\(?:text|mathrm|textrm|mbox|textit|textbf)\s*(?=\{)|\\([A-Za-z]+)")
 _DOTS = re.compile(r"\.\.\.|…|⋯|\\[lc]?dots")
@@ -23,8 +24,22 @@ _OPERATOR = re.compile(
     rf"d\s?{_TWICE}\s?/\s?\(?dt\s?{_TWICE}[\s).;,]*+"
 )
 """How derivatives are spelled: dot = d/dt, '' = d²/dt²."""
+_GAP = r"(?:\.{2,3}|…|[*_~-])"
+_MARK = r"(?:dd?ot|dd?|pp?|punkt|['’′]{1,2})"
+_LEGEND = re.compile(
+    rf"(?<![\w.)\]])(?:{_GAP}{_MARK}|{_MARK}{_GAP})(?![\w.])[ \t]?(?:=|:|is|are|means?|for)[ \t]?"
+    r"(?:(?:the|a|first|second|1st|2nd|time|angular)[ \t-]){0,4}"
+    r"(?:rates?|velocit(?:y|ies)|speeds?|derivatives?|accelerations?|d\^?[2²]?/dt\^?[2²]?)(?![\w/*(])",
+    re.IGNORECASE,
+)
+"""The same with a place for the name: d.. = rate, ..dot = velocity."""
 _NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?![=>])")
 """A name alone in front of an equals sign."""
+
+
+def without_legend(written: TracedText) -> TracedText:
+    """Return an answer without the parts that only say how rates are spelled."""
+    return written.sub(_LEGEND, lambda m: " " * len(m.group()))
 
 
 def is_remark(text: str) -> bool:
