@@ -78,7 +78,7 @@ BY_HAND = [
     ("lecture-1", [SWING.replace("b*L_b^2", "b") + " + m*g*L_m*sin(theta) = tau"], "damper_arm"),
     ("lecture-1", [SWING + " + m*g*L_m*cos(theta) = tau"], "sine_for_cosine"),
     ("lecture-1", [SWING + " + m*g*sin(theta) = tau"], "gravity_arm"),
-    ("lecture-1", [SWING + " + 2*m*g*L_m*sin(theta) = tau"], "gravity_arm"),
+    ("lecture-1", [SWING + " + 2*m*g*L_m*sin(theta) = tau"], "element_twice"),
     ("lecture-1", [SWING.replace("m*L_m^2", "2*m*L_m^2") + " + m*g*L_m*sin(theta) = tau"], "half_forgotten"),
     ("lecture-1", [SWING + " + m*g*L_m*sin(theta) = -tau"], "force_sign"),
     ("lecture-2", ["Xi_theta1 = -tau", "Xi_theta2 = tau"], "torque_on_parent"),
