@@ -84,6 +84,22 @@ def test_a_kinetic_energy_with_an_index_is_that_of_derivatives_and_a_wrong_funct
     assert not any("T_rel" in str(note) and "not judged" in str(note) for note in verdict.notes)
 
 
+def test_a_wrong_function_is_told_by_the_term_that_has_it() -> None:
+    rows = "m r'' - m r theta'^2 + k r = m a w^2 sin(w t) sin(theta)\n"
+    said = first(shaken(), f"{rows}m r^2 theta'' + 2 m r r' theta' = m a w^2 r sin(w t) sin(theta)")
+    assert said.startswith("In the term -a*m*w^2*r*sin(t*w)*cos(theta) of the equation of theta, sin(theta) stands")
+
+
+def test_a_force_along_a_line_has_no_arm_but_a_direction() -> None:
+    s = lg.System("slope")
+    x, (m, k, alpha), F = s.coordinates("x"), s.parameters("m k alpha"), s.inputs("F")
+    at = s.point("A", (x * sp.cos(alpha), x * sp.sin(alpha)))
+    s.particle(m, at=at)
+    s.spring(k, deflection=x)
+    s.force((F, 0), at=at)
+    assert first(s.derive(), "m x'' + k x = F").endswith("is counted whole, whatever its direction.")
+
+
 @pytest.mark.slow
 def test_both_strands_of_a_belt_are_taken_alike() -> None:
     way, speed = "(r*p + R*q)", "(r*p' + R*q')"

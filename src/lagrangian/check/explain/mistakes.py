@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -30,6 +30,7 @@ from lagrangian.check.explain.line_mistakes import (
     of_line,
     stated,
 )
+from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
@@ -150,7 +151,7 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
         own += slip
         left += [] if slip else [line]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
-    named = _named(pool, groups) if groups else NamedMistakes()
+    named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
     of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
@@ -316,7 +317,7 @@ def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm)
     return said_of(truth, in_words(truth, found.told[0], None), expr)
 
 
-def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes:
+def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Collection[str]) -> NamedMistakes:
     """One mistake that explains every group, otherwise the best for each group in turn."""
 
     def key(t: Told) -> tuple[float, ...]:
@@ -344,7 +345,10 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
             others = [e for e in others if reach(e) < reach(best) + SPARED]
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
-    chosen = _joined(pool, chosen)
+    wide = _joined(pool, chosen)
+    chosen = [(narrowed(pool, t, kinds), under) for t, under in wide]
+    if chosen[0][0] is not wide[0][0]:
+        others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
     every = [with_term(pool, t, a, in_words(pool.truth, t, a)) for t, a in chosen]
     every[0], others = of_either(pool.truth, every[0], chosen[0], others)
     told = _once(moved_elsewhere(pool, chosen, every), ())

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, letters
+from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, letters, put
 from lagrangian.model import Element
 from lagrangian.page.formula import Text, text
 
@@ -27,7 +27,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         efforts = list(dict.fromkeys(s.expand(a.effort) for a in s.actions(element)))
         bare = [sign * e for e in efforts for sign in (1, -1)]
         for i, x in shares.items():
-            others: dict[sp.Expr, sp.Symbol | None] = dict.fromkeys(bare if x not in bare else ())
+            armed = x not in bare and any(_has_arm(x, e) for e in efforts)
+            others: dict[sp.Expr, sp.Symbol | None] = dict.fromkeys(bare if armed else ())
             for p in letters(x):
                 if not (y := bounded.expand(x / p)).has(p):
                     others.setdefault(y, None if y in bare else p)
@@ -41,6 +42,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 whole = all(x in bare for x in changed.values())
                 what = _what(element, ("the equations",), None if whole else p)
                 yield Variant(what=what, Xi={i: c - shares[i] for i, c in changed.items()}, element=element)
+
+
+def _has_arm(share: sp.Expr, effort: sp.Expr) -> bool:
+    """Whether a force is multiplied by more than a direction, sines and cosines."""
+    arm = put(bounded.cancel(share / effort), dict.fromkeys(share.atoms(sp.sin, sp.cos), sp.S.One))
+    return not arm.is_number
 
 
 def _what(element: Element, where: tuple[str | sp.Expr, ...], factor: sp.Symbol | None) -> Text:
