@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import sympy as sp
@@ -21,6 +20,7 @@ from lagrangian.check.explain.derivative_lines import (
     of_differences,
 )
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
+from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.line_mistakes import (
     MOST_TOLD,
     UNNATURAL,
@@ -66,9 +66,6 @@ FAR = 3.6
 """A mistake that costs more is far-fetched: it explains the answer, but what differs is said first."""
 FAR_TOGETHER = 2.6
 """The same for several mistakes, a mistake."""
-
-SHOWN = 1e-9
-"""The size from which on a mistake is seen in an energy or a force."""
 
 
 @dataclass(frozen=True)
@@ -344,8 +341,8 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Collectio
             others = [e for e in group if e is not best and len(e.told) == len(best.told) == 1]
             others = [e for e in others if reach(e) < reach(best) + SPARED]
         new = [t for t in best.told if key(t) not in known]
-        chosen += [(t, best.under) for t in new if not any(_is_part(pool, t, of) for of, _ in chosen)]
-    wide = _joined(pool, chosen)
+        chosen += [(t, best.under) for t in new if not any(is_part(pool, t, of) for of, _ in chosen)]
+    wide = joined(pool, chosen)
     chosen = [(narrowed(pool, t, kinds), under) for t, under in wide]
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
@@ -361,34 +358,6 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Collectio
     costs = [t.cost for t, _ in chosen]
     far = max(costs) > FAR or (len(costs) > 1 and sum(costs) > FAR_TOGETHER * len(costs))
     return NamedMistakes(told, more[:5], single, not far)
-
-
-def _joined(pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]]) -> list[tuple[Told, Alignment | None]]:
-    """The chosen mistakes, the same one at two places as one: in the springs and in the dampers, everywhere."""
-    left = list(chosen)
-    of_lines = [(t, under) for t, under in chosen if under is None]  # an equation may be the right one times −1
-    for (a, under), (b, _) in combinations(of_lines, 2):
-        one, two = a.mistake.change, b.mistake.change
-        if one is None or two is None or (one.kind, a.times) != (two.kind, b.times) or one.written != two.written:
-            continue
-        if (whole := pool.together(a.mistake, b.mistake)) is not None and (a, under) in left:
-            left[left.index((a, under))] = (replace(a, mistake=whole), under)
-            left = [x for x in left if x[0] is not b]
-    return left
-
-
-def _is_part(pool: Pool, told: Told, of: Told) -> bool:
-    """Whether a mistake is what another one is in T*, in V or in Ξ: of a spring and a damper, the damper alone."""
-    k, j = pool.places[id(told.mistake)], pool.places[id(of.mistake)]
-    felt = False
-    for values in (pool.T, pool.V, pool.Xi):
-        own, whole = float(told.times) * values[k], float(of.times) * values[j]
-        if not np.abs(own).max() > SHOWN:
-            continue
-        if np.abs(own - whole).max() > SHOWN * np.abs(whole).max():
-            return False
-        felt = True
-    return felt and not (pool.felt[k] & ~pool.felt[j]).any()
 
 
 def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
