@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 
 import numpy as np
@@ -314,7 +314,7 @@ def _of_numerator(truth: Reference, expr: sp.Expr, found: Explanation | OwnTerm)
     return said_of(truth, in_words(truth, found.told[0], None), expr)
 
 
-def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Collection[str]) -> NamedMistakes:
+def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str]) -> NamedMistakes:
     """One mistake that explains every group, otherwise the best for each group in turn."""
 
     def key(t: Told) -> tuple[float, ...]:

@@ -6,7 +6,7 @@ cos(α + θ) stands in place of cos θ" is said of the sine in the equation if t
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Set
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +18,7 @@ FUNCTIONS = ("sine_cosine", "tangent", "angle", "double_angle")
 """The kinds of changes that only exchange a function of an angle."""
 
 
-def narrowed(pool: Pool, told: Told, kinds: Collection[str]) -> Told:
+def narrowed(pool: Pool, told: Told, kinds: Set[str]) -> Told:
     """The same change in the single term of an equation, or in what an element adds to it; ``kinds`` are those of the
     lines of the answer."""
     change = told.mistake.change

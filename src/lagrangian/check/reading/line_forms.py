@@ -143,11 +143,17 @@ def matrix_rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[
 def made_line(
     kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
 ) -> AnswerLine:
-    """Make the line; its place is that of its first side. Raises `ParseError` if only one side is a matrix."""
+    """Make the line; its place is that of its first side, and i = q′ names q. Raises `ParseError` if only one side is a
+    matrix.
+    """
     if lhs is not None and isinstance(lhs, MatrixBase) != isinstance(rhs, MatrixBase):
         reader.fail("a single quantity cannot equal a matrix", a, fix="write one equation per line")
     source = reader.source
     start = min(start_of(a), start_of(b))
     tokens = (str(token) for side in (a, b) for token, _ in names_in(side))
-    names = frozenset(key(x) for token in tokens for x in (undotted(token)[0], *(x for _, x in spelled_rates(token))))
-    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()), names)
+    names = {key(x) for token in tokens for x in (undotted(token)[0], *(x for _, x in spelled_rates(token)))}
+    values = [reader.names.own[x][1] for x in names if x in reader.names.own]
+    rates = {
+        key(x.expr.func.__name__) for x in values if isinstance(x, sp.Derivative) and isinstance(x.expr, AppliedUndef)
+    }
+    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()), frozenset(names | rates))

@@ -11,8 +11,8 @@ from lagrangian.page.formula import text
 
 STEP = 6
 WHY = text(
-    "Action and reaction are opposite: two bodies are pushed in opposite directions, and where a motor drives with "
-    "K·i, its voltage is against the current with K·ω."
+    "Action and reaction are opposite: two bodies are pushed in opposite directions, and where a motor drives, its "
+    "voltage is against the current."
 )
 
 
