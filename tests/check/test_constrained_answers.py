@@ -51,6 +51,12 @@ def test_a_wrong_equation_in_an_angle_is_wrong(pendulum: lg.Derivation, answer: 
     assert found.status is Status.WRONG and "Read with x = l sin θ, y = −l cos θ." in str(found)
 
 
+@pytest.mark.parametrize("name", ["lam", "lmbda", "lambda"])
+def test_a_multiplier_needs_no_sign_of_a_product(pendulum: lg.Derivation, name: str) -> None:
+    assert pendulum.check(f"m x'' = 2 {name} x\nm y'' + m g = 2 {name} y").right
+    assert not pendulum.check(f"m x'' = 2 {name} x\nm y'' + m g = {name} y").right
+
+
 @pytest.fixture(scope="module")
 def sleigh() -> lg.Derivation:
     s = lg.System("Chaplygin sleigh")

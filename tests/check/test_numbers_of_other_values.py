@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import pytest
 
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 NUMBERS = """3 x'' + 0.5 theta'' cos theta - 0.5 theta'^2 sin theta + 0.2 x' = F
@@ -22,3 +23,18 @@ def test_numbers_of_other_values_do_not_make_right_equations_wrong(head: str) ->
 
 def test_numbers_of_the_values_that_are_stated_are_judged() -> None:
     assert not right(f"{CART}\n{POLE}\n{VALUES}\n{NUMBERS.replace('4.905', '5.905').replace('0.2', '0.3')}")
+
+
+@pytest.mark.parametrize("stiffness", ["2·10³", "2*10^3", "2e3", "2×10³", "2 · 10³"])
+def test_a_power_of_ten_belongs_to_a_value_in_a_list(stiffness: str) -> None:
+    values = f"m1 = 3 kg, k = {stiffness} N/m"
+    rows = "3 x1'' - 2000 x2r = -F\nm2 (x1'' + x2r'') + 2000 x2r = F"
+    assert derivation("lecture-3b").check(f"{values}\n{rows}").right
+    assert not derivation("lecture-3b").check(f"{values}\n{rows.replace('2000 x2r = F', '2 x2r = F')}").right
+
+
+@pytest.mark.parametrize("pi", ["Pi", "PI", "π", "pi"])
+def test_pi_is_a_number_in_the_spelling_of_every_program(pi: str) -> None:
+    answer = f"alpha = theta - {pi}/2\nm L^2 alpha'' + b alpha' + m g L cos(alpha) = 0"
+    assert derivation("pendulum").check(answer).right
+    assert not derivation("pendulum").check(answer.replace("/2", "/3")).right

@@ -40,6 +40,8 @@ SHORTEST_NEAR, NEAR = 4, 0.8
 """In LaTeX, where adjacent letters are a product: the fewest letters of a misspelled name, and the required
 similarity."""
 
+PI = ("pi", "π", "Pi", "PI")
+"""Names of π, also of programs."""
 COLUMNS = frozenset(["q", "x", "X", "y", "z", "xi", "eta"])
 """Letters that often are the column of all coordinates."""
 
@@ -112,7 +114,7 @@ class Names:
         return bool(
             self.scope.meanings(written)[0]
             or key(base) in self.own
-            or written in ("t", "pi")
+            or written in ("t", *PI)
             or energy_of(written, self.model)
             or force_of(written, self.model)
         )
@@ -197,7 +199,7 @@ class Names:
             return kind, ENERGIES[kind] if given is None else given, dots
         if (coordinate := self.force(base)) is not None:
             return base, generalized_force(coordinate), dots
-        if base in ("pi", "π"):
+        if base in PI:
             return "pi", sp.pi, dots
         if base == "t":
             return "t", time, dots

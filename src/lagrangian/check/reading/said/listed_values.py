@@ -17,12 +17,14 @@ from lagrangian.quantities.units import joined, lookup
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
 _VALUE = re.compile(
     rf"(?<![\w.])(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
-    r"(?![ \t]*[*^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
+    r"(?P<ten>[ \t]?[·×⋅*][ \t]?10(?:(?:\^|\*\*)[({]?(?P<power>[-+−]?\d{1,2})[)}]?|(?P<raised>[⁻⁺]?[⁰¹²³⁴-⁹]{1,2})))?+"
+    r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:[ \t]?[/·* ]?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
 _FACTOR = re.compile(rf"(?<![\w.])(?P<name>{_NAME})(?:\^\d|[²³])?[ \t]*[*·]?[ \t]*\Z")
 _PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
 
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _RATE = re.compile(r"\w['’′″]++(?!s\b)|\bd\d?\w*+/d|[\u0307\u0308]|[ẋẍẏÿżṙṁ]|\w_?d?dot\b|\bdd?ot\b|\bdiff\b|\bDeriv")
 """A rate or an acceleration, by which a part of an equation is known from words."""
 
@@ -47,9 +49,12 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         kept = list(" " * len(line))
         for match in found:
             read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
-            end = match.end() if read else match.end("number")
+            end = match.end() if read else max(match.end("number"), match.end("ten"))
             start = _start(line, match, values)
             kept[start:end] = line[start:end].replace(",", ".")
+            if match["ten"]:
+                first, last = match.start("number"), match.end("ten")
+                kept[first:last] = _number(match).ljust(last - first)
             if end < len(line):
                 kept[end] = ";"
         lines[k] = "".join(kept)
@@ -74,8 +79,14 @@ def _moves(words: str) -> bool:
 
 def _same(match: re.Match[str], value: float | None) -> bool:
     """Whether a number is the value in the system, in SI units."""
-    number = float(match["number"].replace(",", "."))
+    number = float(_number(match))
     return value is not None and isclose(number, value, rel_tol=1e-9)
+
+
+def _number(match: re.Match[str]) -> str:
+    """The number of a value as programs write it: 0,4·10⁶ is 0.4e6."""
+    power = match["power"] or (match["raised"] or "").translate(_RAISED)
+    return match["number"].replace(",", ".") + (f"e{power.replace('−', '-')}" if power else "")
 
 
 def _factor(unit: str) -> float | None:
