@@ -37,7 +37,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if rate in s.v and other in s.v:
                 here, there = (s.q[s.v.index(x)] for x in (rate, other))
                 belongs = ("; it belongs to that of ", here, ", with ", rate, ".")
-                what = text(f"{element.title} is counted in the equation of ", there, ", with ", other, *belongs)
+                said = text(f"{element.title} is counted in the equation of ", there, ", with ", other, *belongs)
+                yield Variant(what=said, Xi={i: x for i, x in full.items() if x != 0}, element=element, stated=NO_D)
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
 
 
