@@ -39,6 +39,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 belongs = ("; it belongs to that of ", here, ", with ", rate, ".")
                 said = text(f"{element.title} is counted in the equation of ", there, ", with ", other, *belongs)
                 yield Variant(what=said, Xi={i: x for i, x in full.items() if x != 0}, element=element, stated=NO_D)
+                continue
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
 
 
