@@ -42,6 +42,17 @@ def test_a_term_that_is_missing_stands_before_the_reason() -> None:
     assert said.startswith("The term -l*m*sin(theta)*theta'^2 of the equation of x is missing. A possible reason: ")
 
 
+@pytest.mark.slow
+def test_a_hint_tells_no_reason_for_a_term_that_is_missing() -> None:
+    """Below the terms a misconception has no words for what was done, only those of its reason."""
+    answer = CART.replace(" - m*l*sin(theta)*theta'^2", "") + "\n" + POLE
+    named = derivation("cart-pole").check(answer).mistakes[0]
+    _, _, cause = str(named.what).partition("A possible reason: ")
+    assert named.brief is None and cause
+    hinted = derivation("cart-pole").check(answer, hint=2)
+    assert cause not in " ".join(hinted.to_text().split()) and cause not in str(hinted.to_dict())
+
+
 def test_a_generalized_force_with_the_wrong_sign_is_on_no_wrong_side() -> None:
     said = first("cart-pole", f"Xi_x = -F + b*x'\nXi_theta = 0\n{CART}\n{POLE}")
     assert "wrong sign" in said and "side" not in said

@@ -85,7 +85,7 @@ def differences(
         return ()
     name = truth.model.coordinates[index].name if index is not None else None
     if lacking.opaque():
-        return _in_any_form(truth, mine, right, factor, index)
+        return _in_any_form(truth, mine, right, factor, index, name)
     found: list[TermDifference] = []
     for keys in _groups(lacking):
         ours, theirs = right.restricted(keys), mine.restricted(keys)
@@ -109,10 +109,9 @@ def differences(
 
 
 def _in_any_form(
-    truth: Reference, mine: Form, right: Form, factor: sp.Expr, index: int | None
+    truth: Reference, mine: Form, right: Form, factor: sp.Expr, index: int | None, name: str | None
 ) -> tuple[TermDifference, ...]:
     """The same for functions that have several forms, 1 + tan² θ and 1/cos² θ."""
-    name = truth.model.coordinates[index].name if index is not None else None
     found: list[TermDifference] = []
     for kind, term, written, whole in islice(entries(truth, right.expr(), mine.expr()), MAX_DIFFERENCES):
         own = truth.form(whole) if kind != "extra" else None

@@ -14,19 +14,17 @@ from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import index_of, right_value
-from lagrangian.check.verdict import OWN_SLOPES, Finding, Status
+from lagrangian.check.verdict import DERIVED, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 
-DERIVATIVES = ("p", "p-rate", "slope", "left", *OWN_SLOPES)
-"""∂L/∂ξ̇, its d/dt, ∂L/∂ξ, what is left of the equation, and derivatives of the answer's own T*, V and D."""
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
 
 
 def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
     """The findings, with the equations marked that have exactly what a wrong derivative above them has too much."""
-    derived = [f for f in findings if f.line.kind in DERIVATIVES and _is_open(f)]
+    derived = [f for f in findings if f.line.kind in ("p", *DERIVED) and _is_open(f)]
     rows = [f for f in findings if f.line.kind == "equation" and _is_open(f)]
     if not derived or not rows:
         return list(findings)
@@ -51,11 +49,9 @@ def _extra(truth: Reference, finding: Finding) -> Iterator[tuple[int, int, Array
     if i is None or right is None:
         return
     rest = line.expr - right
-    made = [rest] if line.kind != "p" else []
-    made += [bounded.diff(rest, time)] if line.kind == "p" else []
-    for values in CompiledExpressions(made).at(truth.states):
-        if np.isfinite(values).all() and np.abs(values).max() > 0:
-            yield line.number, i, values
+    (values,) = CompiledExpressions([bounded.diff(rest, time) if line.kind == "p" else rest]).at(truth.states)
+    if np.isfinite(values).all() and np.abs(values).max() > 0:
+        yield line.number, i, values
 
 
 def _has(truth: Reference, finding: Finding, P: Array, i: int, extra: Array) -> bool:

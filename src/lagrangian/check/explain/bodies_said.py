@@ -54,7 +54,10 @@ WHY = {
     "speed": text("The velocity is the derivative of the position; every coordinate that moves the body adds to it."),
     "turning": text("ω is how fast the body itself turns against the fixed axes."),
     "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
-    "axis": text("About a parallel axis it is J + m·a², where a is the distance of this axis from the centre of mass."),
+    "axis": text(
+        "About a parallel axis it is larger, by the mass times the square of the distance of this axis from the centre "
+        "of mass."
+    ),
     "position": text("Go along the way from the fixed point to the body: every piece of it counts."),
 }
 

@@ -15,15 +15,13 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.own_terms import WHY, term_replaced
-from lagrangian.check.explain.term_said import REASON
+from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import OWN_SLOPES, AnsweredLine, Finding, Mistake
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake
 from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
 
-DERIVED = ("p-rate", "slope", "left", *OWN_SLOPES)
-"""d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
 WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
@@ -105,8 +103,7 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr)]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
         return mistake
-    brief = mistake.brief if mistake.brief is not None else mistake.what
-    return replace(mistake, what=text(*slip.what.parts, REASON, *mistake.what.parts), brief=brief)
+    return with_reason(slip.what, mistake)
 
 
 def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Mistake | None:
@@ -122,17 +119,11 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     pair = _replaced(rest, right)
     if pair is None:
         return None
-    written, belongs = pair
-    if belongs == 0:
-        name, said = "term_too_much", text("The term ", written, " does not belong there.")
-    else:
-        name, said = term_replaced(written, belongs)
+    name, said = term_replaced(*pair)
     first, *others = said.parts
     words = str(first)
     brief = text("A term of ", title, " is not right.")
-    what = text("In ", title, ", ", words[:1].lower() + words[1:], *others)
-    if words.startswith("In "):
-        what = text("In ", title, ": ", words[:1].lower() + words[1:], *others)
+    what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
     return Mistake(name, what, WHY, 5, None, truth.model.coordinates[i].name, brief)
 
 
@@ -143,9 +134,7 @@ def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mist
         return []
     written = sp.Add(*[d.written for d in finding.differences])
     right = sp.Add(*[d.term for d in finding.differences if d.kind != "extra"])
-    name, what = term_replaced(*map(sp.factor_terms, (written, right)))
-    if right == 0:
-        name, what = "term_too_much", text("The term ", written, " does not belong there.")
+    name, what = term_replaced(*((written, right) if right == 0 else map(sp.factor_terms, (written, right))))
     first, *more = what.parts
     title = finding.line.title
     said = text(f"In {title}, {str(first)[:1].lower()}{str(first)[1:]}", *more)

@@ -11,11 +11,11 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
-from lagrangian.check.explain.derivative_lines import DERIVED, elsewhere, slip_in
+from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Force, Torque
 

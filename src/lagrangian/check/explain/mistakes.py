@@ -13,12 +13,7 @@ from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
 from lagrangian.check.explain.changes.pool import Pool, pool_of
-from lagrangian.check.explain.derivative_lines import (
-    DERIVED,
-    against_derivatives,
-    of_derivative_of,
-    of_differences,
-)
+from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.line_mistakes import (
@@ -52,7 +47,7 @@ from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.prescribed import of_prescribed
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.records import dataclass
 

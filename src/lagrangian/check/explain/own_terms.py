@@ -113,7 +113,9 @@ class OwnTerm:
 
 
 def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
-    """The name and the words for a term in place of another, or for one that is missing."""
+    """The name and the words for a term in place of another, for one that is missing, or for one too much (0)."""
+    if right == 0:
+        return "term_too_much", text("The term ", term, " does not belong there.")
     if term == 0:
         return "term_forgotten", text("The term ", right, " is missing.")
     if term == -right:

@@ -18,7 +18,7 @@ from lagrangian.check.explain.changes.change import LocalChange, Site
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import Mistake
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 
 REASON = " A possible reason: "
 PLAIN = (
@@ -49,8 +49,12 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake)
         right = next(x for x in said if isinstance(x, sp.Expr))
         where = ("The term ", (1 + sp.Rational(times.numerator, times.denominator)) * right, " of the equation of ")
         said = (*where, pool.truth.derivation.coordinates[row or 0], " should be ", right, ".")
-    brief = mistake.brief if mistake.brief is not None else mistake.what
-    return replace(mistake, what=text(*said, REASON, *mistake.what.parts), brief=brief)
+    return with_reason(text(*said), mistake)
+
+
+def with_reason(said: Text, mistake: Mistake) -> Mistake:
+    """A mistake, told by what is certain; what it would be caused by stands behind it."""
+    return replace(mistake, what=text(*said.parts, REASON, *mistake.what.parts))
 
 
 def _is_plain(possible: Possible) -> bool:

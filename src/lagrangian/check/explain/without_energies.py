@@ -11,8 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from lagrangian.check.explain.derivative_lines import DERIVED
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
 from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
 WHOLE = {"T*": "the terms of the kinetic energy", "V": "the terms of the weights and springs"}

@@ -37,10 +37,12 @@ def with_functions_applied(text: TracedText, taken: Callable[[str], bool], told:
         if free and own and len(found) < MOST and len(value) <= LONGEST and letter.search(value):
             found.setdefault(name, (of, value))
     edits = apart(edit for name, (of, value) in found.items() for edit in _calls(text.text, name, of, value))
+    if len(edits) > MOST_CALLS:
+        return text
     for name, (of, _) in found.items():
         if any(text.text.startswith(name, start) for start, _, _ in edits):
             told.setdefault(f"'{name}({of})' was read as a function of {of}.")
-    return text.edited(edits[:MOST_CALLS]) if len(edits) <= MOST_CALLS else text
+    return text.edited(edits)
 
 
 def _calls(text: str, name: str, of: str, value: str) -> Iterator[Edit]:

@@ -8,7 +8,7 @@ line.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.prose.remarks import accelerates_in
@@ -62,8 +62,7 @@ class Bullets:
             lists = [x for x in self._paragraphs() if not self._are_signs() and self._are_list(x)]
         if any(map(self._may_be_signs, lists)):
             notes.setdefault("The sign at the beginning of lines was read as that of a list.")
-        beside = [x for p in self._paragraphs() for x in p if any(self._shares(x, k) for k in p)]
-        return self._blanked([*beside, *(k for x in lists for k in x)])
+        return self._blanked([*self._beside_sure_ones(), *(k for x in lists for k in x)])
 
     def _is_sure(self, k: int, names: Callable[[str], bool]) -> bool:
         """Whether a line gives the value of a name that has no minus, or begins with a mark that is no sign."""
@@ -73,9 +72,11 @@ class Bullets:
         stated = _STATED.match(line, self._ends[k])
         return stated is not None and names(stated["name"]) and self._marks[k] in "-–*" and not accelerates_in(line)
 
-    def _shares(self, k: int, other: int) -> bool:
-        """Whether a line has the mark of another one that is a bullet, and does not go on with the line above it."""
-        return self._sure[other] and self._marks[k] == self._marks[other] and not self._goes_on(k)
+    def _beside_sure_ones(self) -> Iterator[int]:
+        """The lines with the mark of one in their paragraph that is a bullet, unless they go on with the line above."""
+        for places in self._paragraphs():
+            sure = {self._marks[k] for k in places if self._sure[k]}
+            yield from (k for k in places if self._marks[k] in sure and not self._goes_on(k))
 
     def _goes_on(self, k: int) -> bool:
         above, line = self._lines[k - 1] if k else "", self._lines[k]

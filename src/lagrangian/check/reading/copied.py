@@ -9,14 +9,13 @@ m\*x'' + k\_1\*x = 0                m*x'' + k_1*x = 0         Markdown
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import islice
 
-from lagrangian.check.reading.latex.layout import closing
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
-MOST, LONGEST = 200, 4_000
-"""The most marks of one kind, and the most characters of a line, that are looked at."""
+MOST = 200
+"""The most marks of one kind that are looked at."""
 
 _STAR = re.compile(r"(?<!\\)\\\*")
 _LINE = re.compile(r"(?<=\w)\\_(?=\w)")
@@ -26,7 +25,7 @@ _BRACKET = re.compile(r"^[ \t]*+(?P<sign>[\[\]])[ \t]*+$", re.MULTILINE)
 _WHOLE = re.compile(r"^(?P<open>[ \t]*+\[)[ \t](?P<inside>[^\n]{1,4000})[ \t](?P<close>\])[ \t]*+[.,]?$", re.MULTILINE)
 _TEX = re.compile(r"\\[A-Za-z]")
 _DELIMITED = re.compile(r"\\[\[(]|\$|\\begin\{(?:equation|align|gather|cases)")
-_OVER = re.compile(r"\\over(?![A-Za-z])")
+_GROUPED = re.compile(r"\\over(?![A-Za-z])|(?<!\\)[{}]")
 
 _PROVED = re.compile(
     r"[ \t,.;]{0,9}(?:∎|□|■|\\(?:qed|blacksquare|square|Box)(?![A-Za-z]))[ \t.]{0,9}$"
@@ -51,9 +50,7 @@ def without_copying(written: TracedText) -> TracedText:
         return written.sub(_ESCAPED, lambda m: "")
     if not _DELIMITED.search(written.text):
         written = written.edited(_delimiters(written.text))
-    while (edits := list(_fraction(written.text))) and len(written.text) < MOST * LONGEST:
-        written = written.edited(edits)
-    return written
+    return written.edited(sorted(_fractions(written.text)))
 
 
 def _delimiters(text: str) -> Iterator[Edit]:
@@ -67,25 +64,33 @@ def _delimiters(text: str) -> Iterator[Edit]:
             yield match.start("close"), match.start("close"), "\\"
 
 
-def _fraction(text: str) -> Iterator[Edit]:
-    r"""The edits that write the first {a \over b} as \frac{a}{b}."""
-    match = _OVER.search(text)
-    if match is None:
-        return
-    depth, first = 1, match.start()
-    while first > 0 and depth:
-        first -= 1
-        if text[first] in "{}" and text[first - 1 : first] != "\\":
-            depth += 1 if text[first] == "}" else -1
-    end = closing(text, match.end())
-    if not depth and text[end - 1 : end] == "}":
-        above, below = (_is_group(x) for x in (text[first + 1 : match.start()], text[match.end() : end - 1]))
-        yield first, first + 1, "\\frac" if above else "\\frac{"
-        yield *match.span(), f"{'' if above else '}'}{'' if below else '{'}"
-        yield end - 1, end, "" if below else "}"
+def _fractions(text: str) -> Iterator[Edit]:
+    r"""The edits that write every {a \over b} as \frac{a}{b}; none behind one that has no braces around it."""
+    opened: list[tuple[int, list[re.Match[str]]]] = []
+    plain: dict[int, int] = {}  # the groups that stay, by where they begin
+    for match in _GROUPED.finditer(text):
+        if match.group() == "{":
+            opened.append((match.start(), []))
+        elif not opened and match.group() == "}":
+            continue
+        elif not opened:
+            return
+        elif match.group() == "}":
+            first, overs = opened.pop()
+            if len(overs) != 1:
+                plain[first] = match.end()
+                continue
+            (over,) = overs
+            above = _is_group(text, first + 1, over.start(), plain)
+            below = _is_group(text, over.end(), match.start(), plain)
+            yield first, first + 1, "\\frac" if above else "\\frac{"
+            yield *over.span(), f"{'' if above else '}'}{'' if below else '{'}"
+            yield *match.span(), "" if below else "}"
+        else:
+            opened[-1][1].append(match)
 
 
-def _is_group(text: str) -> bool:
-    """Whether a text is something in braces."""
-    text = text.strip()
-    return text[:1] == "{" and closing(text, 1) == len(text)
+def _is_group(text: str, start: int, end: int, groups: Mapping[int, int]) -> bool:
+    """Whether one of the ``groups`` in braces is all that stands between two places."""
+    inside = text[start:end]
+    return groups.get(end - len(inside.lstrip())) == start + len(inside.rstrip())

@@ -65,9 +65,6 @@ class Grouper:
 
     def grouped(self, kind: TermKind, poly: Flat, long: bool) -> Way:
         """Return the terms of one class in the best possible grouping; of equally good ones, the first."""
-        poly = {m: c for m, c in poly.items() if c}  # relations between generators may leave terms that cancel
-        if not poly:
-            return []
         if len(poly) == 1:
             return [self.shortener.short(poly)]
         if not self.generators.affords(len(poly) // 10):  # three groupings, each with its parts made short

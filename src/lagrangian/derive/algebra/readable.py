@@ -50,7 +50,11 @@ def _with_square(flat: Flat, base: Flat, root: int) -> Flat:
         if all(out.get(times + n) == factor * v for n, v in base.items()):
             for n in base:
                 del out[times + n]
-            out[times + 2 * root] = out.get(times + 2 * root, 0) + factor
+            squared = out.get(times + 2 * root, 0) + factor
+            if squared:
+                out[times + 2 * root] = squared
+            else:  # it stood there with the other sign
+                del out[times + 2 * root]
     return out
 
 

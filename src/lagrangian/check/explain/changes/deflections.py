@@ -198,12 +198,16 @@ class DeflectionChanges:
         """The sum of all k."""
         return sp.Add(*[self.s.expand(e.k) for e in strut.springs])
 
+    def _resistance(self, strut: Strut) -> sp.Expr:
+        """The sum of all b."""
+        return sp.Add(*[self.s.expand(d.b) for d in strut.dampers])
+
     def _force(self, strut: Strut, deflection: sp.Expr) -> sp.Expr:
         """k δ + b δ′."""
         force = self._stiffness(strut) * deflection
         if not strut.dampers:
             return force
-        return force + sp.Add(*[self.s.expand(d.b) for d in strut.dampers]) * self.s.rate(deflection)
+        return force + self._resistance(strut) * self.s.rate(deflection)
 
     def _energy(self, strut: Strut, other: sp.Expr) -> Sum | None:
         """What another deflection adds to ½ k δ²."""
@@ -214,7 +218,7 @@ class DeflectionChanges:
         """−b δ′ ∂δ/∂ξ_i of the damper with a deflection; nothing without a damper."""
         if not strut.dampers:
             return []
-        force = -sp.Add(*[self.s.expand(d.b) for d in strut.dampers]) * self.s.rate(deflection)
+        force = -self._resistance(strut) * self.s.rate(deflection)
         held = [deflection.has(q) for q in self.s.q]
         return [force * bounded.diff(deflection, q) if h else sp.S.Zero for q, h in zip(self.s.q, held, strict=True)]
 

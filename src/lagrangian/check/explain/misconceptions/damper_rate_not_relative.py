@@ -34,13 +34,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
             yield from _in_one(s, element, other, change)
             full = {i: -b * other * bounded.diff(other, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
-            if rate in s.v and other in s.v:
+            swapped = rate in s.v and other in s.v
+            if swapped:
                 here, there = (s.q[s.v.index(x)] for x in (rate, other))
                 belongs = ("; it belongs to that of ", here, ", with ", rate, ".")
                 said = text(f"{element.title} is counted in the equation of ", there, ", with ", other, *belongs)
                 yield Variant(what=said, Xi={i: x for i, x in full.items() if x != 0}, element=element, stated=NO_D)
-                continue
-            yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
+            yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element, doubt=int(swapped))
 
 
 def _without_factor(rate: sp.Expr, v: sp.Expr) -> sp.Expr:
