@@ -41,6 +41,8 @@ ANSWERS = {
     "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
     "letters in words": "x1'' = 0\n" + "c statt k, " * (N // 11),
     "words of one letter": "x1'' = 0\n" + "c for a " * (N // 8),
+    "names with stars": "m* = 1\n" + "m* " * (N // 3),
+    "stars behind indices": "m_a" * (N // 3) + "^*",
     "bullets": "- a\n" * (N // 4),
     "fractions of TeX": "\\[ x1 = " + "{a\\over b}" * (N // 12) + " \\]",
     "fractions around each other": "{" * (N // 10) + "a\\over b}" * (N // 10),

@@ -67,6 +67,7 @@ from lagrangian.check.reading.said.stands_for import (
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
+from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.errors import ParseError, Place
@@ -205,7 +206,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     remarks = without_side_remarks(text, model, lines.names.known)
     text = remarks.text if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
-    plain = with_variants_apart(_without_notations(typed, lines))
+    plain = with_starred_names(with_variants_apart(_without_notations(typed, lines)), lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)

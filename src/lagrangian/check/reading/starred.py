@@ -1,0 +1,58 @@
+r"""Names with a star, m^*, m^{\ast}, m_r^*, m*: names of the answer's own: m* = M + m. T* is the co-energy."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from itertools import islice
+
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+
+MOST = 200
+"""The most stars that are looked at."""
+
+_STAR = r"(?:\*(?!\*)|\\ast(?![A-Za-z])|\\star(?![A-Za-z])|[⋆★])"
+_NAME = r"[^\W\d_⁰¹²³⁴-⁹][^\W_]{0,11}+(?:_[^\W_]{1,11}+)?"
+_INDEX = r"(?:_[ ]?(?:\{(?P<low>\w{1,12})\}|\{\\(?:text|mathrm)\{(?P<word>\w{1,12})\}\}|(?P<short>\w)))?"
+_RAISED = re.compile(
+    rf"(?<![\w^])(?P<name>\\(?!dot|ddot|text|math)[A-Za-z]{{2,8}}+|{_NAME})[ ]?{_INDEX}[ ]?"
+    rf"\^[ ]?(?:[{{(][ ]?{_STAR}[ ]?[)}}]|{_STAR})(?:_[ ]?(?:\{{(?P<index>\w{{1,12}})\}}|(?P<one>\w)))?"
+)
+_BESIDE = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*|[⋆★])(?![\w(*])")
+_JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
+_STATED = re.compile(
+    rf"(?:^|[,;:(]|(?<=\w))[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|is\b)", re.MULTILINE
+)
+
+
+def with_starred_names(written: TracedText, known: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which m^* is m_star; so is m*, where the answer says what m* is and a gap stands behind the
+    star, or m alone is no name. ``known`` says whether a name belongs to the system."""
+    text = written.text
+    if not any(c in text for c in ("*", "\\ast", "\\star", "⋆", "★")):
+        return written
+    latex = "\\" in text or "$" in text
+    return written.edited(apart((*_raised(text, latex), *_beside(text, known, latex))))
+
+
+def _raised(text: str, latex: bool) -> Iterator[Edit]:
+    for match in islice(_RAISED.finditer(text), MOST):
+        base, index = (
+            match["name"].lstrip("\\"),
+            next((x for x in match.group("low", "word", "short", "index", "one") if x), None),
+        )
+        if base != "T":
+            yield *match.span(), _named(base if index is None else f"{base}_{index}", latex)
+
+
+def _beside(text: str, known: Callable[[str], bool], latex: bool) -> Iterator[Edit]:
+    for name in {m["name"] for m in islice(_STATED.finditer(text), MOST)}:
+        if name[0] == "T":
+            continue
+        alone = known(name) or re.search(rf"(?<!\w){name}(?![\w*⋆★\\])", text) is not None
+        found = (m for m in (_BESIDE if alone else _JOINED).finditer(text) if m["name"] == name)
+        yield from ((*m.span(), _named(name, latex)) for m in islice(found, MOST))
+
+
+def _named(name: str, latex: bool) -> str:
+    return rf"\mathrm{{{name}_star}}" if latex else f"{name}_star"

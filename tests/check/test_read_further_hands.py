@@ -1,0 +1,26 @@
+"""More of what students write is read: starred names, lists of results, drawn columns, lines of a derivation.
+
+Oracle: the equations of the cart with a pole, in the grammar of model files. Every form has a wrong twin.
+"""
+
+import pytest
+
+from student_answers import CART, POLE, right
+
+LATEX = (
+    r"$$%s\ddot x + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta + b\dot x = F$$"
+    r"$$(J+ml^2)\ddot\theta + ml\ddot x\cos\theta - mgl\sin\theta = 0$$"
+)
+
+
+@pytest.mark.parametrize("star", [r"m^\ast", "m^{*}", r"M_{\text{r}}^\star", r"\mu^*_1"])
+def test_a_name_with_a_star_in_latex(star: str) -> None:
+    assert right(f"With ${star} = M + m$\n{LATEX % star}")
+    assert not right(f"With ${star} = M + 2m$\n{LATEX % star}")
+
+
+@pytest.mark.parametrize("star", ["m*", "m^*", r"μ\*", "m_r⋆"])
+def test_a_name_with_a_star_in_plain_text(star: str) -> None:
+    sheet = f"{star} = M + m\nT* = 1/2 {star} x'^2 + m*l x' theta' cos theta + 1/2 (J + m*l^2) theta'^2\n"
+    assert right(f"{sheet}{CART.replace('(M + m)', star)}\n{POLE}")
+    assert not right(f"{sheet.replace('= M', '= 2 M')}{CART.replace('(M + m)', star)}\n{POLE}")
