@@ -24,3 +24,20 @@ def test_a_name_with_a_star_in_plain_text(star: str) -> None:
     sheet = f"{star} = M + m\nT* = 1/2 {star} x'^2 + m*l x' theta' cos theta + 1/2 (J + m*l^2) theta'^2\n"
     assert right(f"{sheet}{CART.replace('(M + m)', star)}\n{POLE}")
     assert not right(f"{sheet.replace('= M', '= 2 M')}{CART.replace('(M + m)', star)}\n{POLE}")
+
+
+def test_the_constants_and_greek_letters_of_maxima() -> None:
+    first = "(%o4) (M+m)*'diff(x,t,2)"
+    first += "+m*l*cos(%theta)*'diff(%theta,t,2)-m*l*sin(%theta)*'diff(%theta,t,1)^2+b*'diff(x,t,1)=F"
+    second = "(%o5) (J+m*l^2)*'diff(%theta,t,2)+m*l*sin(%pi/2 - %theta)*'diff(x,t,2)-m*g*l*sin(%theta)=0"
+    assert right(f"{first}\n{second}")
+    assert not right(f"{first}\n{second.replace('pi/2', 'pi/3')}")
+
+
+@pytest.mark.parametrize("said", ["", "\n\n(* both = 0 *)", " (* == 0 each *)", "\n# = 0"])
+def test_a_list_of_mathematica_whose_entries_are_zero(said: str) -> None:
+    first = "b*x'[t] - F + m*x''[t] + M*x''[t] - l*m*Sin[theta[t]]*theta'[t]^2 + l*m*Cos[theta[t]]*theta''[t]"
+    second = "J*theta''[t] + l^2*m*theta''[t] + l*m*Cos[theta[t]]*x''[t] - g*l*m*Sin[theta[t]]"
+    sheet = f"In[8]:= {{D[D[L, x'[t]], t] - D[L, x[t]] - Qx}} // Expand\n\nOut[8]= {{{first}, {second}}}{said}"
+    assert right(sheet)
+    assert not right(sheet.replace("- g*l", "+ g*l"))

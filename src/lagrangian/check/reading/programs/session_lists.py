@@ -1,6 +1,6 @@
 """Reads lists of programs whose entries are equations: expressions that are zero, and solutions.
 
-eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0
+eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0          also { }
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
 {'x': m*x'' - F, 'phi': J*phi'' - M}           m*x'' - F = 0⏎ J*phi'' - M = 0          also {"x": "m*x'' = F"}
@@ -93,8 +93,10 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     elif written and all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
         yield from _listed(text, start, end, spans, "")
         yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
-    elif match["open"] != "{" and len(spans) > (0 if match["call"] else 1):
-        if any("=" in x or "Eq(" in x for x in written) or not any(map(carries, written)):
+    elif len(spans) > (0 if match["call"] else 1):
+        carried = [carries(x) for x in written]
+        sure = all(carried) if match["open"] == "{" else any(carried)
+        if any("=" in x or "Eq(" in x for x in written) or not sure:
             return
         yield from _listed(text, start, end, spans, " = 0")
 

@@ -18,6 +18,7 @@ from itertools import islice, pairwise
 from lagrangian.check.reading.programs.sessions import MATHEMATICAL, MOST, Piece, carries, closes, is_program, pieces
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
+from lagrangian.read.letters import SPELLED
 
 _NAME = r"[^\W\d]\w{0,39}+"
 _LABEL = re.compile(r"^[ \t]*+[(\[]%(?P<kind>[io])(?P<number>\d{1,4})[)\]]", re.MULTILINE)
@@ -25,6 +26,10 @@ _MATRIX = re.compile(r"(?<!\w)matrix\((?=\s*\[)")
 _SHOWS = re.compile(r"[^\n=:]{1,80};[ \t]*+$", re.MULTILINE)
 """What only shows something: eq1;"""
 _ASSIGNS = re.compile(rf"\s*+(?P<name>{_NAME})(?P<sign>[ \t]*+:)(?!=)")
+_CONSTANT = re.compile(
+    rf"(?:(?<=[(\[,*/^+=:-])|(?<=[(\[,*/^+=:-][ ]))%(?P<name>pi|e|i|{'|'.join(SPELLED.values())})(?!\w)"
+)
+"""A constant or a Greek letter of Maxima behind an operator, which is no comment: beta-%pi/2."""
 _SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|[(\[]%i\d|In[ \t]?\[\d)", re.MULTILINE)
 _MAPLE = re.compile(r"^[ \t]*+>[ \t][^\n]*+$", re.MULTILINE)
 _TYPED = re.compile(r"^[ \t]*+>[ \t]++(?P<said>[^\n#]*?;[ \t]*+(?:#[^\n]*+)?$)", re.MULTILINE)
@@ -49,7 +54,8 @@ MOST_CALLS = 60
 
 def without_maxima(written: TracedText) -> TracedText:
     """Return an answer in which statements that are typed into Maxima end with semicolons and assign with =; the name
-    of an equation, and what only shows one, is left out. A matrix is one of SymPy."""
+    of an equation, and what only shows one, is left out. A matrix is one of SymPy, and %pi is pi."""
+    written = written.sub(_CONSTANT, lambda m: m["name"])
     written = written.edited(_matrices(written.text))
     text, edits = written.text, list[Edit]()
     labels = list(islice(_LABEL.finditer(text), MOST))
