@@ -176,7 +176,8 @@ def test_moodles_worksheet_is_filled_in_and_kept(tmp_path: Path) -> None:
     rows = list(csv.reader(io.StringIO(found.to_moodle())))
     assert rows[0] == head.split(",")
     assert rows[1][:5] == ["Participant 4711", "Anna Lee", "a@x.org", "Submitted", "10.00"]
-    assert rows[2][4] == "" and "could not be read" in rows[2][7]
+    assert rows[2][4] == "" and "could not be read: line 1, column 1: " in rows[2][7]
+    assert "[E" not in rows[2][7] and "Fix:" not in rows[2][7]
     assert "stranger.txt belongs to nobody" in str(found) and not found.absent
     with pytest.raises(ModelError, match="no points"):
         carts().check_class({"ann": WHOLE}).to_moodle()

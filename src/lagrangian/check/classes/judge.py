@@ -15,7 +15,7 @@ from lagrangian.check.reading import decode_answer, parse_answer
 from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
-from lagrangian.errors import Error, ModelError
+from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.records import dataclass, field
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
@@ -114,9 +114,18 @@ class Judge:
 
 
 def _in_a_line(error: Error) -> str:
-    """A message without the line of its caret, which points at nothing where the message is one line."""
-    lines = [x for x in str(error).splitlines() if x.strip(" |^")]
-    return " ".join(" ".join(lines).split())
+    """What is wrong, where and what would be right, of every place, for a cell of a table: no code and no caret."""
+    others = error.others if isinstance(error, ParseError) else ()
+    return " Also ".join(_of_one_place(x) for x in (error, *others))
+
+
+def _of_one_place(error: Error) -> str:
+    place, said = error.place, [error.what.rstrip(".")]
+    if place is not None and place.line is not None:
+        column = "" if place.column is None else f", column {place.column}"
+        said.insert(0, f"line {place.line}{column}")
+    fix = f" {error.fix[0].upper()}{error.fix[1:].rstrip('.')}." if error.fix else ""
+    return f"{': '.join(said)}.{fix}"
 
 
 def untold(file: str, trouble: str, *, read: bool) -> Record:
