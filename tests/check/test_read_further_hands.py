@@ -41,3 +41,11 @@ def test_a_list_of_mathematica_whose_entries_are_zero(said: str) -> None:
     sheet = f"In[8]:= {{D[D[L, x'[t]], t] - D[L, x[t]] - Qx}} // Expand\n\nOut[8]= {{{first}, {second}}}{said}"
     assert right(sheet)
     assert not right(sheet.replace("- g*l", "+ g*l"))
+
+
+def test_entries_of_a_matrix_that_are_set_in_columns() -> None:
+    rows = "[ M + m        m l cos θ   -1 ] [ x'' ]   [ m l θ'^2 sin θ - b x' ]\n"
+    rows += "[ m l cos(θ)   J + m l^2   0  ] [ θ'' ] = [ m g l sin θ           ]\n"
+    rows += "[ 0            0 1            ] [ F   ]   [ F                     ]"
+    assert right(rows)
+    assert not right(rows.replace("J + m l^2", "J - m l^2"))

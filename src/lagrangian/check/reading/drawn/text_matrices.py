@@ -261,9 +261,10 @@ def _entry_gaps(text: str) -> Iterator[Edit]:
         behind = _TIMES.match(text, matrix.end)
         factor = found.get(behind.end()) if behind is not None else None
         height = len(matrix.rows)
-        for wide in (True, False, None):
-            gaps = [_gaps(text, a, b, wide=bool(wide)) for a, b in matrix.rows]
-            gaps = [[gap for gap in row if _beside_zero(text, gap)] for row in gaps] if wide is None else gaps
+        every, broad = ([_gaps(text, a, b, wide=wide) for a, b in matrix.rows] for wide in (False, True))
+        zeros = [[gap for gap in row if _beside_zero(text, gap)] for row in every]
+        mixed = [sorted({*row, *more}) for row, more in zip(broad, zeros, strict=True)]
+        for wide, gaps in ((True, broad), (False, every), (None, zeros), (None, mixed)):
             width = len(gaps[0]) + 1 if gaps else 1
             if width == 1 or any(len(x) + 1 != width for x in gaps):
                 continue
