@@ -49,3 +49,16 @@ def test_entries_of_a_matrix_that_are_set_in_columns() -> None:
     rows += "[ 0            0 1            ] [ F   ]   [ F                     ]"
     assert right(rows)
     assert not right(rows.replace("J + m l^2", "J - m l^2"))
+
+
+@pytest.mark.parametrize("half", ["¹⁄₂ ", "¹⁄₂", "¹/₂ ", "1⁄2 "])
+def test_fractions_with_small_digits(half: str) -> None:
+    sheet = f"T = {half}(M + m) x'^2 + m l x' theta' cos theta + {half}m l^2 theta'^2 + {half}J theta'^2"
+    assert right(sheet)
+    assert not right(sheet.replace("J", "2 J"))
+
+
+def test_small_fractions_of_packages_of_latex() -> None:
+    sheet = r"$T = \nicefrac12 (M + m)\dot x^2 + m l\dot x\dot\theta\cos\theta + \sfrac{1}{2} (J + m l^2)\dot\theta^2$"
+    assert right(sheet)
+    assert not right(sheet.replace("nicefrac12", "nicefrac13"))

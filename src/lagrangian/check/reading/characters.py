@@ -39,6 +39,9 @@ _TABLE = str.maketrans(_SAME)
 _NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad\u200e\u200f\ufe00-\ufe0f]")
 _GAP = re.compile("[\u2061\u2062]")  # the signs of a function and of a product, which are not shown
 _TRANSPOSED = re.compile(r"(?<=[)\]⎦⎤⎥])ᵀ")
+_SMALL = re.compile(r"(?<![\w)\]}⁰-⁹¹²³₀-₉])(?P<above>[⁰¹²³⁴-⁹]{1,3})[⁄/](?P<below>[₀-₉]{1,3})(?P<glued>(?=\w))?")
+"""A fraction of small digits: ³⁄₂, also in front of a letter."""
+_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉", "01234567890123456789")
 _ASSIGNED = re.compile(r":=|=:|[≔≕]")
 _STYLED = re.compile(
     "[\U0001d400-\U0001d7ff\u210e\u2110-\u2112\u211b\u212c\u2130\u2131\u2133\u2145\u2146\uff01-\uff5e]"
@@ -48,9 +51,15 @@ _STYLED = re.compile(
 def plainer(text: str) -> str:
     """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
     characters without width left out."""
+    text = _SMALL.sub(_fraction, text)
     text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))).translate(_TABLE)
     text = _TRANSPOSED.sub("^T", text)
     return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))
+
+
+def _fraction(match: re.Match[str]) -> str:
+    made = match.group().translate(_DIGITS)
+    return made if match["glued"] is None else f"({made})"
 
 
 def _unstyled(match: re.Match[str]) -> str:

@@ -62,7 +62,16 @@ _ACCENTS = {"dot": "1", "ddot": "2", "dddot": "3", "ddddot": "4"}
 _DECORATIONS = frozenset(["hat", "bar", "tilde", "vec", "overline", "widehat", "widetilde", "check"])
 _PAIRS = {"lbrace": "(", "rbrace": ")", "lparen": "(", "rparen": ")", "lbrack": "[", "rbrack": "]"}
 _PAIRS |= {"lvert": "abs(", "rvert": ")abs", "vert": "|", "mid": "|", "prime": "prime", "partial": "partial"}
-_PAIRS |= {"frac": "frac", "dfrac": "frac", "tfrac": "frac", "cfrac": "frac", "sqrt": "sqrt", "top": "top"}
+_PAIRS |= {
+    "frac": "frac",
+    "dfrac": "frac",
+    "tfrac": "frac",
+    "cfrac": "frac",
+    "nicefrac": "frac",
+    "sfrac": "frac",
+    "sqrt": "sqrt",
+    "top": "top",
+}
 _PAIRS |= {"intercal": "top"}
 
 
