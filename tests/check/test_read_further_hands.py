@@ -5,6 +5,7 @@ Oracle: the equations of the cart with a pole, in the grammar of model files. Ev
 
 import pytest
 
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 LATEX = (
@@ -62,3 +63,49 @@ def test_small_fractions_of_packages_of_latex() -> None:
     sheet = r"$T = \nicefrac12 (M + m)\dot x^2 + m l\dot x\dot\theta\cos\theta + \sfrac{1}{2} (J + m l^2)\dot\theta^2$"
     assert right(sheet)
     assert not right(sheet.replace("nicefrac12", "nicefrac13"))
+
+
+@pytest.mark.parametrize("by_time", ["d/dt(..) =", "- d/dt →", "d/dt -> ", "d/dt[…] =", 'd/dt(") =', "⇒ d/dt …:"])
+def test_a_derivative_of_what_stands_above(by_time: str) -> None:
+    mark = "- " if by_time.startswith("-") else ""
+    sheet = f"{mark}dL/dtheta' = (J + m l^2) theta' + m l x' cos theta\n"
+    sheet += f"{by_time} (J + m l^2) theta'' + m l x'' cos theta - m l x' theta' sin theta\n{CART}\n{POLE}"
+    assert right(sheet)
+    assert not right(sheet.replace("- m l x'", "+ m l x'"))
+
+
+def test_a_derivative_of_dots_in_latex() -> None:
+    sheet = r"$$\frac{\partial L}{\partial\dot x} = (M+m)\dot x + ml\dot\theta\cos\theta$$" + LATEX % "(M+m)"
+    by_time = r"$$\frac{d}{dt}(\dots) = (M+m)\ddot x + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta$$"
+    assert right(sheet.replace("$$$$", f"$${by_time}$$", 1))
+    assert not right(sheet.replace("$$$$", f"$${by_time.replace('- ml', '+ ml')}$$", 1))
+
+
+HEADED = """\
+Lagrange: d/dt(∂T/∂q') − ∂T/∂q + ∂V/∂q = Q
+*for x1*
+- ∂T/∂x1' = (m1 + m2) x1' + m2 x2r'
+- d/dt → (m1 + m2) x1'' + m2 x2r''
+- Q1 = 0
+
+*for x2r*
+- ∂T/∂x2r' = m2 (x1' + x2r')
+- d/dt → m2 (x1'' + x2r'')
+- Q2 = F
+
+**Answer**
+
+(m1 + m2) x1'' + m2 x2r'' = 0
+
+m2 (x1'' + x2r'') + k x2r = F
+"""
+
+
+def test_steps_in_a_list_below_headings_in_italics() -> None:
+    assert right(HEADED, "lecture-3b")
+    assert not right(HEADED.replace("→ m2", "→ 2 m2"), "lecture-3b")
+
+
+def test_forces_without_dampers_are_right_beside_a_wrong_dissipation() -> None:
+    found = derivation("two-disk-shaft").check("D = b*phi2'^2/2 + b_load*phi2'^2/2\nQ_phi1 = tau\nQ_phi2 = 0").findings
+    assert [x.status.right for x in found] == [False, True, True]

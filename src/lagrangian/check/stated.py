@@ -179,8 +179,8 @@ def _on_constraints(truth: Reference) -> OnConstraints | None:
 def without_dampers(
     truth: Reference, line: AnsweredLine, i: int | None, lines: Sequence[AnsweredLine]
 ) -> sp.Expr | None:
-    """Ξ_i without the dampers where a line may be meant so: it holds none, and D or the equation of ξ_i holds what they
-    add.
+    """Ξ_i without the dampers where a line may be meant so: it holds none, and a D is stated, right or wrong, or the
+    equation of ξ_i holds what they add.
 
     None if it is meant as the whole.
     """
@@ -199,9 +199,13 @@ def _undamped(truth: Reference, line: AnsweredLine, by: By, lines: Sequence[Answ
     if (damping.free_symbols - drive.free_symbols - {time}) & line.expr.free_symbols:
         return None
     i = index_of(truth, line.name)
-    others = [x for x in lines if x.kind in ("D", "equation")]
-    holding = [x for x in others if added <= x.expr.free_symbols | x.expr.atoms(sp.Derivative)]
-    return drive if any(x.kind == "D" or i is None or _resembled(truth, x.expr) in (i, None) for x in holding) else None
+
+    def holds(other: AnsweredLine) -> bool:
+        if other.kind != "equation" or not added <= other.expr.free_symbols | other.expr.atoms(sp.Derivative):
+            return other.kind == "D"
+        return i is None or _resembled(truth, other.expr) in (i, None)
+
+    return drive if any(map(holds, lines)) else None
 
 
 @lru_cache(maxsize=64)

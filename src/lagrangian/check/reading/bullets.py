@@ -22,9 +22,13 @@ _TERM = re.compile(
 """A line that begins with a minus or a bullet and goes on with a formula, not with words or a name and its value."""
 _PRINTED = re.compile(r"\{\\left\(|\\frac\{d(?:\^\{2\})?\}\{d t")
 """How SymPy prints LaTeX, in which a blank stands behind a minus."""
+_BY_TIME = re.compile(r"d\s?/\s?dt\b(?=[^=\n]*(?:=|[>→⇒⟶⟹]))(?![^=\n]*[\])][ \t]*[-+])")
+"""A derivative by time alone on the left."""
 _SIGNED = re.compile(r"[ \t]*[-+–]")
-_UNFINISHED = re.compile(r"^(?=[^=]*['′″²³*^()\u0307\u0308])[^=:]*[^\s=:.,;][ \t]*$")
-"""A line that ends in mathematics and has no equals sign."""
+_UNFINISHED = re.compile(
+    r"^(?![ \t]*[*_]{1,3}[^*_=\n]{1,80}[*_]{1,3}[ \t]*$)(?=[^=]*['′″²³*^()\u0307\u0308])[^=:]*[^\s=:.,;][ \t]*$"
+)
+"""A line that ends in mathematics, has no equals sign and is no heading in Markdown: *for x*."""
 _DISPLAYED = re.compile(
     r"(?<!\\)\\(?:(?P<opens>begin\{(?!itemize|enumerate|document)|\[)|end\{(?!itemize|enumerate|document)|\])"
 )
@@ -65,10 +69,11 @@ class Bullets:
         return self._blanked([*self._beside_sure_ones(), *(k for x in lists for k in x)])
 
     def _is_sure(self, k: int, names: Callable[[str], bool]) -> bool:
-        """Whether a line gives the value of a name that has no minus, or begins with a mark that is no sign."""
-        if self._marks[k] == "•":
-            return True
+        """Whether a line gives the value of a name that has no minus, or begins with a mark that is no sign, or with
+        d/dt behind one, as a step does."""
         line = self._lines[k]
+        if self._marks[k] == "•" or (self._marks[k] in "-–*" and _BY_TIME.match(line, self._ends[k])):
+            return True
         stated = _STATED.match(line, self._ends[k])
         return stated is not None and names(stated["name"]) and self._marks[k] in "-–*" and not accelerates_in(line)
 

@@ -3,7 +3,7 @@
 ∂T/∂ẋ = m ẋ  ⇒  d/dt = m ẍ          d/dt(∂T/∂ẋ) = m ẍ
 ∂L/∂q̇ = L q̇     d/dt → L q̈          d/dt(∂L/∂q̇) = L q̈
 ∂T/∂ẏ = m ẏ → m ÿ;  ∂V/∂y = m g     d/dt(∂T/∂ẏ) = m ÿ
-∂L/∂ẏ = m ẏ ⏎ d/dt = m ÿ            d/dt(∂L/∂ẏ) = m ÿ
+∂L/∂ẏ = m ẏ ⏎ d/dt = m ÿ            d/dt(∂L/∂ẏ) = m ÿ          also d/dt(..) = m ÿ and d/dt → m ÿ
 
 Both mean the derivative by time of what stands in front, on the same line or above, which is judged as such.
 """
@@ -19,9 +19,12 @@ from lagrangian.read.letters import undotted
 _BY = r"[^\W\d](?:\w|[\u0307\u0308]){0,24}['’′]?"
 _PARTIAL = re.compile(rf"(?P<slope>(?:∂|d)(?P<of>[TLVDℒ])\*?\s?/\s?(?:∂|d)(?P<by>{_BY}))\s*=(?![=>])")
 _ARROW = r"(?:=+>|⇒|⟹|→|⟶|-+>|➔|➜)"
-_ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?d\s?/\s?dt[ \t]*(?:{_ARROW}|=(?!=)|:(?=[ \t]))")
+_NOTHING = r"(?:[(\[{][ \t]*(?:[.·…]{0,9}|-?[\"″]-?|ditto|dito|this|that|it)[ \t]*[)\]}]|\.{2,4}|…)?+"
+"""What stands for what is differentiated: d/dt(..), d/dt[ ], d/dt …"""
+_BY_TIME = rf"d\s?/\s?dt[ \t]*+{_NOTHING}[ \t]*+"
+_ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?{_BY_TIME}(?:{_ARROW}|=(?!=)|:(?=[ \t]))")
 """d/dt of nothing, with what stands between it and its value."""
-_BEGINS = re.compile(rf"[ \t]*+(?:[-•*][ \t]+)?(?:{_ARROW}[ \t]*)?(?P<said>d\s?/\s?dt[ \t]*+(?:=(?!=)|:(?=[ \t])))")
+_BEGINS = re.compile(rf"[ \t]*+(?:[-•*][ \t]+)?(?:{_ARROW}[ \t]*)?(?P<said>{_BY_TIME}(?:{_ARROW}|=(?!=)|:(?=[ \t])))")
 """d/dt of nothing at the beginning of a line."""
 _GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S|$)")
 """A value behind an arrow."""
@@ -69,7 +72,7 @@ _LATEX_SLOPE = (
 )
 _LATEX_ALONE = (
     rf"(?P<alone>{_FRACTION}\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?\}}\s?\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?t\s?\}})"
-    r"\s{0,4}(?P<is>&?\s{0,4}(?:=|\\(?:to|rightarrow|Rightarrow)(?![A-Za-z])))"
+    r"\s{0,4}(?:(?:\\left)?[(\[]\s{0,4}(?:\\[lc]?dots?|\\cdot|\.{2,3})\s{0,4}(?:\\right)?[)\]]\s{0,4})?(?P<is>&?\s{0,4}(?:=|\\(?:to|rightarrow|Rightarrow)(?![A-Za-z])))"
 )
 _LATEX = re.compile(rf"{_LATEX_SLOPE}|{_LATEX_ALONE}")
 

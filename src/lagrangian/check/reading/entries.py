@@ -25,7 +25,7 @@ _ONE_FACTOR = re.compile(r"[A-Za-z]\w{0,9}|\([^()]*(?:\([^()]*\)[^()]*)*\)|\[[^\
 _COLUMN = r"[ \t]*[*·]?[ \t]*(?:\[|q(?:_?dd?(?:ot)?)?(?![A-Za-z0-9_])|\\)"
 """What a matrix is multiplied with: M*[x''; y''], M q'', M qddot; M q1'' is a mass."""
 
-_SIDE = r"[=+-][ \t]*NAME(?![\w(])[ \t]*(?:=|[.,;]?[ \t]*$)"
+_SIDE = r"^(?![^\n]*∂)[^\n]*[=+-][ \t]*NAME(?![\w(])[ \t]*(?:=|[.,;]?[ \t]*$)"
 MOST = 6
 """The most rows of a matrix that is given entry by entry."""
 
@@ -56,9 +56,9 @@ def _occurs_once(name: str, text: str) -> bool:
 def entered_matrices(written: TracedText, count: int, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer with a statement in front for each matrix, or column, that is given entry by entry and used.
 
-    A column is a side of an equation, or is added there: T = T_1 + T_2 is none. ``count`` is the number of
-    coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is added, which is used in
-    front of a column, M*q'' or M*[x''; y''].
+    A column is a side of an equation that is no general one with ∂, or is added there: T = T_1 + T_2 is none.
+    ``count`` is the number of coordinates; ``taken`` says whether a name belongs to the system: then only a matrix is
+    added, which is used in front of a column, M*q'' or M*[x''; y''].
     """
     if not 2 <= count <= MOST:
         return written
