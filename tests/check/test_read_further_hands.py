@@ -6,6 +6,7 @@ Oracle: the equations of the cart with a pole, in the grammar of model files. Ev
 import pytest
 
 from built_in import derivation
+from constrained_systems import smooth_puck
 from student_answers import CART, POLE, right
 
 LATEX = (
@@ -109,3 +110,9 @@ def test_steps_in_a_list_below_headings_in_italics() -> None:
 def test_forces_without_dampers_are_right_beside_a_wrong_dissipation() -> None:
     found = derivation("two-disk-shaft").check("D = b*phi2'^2/2 + b_load*phi2'^2/2\nQ_phi1 = tau\nQ_phi2 = 0").findings
     assert [x.status.right for x in found] == [False, True, True]
+
+
+def test_what_stands_in_which_equation_renames_nothing() -> None:
+    sheet = "Constraint: r - R = 0\nMultiplier: 0 for theta, λ for r\nm r'' - m r theta'^2 = λ\n"
+    sheet += "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
+    assert "'lambda' was read as λ_contact" in smooth_puck().check(sheet).to_text()

@@ -199,8 +199,11 @@ def _is_value(written: str, words: Words) -> bool:
 
 
 def _paired(items: Sequence[_Item]) -> Iterator[tuple[str, str, bool]]:
-    """Each name with the value beside it, in groups of equal length: a and b for x and y."""
+    """Each name with the value beside it, in groups of equal length: a and b for x and y; none in a list
+    that says what there is for which coordinate."""
     groups = _groups(items)
+    if any(a[0] in ("value", "other") and b[2] in (("for",), ("für",)) for a, b in pairwise(groups)):
+        return  # -λ r/p for r, 0 for φ, λ for z: what stands in which equation
     for (kind, first, said), (other, second, between) in pairwise(groups):
         lower = {x.lower() for x in between}
         if (kind, other) == ("name", "value"):
