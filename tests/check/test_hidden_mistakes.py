@@ -39,6 +39,13 @@ def test_general_equations_are_not_told() -> None:
     assert told(f"d/dt(dL/dtheta') - dL/dtheta = Xi_theta\nd/dt(dT/dx') + dV/dx = Q_x\n{ROWS}") == []
 
 
+def test_lagranges_equation_with_a_momentum_is_no_slope_of_the_lagrangian() -> None:
+    law = "p_th = (J + m l^2) theta' + {} m l x' cos(theta)\nd(p_th)/dt = dL/dtheta\n"
+    assert told(law.format("") + ROWS) == []
+    (note,) = told(law.format("2") + ROWS)
+    assert "d(p_th)/dt = dL/dtheta" in note and "does not hold" in note
+
+
 def test_slopes_by_names_of_an_answers_own_are_told() -> None:
     (note,) = told(f"u = l sin(theta)\n∂V/∂u = m g\n{ROWS}")
     assert "∂V/∂u = m g" in note and "not judged" in note

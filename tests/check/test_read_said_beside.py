@@ -221,6 +221,12 @@ def test_names_numbers_and_remarks_as_students_place_them(written: str) -> None:
     assert not right(written.replace("{H}", "m l sin theta"))
 
 
+def test_a_bracket_that_begins_with_a_product_is_no_remark_though_it_spells_a_word() -> None:
+    rows = "m x'' + b x' + (F1 + F2) sin(theta) = 0\nm y'' + (by' + m g) = (F1 + F2) cos(theta)\nJ theta'' = L (F1 - F2)"
+    assert right(rows, "planar-quadrotor")
+    assert not right(rows.replace("(by'", "(2 by'"), "planar-quadrotor")
+
+
 def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
     rows = (
         r"\begin{bmatrix} M+m & m l c\\ m l c & J+m l^2\end{bmatrix}\begin{bmatrix}\ddot x\\ \ddot\theta\end{bmatrix}"

@@ -39,6 +39,7 @@ from lagrangian.check.reading.placeholders import (
     is_placeholder,
     is_slope,
     is_vector,
+    slope_of_L,
 )
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
@@ -269,9 +270,9 @@ class Lines:
             lhs = reader.scalar(sides[0])
             if solves(lhs, value):
                 kind = "equation"
-        elif kind == "Xi" and accelerates(value):
-            assert name is not None
-            return made_line("equation", value, generalized_force(name), None, sides[0], side, reader)
+        elif kind in ("Xi", "slope") and name is not None and accelerates(value):  # d/dt p_θ = ∂L/∂θ is Lagrange's
+            law, other = ("equation", generalized_force(name)) if kind == "Xi" else ("statement", slope_of_L(name, self.model))
+            return made_line(law, value, other, None, sides[0], side, reader)
         return made_line(kind, lhs, value, name, sides[0], side, reader)
 
     def _define(self, subject: Subject, value: sp.Expr) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol
 
 ENERGIES: dict[str, AppliedUndef] = {kind: moving_symbol(f"\u27e8{kind}\u27e9") for kind in ("T", "V", "L", "D")}
@@ -29,6 +30,12 @@ def vector(name: str) -> AppliedUndef:
 def slope(what: str, by: object) -> AppliedUndef:
     """Return the placeholder for the derivative of a quantity without a value by a name: ∂A/∂θ."""
     return moving_symbol(f"\u27e8slope {what} {by}\u27e9")
+
+
+def slope_of_L(name: str, model: Model) -> AppliedUndef:
+    """Return the placeholder for ∂L/∂ξ of a coordinate of the system or of the answer, by its name."""
+    by = next((c.symbol for c in model.coordinates if c.name == name), name)
+    return slope(str(ENERGIES["L"]), (by,))
 
 
 def is_vector(value: object) -> bool:

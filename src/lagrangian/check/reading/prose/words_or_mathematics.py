@@ -31,7 +31,7 @@ _INSIDE = re.compile(
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
 _REASON = re.compile(
-    r"\(\s*+(?:using|use|since|because|recall|note|by|weil|da|denn|car|times|multiplied|divided|mal|geteilt)\b", re.I
+    r"\(\s*+(?P<why>using|use|since|because|recall|note|by|weil|da|denn|car|times|multiplied|divided|mal|geteilt)\b", re.I
 )
 """How a bracket begins that says why, with an identity, or what was done: (using 2 cos² = 1 + cos 2φ), (times r²)."""
 _EQUAL = re.compile(r"=(?![=>])")
@@ -176,11 +176,17 @@ def _without_comments(text: str, words: Words) -> str:
     for start, end in _apart(text):
         behind = start > 0 and "=" not in text[start:end] and _BEHIND.match(text, end + 1) is not None
         inside = text[start + 1 : end]
-        if (behind and (_says(inside, words) or _speaks(inside, words))) or _REASON.match(text, start) is not None:
+        if (behind and (_says(inside, words) or _speaks(inside, words))) or _reasons(text, start, words):
             told = " ".join(text[start : end + 1].split())
             words.names.notes.setdefault(f"'{told}' was not judged: it is a remark.")
             text = blank(text, start, end + 1)
     return text
+
+
+def _reasons(text: str, start: int, words: Words) -> bool:
+    """Whether a bracket says why, or what was done, and does not begin with a product: (mal cos θ + m l²)."""
+    match = _REASON.match(text, start)
+    return match is not None and not words.is_product(match["why"])
 
 
 def _says(inside: str, words: Words) -> bool:
