@@ -222,7 +222,7 @@ def test_names_numbers_and_remarks_as_students_place_them(written: str) -> None:
 
 
 def test_a_bracket_that_begins_with_a_product_is_no_remark_though_it_spells_a_word() -> None:
-    rows = "m x'' + b x' + (F1 + F2) sin(theta) = 0\nm y'' + (by' + m g) = (F1 + F2) cos(theta)\nJ theta'' = L (F1 - F2)"
+    rows = "m x'' + b x' + F sin(theta) = 0\nm y'' + (by' + m g) = F cos(theta)\nJ theta'' = L (F1 - F2)\nF = F1 + F2"
     assert right(rows, "planar-quadrotor")
     assert not right(rows.replace("(by'", "(2 by'"), "planar-quadrotor")
 

@@ -271,8 +271,8 @@ class Lines:
             if solves(lhs, value):
                 kind = "equation"
         elif kind in ("Xi", "slope") and name is not None and accelerates(value):  # d/dt p_θ = ∂L/∂θ is Lagrange's
-            law, other = ("equation", generalized_force(name)) if kind == "Xi" else ("statement", slope_of_L(name, self.model))
-            return made_line(law, value, other, None, sides[0], side, reader)
+            lhs, value = value, generalized_force(name) if kind == "Xi" else slope_of_L(name, self.model)
+            kind, name = "equation" if kind == "Xi" else "statement", None
         return made_line(kind, lhs, value, name, sides[0], side, reader)
 
     def _define(self, subject: Subject, value: sp.Expr) -> None:

@@ -31,7 +31,8 @@ _INSIDE = re.compile(
     r"[^\W\d]\w*+['′²]*+\s*+=(?!=)[^=]"
 )
 _REASON = re.compile(
-    r"\(\s*+(?P<why>using|use|since|because|recall|note|by|weil|da|denn|car|times|multiplied|divided|mal|geteilt)\b", re.I
+    r"\(\s*+(?P<why>using|use|since|because|recall|note|by|weil|da|denn|car|times|multiplied|divided|mal|geteilt)\b",
+    re.I,
 )
 """How a bracket begins that says why, with an identity, or what was done: (using 2 cos² = 1 + cos 2φ), (times r²)."""
 _EQUAL = re.compile(r"=(?![=>])")
