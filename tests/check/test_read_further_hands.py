@@ -116,3 +116,12 @@ def test_what_stands_in_which_equation_renames_nothing() -> None:
     sheet = "Constraint: r - R = 0\nMultiplier: 0 for theta, λ for r\nm r'' - m r theta'^2 = λ\n"
     sheet += "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
     assert "'lambda' was read as λ_contact" in smooth_puck().check(sheet).to_text()
+
+
+@pytest.mark.parametrize("of", ["f(r, theta)", "f", "g_1(r)"])
+def test_a_stated_function_is_differentiated_by_a_coordinate(of: str) -> None:
+    sheet = f"{of} = r^2/(2 R) - R/2 = 0\ndf/dr = r/R\ndf/dtheta = 0\nm r'' - m r theta'^2 + m g cos(theta) = lambda\n"
+    sheet = "T = m/2 (r'^2 + r^2 theta'^2)\nd/dt(dT/dr') = m r''\n" + sheet.replace("df", f"d{of.partition('(')[0]}")
+    sheet += "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
+    assert smooth_puck().check(sheet).right
+    assert not smooth_puck().check(sheet.replace("r/R", "r/(2 R)")).right

@@ -281,8 +281,7 @@ def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLate
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
         )
     if len(rows) > MAX_STATEMENTS:
-        at = rows[MAX_STATEMENTS].start
-        at = at if latex is None else latex.origin(at)
+        at = rows[MAX_STATEMENTS].start if latex is None else latex.origin(rows[MAX_STATEMENTS].start)
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, at, fix="give the answer in several parts", code="E703")
 
@@ -392,6 +391,7 @@ def _words(lines: Lines, text: str) -> Words:
         if word.lower() in LINKING or (long and not system.known(word) and not system.is_product(word)):
             own.setdefault(match[2])
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
+    own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
