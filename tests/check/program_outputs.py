@@ -168,6 +168,8 @@ def solutions(equations: Sequence[sp.Eq], accelerations: Sequence[sp.Expr]) -> d
     return {
         "SymPy, a solution": str(found),
         "SymPy, LaTeX of a solution": f"$\\displaystyle {sp.latex(found[0])}$",
+        "SymPy, a loop over a solution": "\n".join(f"{a} : {e}" for a, e in found[0].items()),
+        "SymPy, a loop, in vectors' spelling": "\n".join(f"{vsprint(a)} -> {vsprint(e)}" for a, e in found[0].items()),
         "Python, a dictionary": pformat({str(a.args[0].func): e for a, e in zip(accelerations, left, strict=True)}),
         "JSON": json.dumps(
             {str(a.args[0].func): f"{vsprint(e)} = 0" for a, e in zip(accelerations, left, strict=True)}

@@ -4,6 +4,7 @@ eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
 {'x': m*x'' - F, 'phi': J*phi'' - M}           m*x'' - F = 0⏎ J*phi'' - M = 0          also {"x": "m*x'' = F"}
+x'' : a   Derivative(x(t), (t, 2)) : a          x'' = a                                solutions, one a line
 {a, b} == {c, d}                               a = c⏎ b = d
 \\left\\{a = b, c = d\\right\\}                    a = b⏎ c = d                          LaTeX, also with [ ]
 """
@@ -31,6 +32,10 @@ _KEY = re.compile(
     rf"(?:(?P<quote>['\"])(?P<name>[^\"\n:]{{1,60}}?)(?P=quote)|(?P<bare>{_NAME}))[ \t]*+:(?!=)\s*+(?=\S)"
 )
 """The name of an entry in a dictionary of Python or JSON."""
+_SHOWN = re.compile(
+    r"(?P<of>[^\s:=]{2,60}+(?:(?<=,)[ \t][^\s:=]{1,20}+){0,3}+)[ \t]*+(?P<maps>(?:->|→|:)(?!=))[ \t]++(?=\S)"
+)
+"""What a solution is of, and a colon or an arrow."""
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -73,6 +78,7 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     """The edits of one statement, if it is such a list."""
     match = _LIST.match(text, start, end)
     if match is None:
+        yield from _solved(text, start, end)
         return
     close = closes(text, match.end() - 1)
     if match["open"] == "{" and (other := _SIDE.match(text, close + 1, end)) is not None:
@@ -99,6 +105,15 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
         if any("=" in x or "Eq(" in x for x in written) or not sure:
             return
         yield from _listed(text, start, end, spans, " = 0")
+
+
+def _solved(text: str, start: int, end: int) -> Iterator[Edit]:
+    """The edit that equates an acceleration with what stands behind it and a colon, as loops over solutions print."""
+    match = _SHOWN.match(text, start, end)
+    if match is None or not is_acceleration(match["of"]) or "=" in text[match.end() : end]:
+        return
+    if not carries(text[match.end() : end]):
+        yield match.start("maps"), match.end("maps"), " = "
 
 
 def _called(text: str, start: int, end: int, values: Sequence[tuple[int, int]]) -> Iterator[Edit]:
