@@ -145,6 +145,7 @@ def test_blanks_in_brackets_remain_products_where_the_shape_wants_them() -> None
     [
         "ad a) m L² θ'' + b θ' + m g L sin θ = m",
         "m L² θ'' + b θ' + m g L tg θ = 0",
+        "<p><sup>1</sup>/<sub>2</sub> m L² θ'' + b θ' + m g L sin θ = 0</p>",
         "m*L^2*D2theta + b*D2theta + m*g*L*sin(theta) = 0",
         "m L^2 ddot θ + b ddot θ + m g L sinθ = 0",
         "m L² ¨θ + b ¨θ + m g L sin θ = 0",
@@ -153,6 +154,13 @@ def test_blanks_in_brackets_remain_products_where_the_shape_wants_them() -> None
 )
 def test_what_is_wrong_stays_wrong(written: str) -> None:
     assert not derivation("pendulum").check(written).right
+
+
+def test_raised_and_lowered_numbers_of_a_page_are_a_fraction() -> None:
+    half = "<sup>1</sup>/<sub>2</sub>", "<sup><i>m</i></sup>&frasl;<sub>2</sub> <i>m</i><sup>-1</sup>"
+    for x in half:
+        written = f"<li>Pendulum: {x} <i>m</i> <i>L</i><sup>2</sup> θ̈ + {x} (b θ̇ + m g L sin θ) = 0</li>"
+        assert derivation("pendulum").check(written).right
 
 
 def test_a_name_that_nothing_explains_is_asked_about() -> None:

@@ -1,4 +1,7 @@
-"""Answers copied from a web page: x<sub>1</sub>'<sup>2</sup> &minus; &theta; as x_1'^2 − θ."""
+"""Answers copied from a web page: x<sub>1</sub>'<sup>2</sup> &minus; &theta; as x_1'^2 − θ.
+
+<sup>1</sup>/<sub>2</sub> <i>m</i>, with nothing that is raised, is the fraction (1)/(2) m.
+"""
 
 from __future__ import annotations
 
@@ -13,9 +16,15 @@ _UNQUOTED = "align|valign|width|height|class|id|style|colspan|rowspan|border|cle
 _VALUE = r"""(?:"[^"<>\n]{0,200}"|'[^'<>\n]{0,200}')"""
 _ATTRIBUTES = rf"(?:\s{{1,20}}(?:[a-z][\w:.-]{{0,40}}={_VALUE}|(?:{_UNQUOTED})=[^\s\"'<>=]{{1,100}})){{0,20}}"
 """name="value"; without quotation marks only after a name that mathematics does not have."""
+_LETTER_TAG = re.compile(rf"<(?P<close>/?)(?P<tag>i|b|em|strong|u|span|var){_ATTRIBUTES}\s?>", re.IGNORECASE)
 _TAG = re.compile(rf"<(?P<close>/?)(?P<tag>{_TAGS}){_ATTRIBUTES}\s?/?>", re.IGNORECASE)
 _COMMENT = re.compile(r"<!--(?:(?!-->).){0,2000}-->", re.DOTALL)
 _RAISED = re.compile(rf"<(?P<tag>su[bp]){_ATTRIBUTES}\s?>(?P<inside>[^<>]{{1,200}})</(?P=tag)\s?>", re.IGNORECASE)
+_FRACTION = re.compile(
+    r"(?<![\w)\]'’′″\u0300-\u036f])(?<!</sub>)<sup>(?P<above>[^<>]{1,60})</sup>\s?(?:[/⁄]|&frasl;)\s?"
+    r"<sub>(?P<below>[^<>]{1,60})</sub>",
+    re.IGNORECASE,
+)
 _ENTITY = re.compile(r"&(?:#(?:[xX][0-9A-Fa-f]{1,6}|[0-9]{1,7})|[A-Za-z][A-Za-z0-9]{1,31});")
 _SHORT = re.compile(r"\w+\Z")
 _ROWS = frozenset(["p", "br", "div", "tr", "li", "table", "pre", "h1", "h2", "h3", "h4", "h5", "h6", "ul", "ol"])
@@ -27,6 +36,7 @@ def without_tags(written: TracedText) -> TracedText:
     """Return an answer without tags and entities of HTML; each paragraph is a line."""
     if "<" in written.text and ">" in written.text:
         written = written.sub(_COMMENT, lambda match: " ")
+        written = written.sub(_LETTER_TAG, _tag).sub(_FRACTION, lambda m: f"(({m['above']})/({m['below']}))")
         written = written.sub(_RAISED, _raised).sub(_TAG, _tag)
     return written.sub(_ENTITY, _character) if "&" in written.text else written
 
