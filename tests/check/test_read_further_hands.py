@@ -125,3 +125,15 @@ def test_a_stated_function_is_differentiated_by_a_coordinate(of: str) -> None:
     sheet += "m r^2 theta'' + 2 m r r' theta' - m g r sin(theta) = 0\nr = R"
     assert smooth_puck().check(sheet).right
     assert not smooth_puck().check(sheet.replace("r/R", "r/(2 R)")).right
+
+
+def test_a_sheet_in_numbers_for_a_system_with_a_constraint() -> None:
+    sheet = (
+        "Data: m = 0.4 kg, R = 1.2 m, g = 9.81 m/s^2\nT = 0.2 (r'^2 + r^2 theta'^2), V = 3.924 r cos(theta)\nr = 1.2\n"
+    )
+    sheet += "0.4 r'' - 0.4 r theta'^2 + 3.924 cos(theta) = lambda\n"
+    sheet += "0.4 r^2 theta'' + 0.8 r r' theta' - 3.924 r sin(theta) = 0"
+    assert smooth_puck().check(sheet).right
+    found = smooth_puck().check(sheet.replace("0.4 r theta'^2", "0.8 r theta'^2"))
+    assert [x.line.number for x in found.findings if not x.status.right] == [4]
+    assert not smooth_puck().check(sheet.replace("V = 3.924", "V = 3.9")).right

@@ -32,7 +32,7 @@ from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.names.declared import declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
-from lagrangian.check.numbers_beside import with_numbers_beside
+from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
@@ -81,6 +81,9 @@ def _checked(
     truth: Reference, lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], hint: int, explain: bool
 ) -> Verdict:
     """The verdict on an answer, and on it with its own names ``written`` out."""
+    if truth.derivation.multipliers and not truth.values and (numbers := numbers_alone(truth, written)):
+        verdict = _checked(truth.with_values(numbers.values), numbers.lines, numbers.lines, hint, explain)
+        return replace(verdict, notes=(*verdict.notes, *numbers.notes))
     if truth.derivation.multipliers:
         read = unfolded(truth, written)
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import sympy as sp
+
 from lagrangian.check.names.spelling import in_numbers, values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.model import time
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
 
 _JUDGED = frozenset(["T", "V", "L", "D", "Xi"])
 
@@ -55,3 +58,25 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         hint=first.hint,
         sure=wrong.sure,
     )
+
+
+@dataclass(frozen=True)
+class NumbersAlone:
+    """The lines of an answer in numbers, without those that only give parameters the values of the system."""
+
+    lines: tuple[AnsweredLine, ...]
+    values: dict[sp.Symbol, sp.Expr]
+    notes: tuple[Text, ...]
+
+
+def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlone | None:
+    """Return the lines of an answer that is in numbers but for a list of the system's values; None for another."""
+    values, kept = values_of(truth, ()), list[AnsweredLine]()
+    for line in lines:
+        gives = any(line.expr in (p - v, v - p) for p, v in values.items())
+        kept += [] if gives or line.kind in ("definition", "statement") else [line]
+    if not kept or not in_numbers(truth, kept):
+        return None
+    put = tuple(values)
+    named = [x for p in sorted(put, key=str) for x in (p, ", ")][:-1]
+    return NumbersAlone(tuple(kept), values, (text("The values of ", *named, " are substituted."),))

@@ -21,7 +21,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.determined import accelerations_determined, ends_right
-from lagrangian.check.constraints.own_constraints import with_rates
+from lagrangian.check.constraints.in_rates import in_coordinates
 from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.coordinates.chart import of_unknown
 from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_in
@@ -30,7 +30,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.stated import judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
-from lagrangian.model import Model, time
+from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
@@ -125,12 +125,12 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verd
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
     second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
-    return second if second.right else first
+    return second if second.right or (truth.values and _rights(second) >= _rights(first)) else first
 
 
-def in_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
-    """The lines with new speeds written out in rates, and a constraint that was integrated as one on rates."""
-    return [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
+def _rights(verdict: Verdict) -> int:
+    """How many lines are right."""
+    return sum(finding.status.right for finding in verdict.findings)
 
 
 def _as_read(truth: Reference, read: SizeReading) -> bool:
@@ -145,39 +145,6 @@ def _as_read(truth: Reference, read: SizeReading) -> bool:
         ):
             return True
     return False
-
-
-def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
-    """A line with the new speeds of the equations without multipliers written out in rates."""
-    minimal = truth.derivation.minimal
-    if minimal is None or not minimal.meanings:
-        return line
-    table: dict[sp.Basic, sp.Expr] = {}
-    for speed, meaning in minimal.meanings.items():
-        moving = cast("sp.Expr", sp.diff(meaning, time))
-        table |= {sp.Derivative(speed, time): moving, speed: meaning, sp.Symbol(plain(speed)): meaning}
-    expr = cast("sp.Expr", line.expr.xreplace(table))
-    return replace(line, expr=expr)
-
-
-def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
-    """A line such as v' = a θ'², with a speed of the equations without multipliers, as an equation of motion."""
-    minimal = truth.derivation.minimal
-    if minimal is None or line.kind not in ("identity", "definition"):
-        return line
-    for speed in minimal.meanings:
-        name, rate = plain(speed), cast("sp.Expr", sp.Derivative(speed, time))
-        expr = line.expr if line.expr.has(rate) else None
-        if line.kind == "definition" and line.name == name and _left(line) in (f"{name}'", rf"\dot{{{name}}}"):
-            expr = rate - line.expr
-        if expr is not None:
-            return replace(line, kind="equation", expr=expr)
-    return line
-
-
-def _left(line: AnsweredLine) -> str:
-    """The left side as it was written."""
-    return line.text.partition("=")[0].strip(" $&")
 
 
 def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:

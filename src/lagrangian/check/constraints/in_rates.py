@@ -1,0 +1,53 @@
+"""Writes lines of an answer in the coordinates and their rates alone, for systems with constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import cast
+
+import sympy as sp
+
+from lagrangian.check.constraints.own_constraints import with_rates
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.page.plain import plain
+
+
+def in_coordinates(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines with new speeds written out in rates, and a constraint that was integrated as one on rates."""
+    return [with_rates(truth, _in_rates(truth, _of_motion(truth, line))) for line in lines]
+
+
+def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line with the new speeds of the equations without multipliers written out in rates."""
+    minimal = truth.derivation.minimal
+    if minimal is None or not minimal.meanings:
+        return line
+    table: dict[sp.Basic, sp.Expr] = {}
+    for speed, meaning in minimal.meanings.items():
+        moving = cast("sp.Expr", sp.diff(meaning, time))
+        table |= {sp.Derivative(speed, time): moving, speed: meaning, sp.Symbol(plain(speed)): meaning}
+    expr = cast("sp.Expr", line.expr.xreplace(table))
+    return replace(line, expr=expr)
+
+
+def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line such as v' = a θ'², with a speed of the equations without multipliers, as an equation of motion."""
+    minimal = truth.derivation.minimal
+    if minimal is None or line.kind not in ("identity", "definition"):
+        return line
+    for speed in minimal.meanings:
+        name, rate = plain(speed), cast("sp.Expr", sp.Derivative(speed, time))
+        expr = line.expr if line.expr.has(rate) else None
+        if line.kind == "definition" and line.name == name and _left(line) in (f"{name}'", rf"\dot{{{name}}}"):
+            expr = rate - line.expr
+        if expr is not None:
+            return replace(line, kind="equation", expr=expr)
+    return line
+
+
+def _left(line: AnsweredLine) -> str:
+    """The left side as it was written."""
+    return line.text.partition("=")[0].strip(" $&")
