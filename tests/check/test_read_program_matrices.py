@@ -269,3 +269,20 @@ def test_the_value_of_a_name_may_stand_below_it_and_accelerations_have_any_name(
 def test_matrices_without_an_equation_are_not_wrong(form: str) -> None:
     verdict = derivation("cart-pole").check(form.format(MASSES, FORCES))
     assert verdict.status.name == "INCOMPLETE" and not verdict.findings
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "In [7]: # kinematics: x' = v, theta' = w; mass_matrix*[v', w'] = forcing",
+        "In [7]: KM.kindiffdict()\nOut[7]: {x': v, theta': w}\n# mass_matrix * Matrix([v', w']) = forcing",
+        "In [7]: KM.kindiffdict()\nOut[7]: {Derivative(x(t), t): v(t), Derivative(theta(t), t): w(t)}\n"
+        "# mass_matrix * Matrix([v', w']) = forcing",
+    ],
+)
+def test_speeds_of_kane_are_named_beside_the_matrices(said: str) -> None:
+    forces = FORCES.replace("x'", "v").replace("theta'", "w")
+    written = f"In [5]: mprint(KM.mass_matrix)\nMatrix({MASSES})\nIn [6]: mprint(KM.forcing)\nMatrix({forces})\n{said}"
+    judge = derivation("cart-pole")
+    assert judge.check(written).right
+    assert not judge.check(written.replace("b*v", "b*w")).right

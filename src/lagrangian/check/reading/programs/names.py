@@ -3,6 +3,7 @@
 a, W = symbols('a Omega')                  W = Omega         a name of Python for one of the system
 th = Function('theta')(t)                  th = theta
 # i is dq/dt, w1, w2 = their rates         i = q'            a comment
+# kinematics: x' = v                       v = x'
 di_dt = …   dw = …                         i' = …  w' = …    a rate
 Eq(a,⏎   b)                                Eq(a, b)          a call in several lines
 """
@@ -11,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from itertools import islice
+from itertools import chain, islice
 
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
@@ -43,6 +44,11 @@ _OF_LIST = rf"their[ ](?:rates|velocities|speeds|derivatives)|{_VALUE}(?:[ ]?,[ 
 _SAID = re.compile(
     rf"(?<![\w.])(?P<new>{_LIST})[ \t]*+{_IS}[ \t]*+(?:the[ ]|rate[ ]of[ ])*(?P<own>{_OF_LIST})(?![\w(^*/+-]|[ ]*{_IS})"
 )
+_NAMES_RATE = re.compile(
+    rf"(?<![\w.*/^+-])(?P<own>d[ ]?{_NAME}[ ]?/[ ]?dt|der\({_NAME}\)|{_NAME}['’′]{{1,2}})[ \t]*+(?:=|:=|->)[ \t]*+"
+    rf"(?P<new>{_NAME})(?=[ \t]*+(?:[.,;]|$|(?:and|und)\b))"
+)
+"""A rate and the name for it: x' = v."""
 _FORMULA = re.compile(
     rf"^[ \t]*+(?P<mark>[#%]+|//)[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+"
     r"(?P<value>[^=\n]{1,200}?)(?P<words>[ \t]{2,9}[^\W\d_][^=\n]{0,200})?$",
@@ -105,7 +111,8 @@ def _commented(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
     for comment in islice(_COMMENT.finditer(text), MOST):
         stated: list[str] = []
         above: list[str] = []
-        for match in islice(_SAID.finditer(comment["said"]), MOST):
+        said = comment["said"]
+        for match in islice(chain(_SAID.finditer(said), _NAMES_RATE.finditer(said)), MOST):
             new = re.findall(_NAME, match["new"])
             own = [_DERIVED.sub(lambda m: f"{m['of'] or m['in']}'", x.strip()) for x in match["own"].split(",")]
             if own[0].startswith("their "):

@@ -3,6 +3,7 @@
 eqs = [m*x'' - F,⏎ J*phi'' - M]                m*x'' - F = 0⏎ J*phi'' - M = 0          also { }
 Matrix([⏎[m*x'' - F],⏎[J*phi'' - M]])          the same
 {x'': a, y'': b}   {{x'' -> a, y'' -> b}}      x'' = a⏎ y'' = b
+{x': v, y': w}                                 x' = v⏎ y' = w                         rates and their names
 {'x': m*x'' - F, 'phi': J*phi'' - M}           m*x'' - F = 0⏎ J*phi'' - M = 0          also {"x": "m*x'' = F"}
 x'' : a   Derivative(x(t), (t, 2)) : a          x'' = a                                solutions, one a line
 {a, b} == {c, d}                               a = c⏎ b = d
@@ -36,6 +37,11 @@ _SHOWN = re.compile(
     r"(?P<of>[^\s:=]{2,60}+(?:(?<=,)[ \t][^\s:=]{1,20}+){0,3}+)[ \t]*+(?P<maps>(?:->|→|:)(?!=))[ \t]++(?=\S)"
 )
 """What a solution is of, and a colon or an arrow."""
+_NAMED_RATE = re.compile(
+    rf"(?:{_NAME}(?:\(t\))?['’′]|Derivative\({_NAME}\(t\),[ ]?t\))"
+    rf"[ \t]*+(?:->|:)\s*+{_NAME}(?:\(t\))?"
+)
+"""A rate and the name that an answer has for it: x': v."""
 _MAPS = re.compile(r"(?:->|:)(?!=)")
 
 
@@ -96,7 +102,7 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
         yield from _called(
             text, start, close + 1, [(a + key.end(), b) for (a, b), key in zip(spans, keys, strict=True) if key]
         )
-    elif written and all(m is not None and is_acceleration(x[: m.start()]) for x, m in zip(written, maps, strict=True)):
+    elif written and all(map(_maps, written, maps)):
         yield from _listed(text, start, end, spans, "")
         yield from ((a + m.start(), a + m.end(), " = ") for (a, _), m in zip(spans, maps, strict=True) if m)
     elif len(spans) > (0 if match["call"] else 1):
@@ -114,6 +120,12 @@ def _solved(text: str, start: int, end: int) -> Iterator[Edit]:
         return
     if not carries(text[match.end() : end]):
         yield match.start("maps"), match.end("maps"), " = "
+
+
+def _maps(entry: str, sign: re.Match[str] | None) -> bool:
+    """Whether an entry of a dictionary says what an acceleration is, or how a rate is called."""
+    of_rate = _NAMED_RATE.fullmatch(entry) is not None
+    return sign is not None and (of_rate or is_acceleration(entry[: sign.start()]))
 
 
 def _called(text: str, start: int, end: int, values: Sequence[tuple[int, int]]) -> Iterator[Edit]:
