@@ -339,13 +339,13 @@ def tackle() -> lg.Derivation:
 @pytest.mark.parametrize(
     ("spring", "damper", "words"),
     [
-        ("z - x/2", "z' - x'", "The force of damper 'c' is made of -x' + z' in place of -x'/2 + z'."),
-        ("z - x", "z' - x'/2", "The deflection in the force of spring 'k' is taken as -x + z; it is -x/2 + z."),
+        ("z - x/2", "z' - x'", "the force of damper 'c' is c*(-x'/2 + z'), not c*(-x' + z')."),
+        ("z - x", "z' - x'/2", "the force of spring 'k' is k*(-x/2 + z), not k*(-x + z)."),
     ],
 )
 def test_a_force_with_a_factor_left_out_has_the_signs_of_the_answer(spring: str, damper: str, words: str) -> None:
     verdict = tackle().check(f"F1 = k ({spring}) + c ({damper})\nm x'' = F1/2\nM z'' = -F1")
-    assert str(verdict.mistakes[0].what) == words
+    assert str(verdict.mistakes[0].what) == f"Line 1 is not right: {words}"
 
 
 def test_a_wrong_deflection_has_the_signs_of_the_right_one() -> None:

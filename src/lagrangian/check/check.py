@@ -20,6 +20,7 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
+from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
@@ -64,6 +65,8 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     written = _filled(truth, judged)
     verdict = _checked(truth, judged, written, hint, explain)
     general = untrue_in_general(truth, written)
+    if verdict.findings:
+        verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
@@ -197,6 +200,7 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
                 note = text("It would be right with ", *change.words.parts, ".")
                 return replace(
                     verdict,
+                    findings=with_wrong_definitions(verdict.findings, named.blamed),
                     mistakes=named.told,
                     alternatives=named.others,
                     notes=(*verdict.notes, note),
@@ -331,7 +335,7 @@ def _in_these(
     note = text("Your coordinates were read ", *change.words.parts, ".")
     return Verdict(
         judged.status,
-        judged.findings,
+        with_wrong_definitions(judged.findings, named.blamed),
         named.told,
         named.others,
         change=change.table,
@@ -356,4 +360,6 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
             *notes,
             text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
         )
-    return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes, sure=named.sure)
+    findings = with_wrong_definitions(verdict.findings, named.blamed)
+    told = replace(verdict, findings=findings, mistakes=named.told, alternatives=named.others)
+    return replace(told, notes=notes, sure=named.sure)

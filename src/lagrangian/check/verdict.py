@@ -214,9 +214,10 @@ class Verdict:
 
     @property
     def first_wrong(self) -> Finding | None:
-        """The first line that is wrong; if none is, the first that says nothing."""
+        """The first line that is wrong and follows from none; if none is, the first that says nothing."""
         left = [f for f in self.findings if not f.status.right]
-        return next((f for f in left if f.status is Status.WRONG), left[0] if left else None)
+        wrong = [f for f in left if f.status is Status.WRONG]
+        return next((f for f in wrong if not f.follows), next(iter(wrong or left), None))
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON; the hint level limits how much it reveals."""

@@ -114,9 +114,10 @@ def _lines(verdict: Verdict, model: Model) -> Table:
     """A row for every line; of several equations in one line, as of matrices, each with its coordinate."""
     often = Counter(f.line.title for f in verdict.findings)
     rows: list[tuple[Text, ...]] = []
+    every = list(dict.fromkeys(f.line.title for f in verdict.findings if f.status is Status.WRONG and not f.follows))
     roots: list[str] = []
     for f in verdict.findings:
-        words: list[str | Left] = [_word(f, roots)]
+        words: list[str | Left] = [_word(f, roots or every)]
         if (note := f.told(verdict.hint)) is not None:
             words += [": ", *note.parts]
         of = _of(f, model) if often[f.line.title] > 1 else ()
@@ -127,7 +128,7 @@ def _lines(verdict: Verdict, model: Model) -> Table:
 
 
 def _word(finding: Finding, roots: Sequence[str]) -> str:
-    """The verdict on a line; ``roots`` are the titles of the lines above that are wrong and follow from none."""
+    """The verdict on a line; ``roots`` are the titles of lines that are wrong and follow from none."""
     if finding.follows:
         return f"not right, but only because of {roots[0] if len(roots) == 1 else 'the lines above'}"
     if finding.status is Status.WRONG:

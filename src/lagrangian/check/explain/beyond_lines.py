@@ -26,7 +26,7 @@ def beyond(
     every = tuple({id(t.mistake): t for told in firsts for t in told}.values())
     if not every or not equations:
         return None
-    exprs, P = stated(pool, equations)
+    exprs, P = stated(pool.truth, equations)
     found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
     explained: list[Explanation] = []
     for known in dict.fromkeys((every, *firsts)):

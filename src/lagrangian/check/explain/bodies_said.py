@@ -1,35 +1,33 @@
-"""What an answer says of single bodies, v_A = l φ̇ sin φ or J = m r², and the energy that follows from it.
+"""What an answer says of single bodies and springs, v_A = l φ̇ sin φ, J = m r², d = φ − x, and what follows from it.
 
 A line that follows exactly from such a definition has its mistake there, whatever else would lead to the same line.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations
-from typing import Any, TypeAlias, cast
+from itertools import combinations, islice
+from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
 
-from lagrangian import bounded
-from lagrangian.check.align import LARGEST
-from lagrangian.check.explain.candidates import ingredients_of
+from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool
-from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
-from lagrangian.check.explain.line_mistakes import without_constant
-from lagrangian.check.explain.misconceptions import Ingredients
-from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.explain.line_mistakes import stated, without_constant
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.search import SMALL, Explanation
+from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
+from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.stated import index_of, right_value, without_dampers
+from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import Gravity, RigidBody
-from lagrangian.page.formula import Left, Text, text
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
+JUDGED = frozenset(["T", "V", "L", "Xi", "p", "p-rate", "slope", "left", "equation"])
+"""The kinds of lines that are compared with what definitions lead to."""
 MOST_DEFINITIONS = 16
 """The largest number of definitions that are compared with the bodies."""
 MOST_TOGETHER = 3
@@ -45,50 +43,29 @@ NOT_OF_BODIES = (
 )
 """Mistakes that are not made in the speed, the position or the inertia of a body."""
 LEFT_OUT = ("left_out_of_a_sum", "lost", "lost_in_a_sum", "not_squared")
-MOST_LACKING = 2
-"""The most terms that are added to what is written, to say what is right."""
-LONGEST = 60
-"""The largest number of operations of such a definition."""
 
-WHY = {
-    "speed": text("The velocity is the derivative of the position; every coordinate that moves the body adds to it."),
-    "turning": text("ω is how fast the body itself turns against the fixed axes."),
-    "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
-    "axis": text(
-        "About a parallel axis it is larger, by the mass times the square of the distance of this axis from the centre "
-        "of mass."
-    ),
-    "position": text("Go along the way from the fixed point to the body: every piece of it counts."),
-}
+Block: TypeAlias = tuple[Array, Array]
+"""What is wrong in a line at every state, and what each definition adds to it, (parts, states); both are scaled."""
 
 
-@dataclass(frozen=True, eq=False)
-class SaidOfBody:
-    """One quantity of a body that a definition has wrong, and what this adds to T* and to V."""
+@dataclass(frozen=True)
+class Blamed:
+    """Wrong definitions, and the wrong lines and the other definitions that follow from them."""
 
-    body: Any
-    kind: str
-    number: int
-    """The line in which it is said."""
-    what: Text
-    letters: frozenset[sp.Basic]
-    """The letters, coordinates and rates in what is right and in what is written."""
-    written: sp.Expr
-    T: sp.Expr
-    V: sp.Expr
-
-    @property
-    def mistake(self) -> Mistake:
-        """The mistake in words."""
-        step = 3 if self.T == 0 else 2
-        words = {"turning": "angular velocity", "inertia": "moment of inertia", "axis": "moment of inertia"}.get(
-            self.kind, self.kind
-        )
-        brief = text(f"The {words} of {self.body.title} is not right.")
-        return Mistake(f"{self.kind}_of_body", self.what, WHY[self.kind], step, self.body.title, None, brief)
+    said: tuple[SaidWrongly, ...]
+    because: tuple[AnsweredLine, ...]
+    later: tuple[AnsweredLine, ...] = ()
 
 
-def agrees(explanation: Explanation, said: Sequence[SaidOfBody]) -> bool:
+def blamed_also(blamed: Blamed | None, said: Sequence[SaidWrongly], line: AnsweredLine) -> Blamed:
+    """What is blamed, with what one more line follows from."""
+    known = blamed if blamed is not None else Blamed((), ())
+    lines = [p.line for p in known.said]
+    more = [p for p in said if not any(p.line is x for x in lines)]
+    return Blamed((*known.said, *more), (*known.because, line), known.later)
+
+
+def agrees(explanation: Explanation, said: Sequence[SaidWrongly]) -> bool:
     """Whether an explanation may be what the definitions have wrong: it quotes no other letters than these.
 
     A number, a whole part that is left out, or masses that are exchanged would not show in them.
@@ -116,19 +93,87 @@ class BodiesSaid:
         self.truth, self.lines = truth, lines
 
     @cached_property
-    def parts(self) -> list[SaidOfBody]:
+    def parts(self) -> list[SaidWrongly]:
         """What the definitions may have wrong."""
-        told = [x for x in self.lines if x.kind == "definition" and bounded.operations(x.expr) <= LONGEST]
-        every = (part for x in told[:MOST_DEFINITIONS] for part in _parts(self.truth, x))
-        return [p for p in every if p.T != 0 or p.V != 0][:MOST_PARTS]
+        told = [x for x in self.lines if x.kind == "definition"]
+        every = (part for x in told[:MOST_DEFINITIONS] for part in said_of(self.truth, x))
+        return list(islice(every, MOST_PARTS))
 
-    def of_line(self, line: AnsweredLine) -> list[SaidOfBody]:
+    def of_all(self, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> Blamed | None:
+        """The fewest wrong definitions from which all wrong lines follow; None if there are none."""
+        if not wrong or not self.parts or any(line.kind not in JUDGED for line in wrong):
+            return None
+        blocks = [self._of_value(x, lines) for x in wrong if x.kind != "equation"]
+        if any(x is None for x in blocks):
+            return None
+        direct = [x for x in blocks if x is not None]
+        if all(line.kind != "equation" for line in wrong):
+            return self._blamed(direct, wrong)
+        exprs, P = stated(self.truth, [line for line in lines if line.kind == "equation"])
+        size, rows = np.abs(self.truth.W).max(), self._rows
+        for a in alignments(self.truth, exprs, P)[:MOST_FOR_PAIRS]:
+            scale = np.abs(a.rest).max() + size
+            block = (a.rest.ravel() / scale, rows[:, list(a.rows)].reshape(len(rows), -1) / scale)
+            if (found := self._blamed([*direct, block], wrong)) is not None:
+                return found
+        return None
+
+    @cached_property
+    def _rows(self) -> Array:
+        """What each definition adds to the left-hand sides, (parts, n, states); NaN where it is too large."""
+        every = np.array([p.rows(self.truth) for p in self.parts])
+        every[~(np.abs(every) <= LARGEST).all(axis=(1, 2))] = np.nan
+        return every
+
+    def _of_value(self, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Block | None:
+        """What is wrong in an energy, a Ξ or a derivative, and what each definition adds to it; None if it is too small
+        or too large."""
+        truth, i = self.truth, index_of(self.truth, line.name)
+        right = right_value(truth, line, i)
+        if line.kind == "Xi" and (undamped := without_dampers(truth, line, i, lines)) is not None:
+            right = undamped
+        if right is None:
+            return None
+        exprs = [line.expr - right, *(p.adds(truth, line.kind, i) for p in self.parts)]
+        values = CompiledExpressions(exprs).at(truth.states)
+        values = without_constant(values) if line.kind in ("V", "L") else values
+        size = np.abs(values[0]).max()
+        return (values[0] / size, values[1:] / size) if 1e-12 < size < LARGEST else None
+
+    def _blamed(self, blocks: Sequence[Block], wrong: Sequence[AnsweredLine]) -> Blamed | None:
+        """The fewest definitions that add what is wrong, the first that uses no other one, and those that follow."""
+        rest = np.concatenate([x for x, _ in blocks])
+        effects = np.concatenate([x for _, x in blocks], axis=1)
+        own = [k for k, p in enumerate(self.parts) if not p.elsewhere]
+        good = [k for k in own if np.isfinite(effects[k]).all() and np.abs(effects[k]).max() > SMALL]
+        for count in range(1, MOST_TOGETHER + 1 if len(good) <= MOST_FOR_THREE else 3):
+            chosen = [k for k in combinations(good, count) if self._leads_to(effects, k, rest)]
+            if not chosen:
+                continue
+            said = tuple(self.parts[k] for k in chosen[0])
+            if count == 1:
+                firsts = {id(p.line): p for k in reversed(chosen) for p in [self.parts[k[0]]]}
+                said = (_first_of(sorted(firsts.values(), key=lambda p: p.number)),)
+            own, lines = [effects[self.parts.index(p)] for p in said], [p.line for p in said]
+            alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in (*own, rest))]
+            later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
+            return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
+        return None
+
+    def _leads_to(self, effects: Array, chosen: Sequence[int], rest: Array) -> bool:
+        """Whether definitions of different lines add up to what is wrong."""
+        if len({id(self.parts[k].line) for k in chosen}) < len(chosen):
+            return False
+        return bool(np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL)
+
+    def of_line(self, line: AnsweredLine) -> list[SaidWrongly]:
         """The wrong definitions from which a line of T*, V or L follows; none if it follows from none."""
         truth = self.truth
         if line.kind not in ("T", "V", "L") or not self.parts:
             return []
         right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
-        values = CompiledExpressions([line.expr - right, *self._exprs(line.kind)]).at(truth.states)
+        effects = [p.adds(truth, line.kind, None) for p in self.parts]
+        values = CompiledExpressions([line.expr - right, *effects]).at(truth.states)
         level = values if line.kind == "T" else without_constant(values)
         return self._named(level[0], level[1:])
 
@@ -148,11 +193,7 @@ class BodiesSaid:
                     found.append(e)
         return found or list(group)
 
-    def _exprs(self, kind: str) -> list[sp.Expr]:
-        """What each definition adds to an energy."""
-        return [{"T": p.T, "V": p.V}.get(kind, p.T - p.V) for p in self.parts]
-
-    def _named(self, rest: Array, effects: Array) -> list[SaidOfBody]:
+    def _named(self, rest: Array, effects: Array) -> list[SaidWrongly]:
         """The fewest definitions whose effects add up to what is wrong; none if it is nothing."""
         size = np.abs(rest).max(initial=0.0)
         if not np.isfinite(rest).all() or not 1e-12 < size < LARGEST:
@@ -168,73 +209,8 @@ class BodiesSaid:
         return []
 
 
-def _parts(truth: Reference, line: AnsweredLine) -> Iterator[SaidOfBody]:
-    """What a definition may say wrongly of each body."""
-    s, said = ingredients_of(truth.derivation), truth.expand(line.expr)
-    moving = [x for c in truth.model.coordinates for x in (c.rate, c.acceleration)]
-    if said.free_symbols - truth.names or said.has(*moving[1::2]):
-        return
-    find = _inertias if not s.moves(said) and not said.has(*moving) else _speeds if said.has(*moving) else _positions
-    for b in s.bodies:
-        for kind, words, T, V in find(s, b, said) if letters_in(said) else ():
-            quoted = frozenset(x for part in words if isinstance(part, sp.Expr) for x in letters_in(part))
-            effects = (truth.put(sp.sympify(x)) for x in (T, V))
-            yield SaidOfBody(b, kind, line.number, text(*words), quoted, said, *effects)
-
-
-Found: TypeAlias = Iterator[tuple[str, "tuple[str | Left, ...]", sp.Expr, Any]]
-"""The kind of a quantity, the words, and what it adds to T* and to V."""
-
-
-def _turning(s: Ingredients, b: Any) -> tuple[sp.Expr, sp.Expr] | None:
-    """J and ω of a rigid body in the plane; None for any other."""
-    omega = s.omega(b) if isinstance(b, RigidBody) else ()
-    return (s.expand(b.inertia[0]), omega[0]) if len(omega) == 1 else None
-
-
-def _inertias(s: Ingredients, b: Any, said: sp.Expr) -> Found:
-    if (turning := _turning(s, b)) is not None:
-        J, w = turning
-        yield "inertia", (f"The moment of inertia of {b.title} is ", J, ", not ", said, "."), (said - J) * w**2 / 2, 0
-        for square in arms(s, b) if J.free_symbols and J.free_symbols <= said.free_symbols else ():
-            right = J + s.expand(b.mass) * square
-            words = (f"The moment of inertia of {b.title} about its pivot is ", right, ", not ", said, ".")
-            yield "axis", words, (said - right) * w**2 / 2, 0
-
-
-def _speeds(s: Ingredients, b: Any, said: sp.Expr) -> Found:
-    m, v = s.expand(b.mass), s.velocity(b)
-    right = sp.Add(*[x**2 for x in v])
-    for square in (said**2, said):
-        words = (f"The square of the speed of {b.title} is ", _beside(s, right, square), ", not ", square, ".")
-        yield "speed", words, m * (square - right) / 2, 0
-    for x in v:
-        if x != 0:
-            words = (f"One component of the velocity of {b.title} is ", x, ", not ", said, ".")
-            yield "speed", words, m * (said**2 - x**2) / 2, 0
-    if (turning := _turning(s, b)) is not None:
-        J, w = turning
-        words = (f"The angular velocity of {b.title} is ", w, ", not ", said, ".")
-        yield "turning", words, J * (said**2 - w**2) / 2, 0
-
-
-def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
-    """What is right, as what is written and the few terms that this lacks, if these are few: (h θ̇ + ṡ)² + s² θ̇²."""
-    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
-    try:
-        lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
-    except TooLong:
-        return right
-    found = cast("sp.Expr", written + ring.expr(lacking))
-    shorter = len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
-    return found if len(lacking) <= MOST_LACKING and shorter else right
-
-
-def _positions(s: Ingredients, b: Any, said: sp.Expr) -> Found:
-    m, v = s.expand(b.mass), s.velocity(b)
-    for c, x in enumerate(s.position(b)):
-        if s.moves(x):
-            lifted = [e.g * e.direction[c] for e in s.model.elements if isinstance(e, Gravity)]
-            words = (f"The {'xyz'[c]} coordinate of {b.title} is ", x, ", not ", said, ".")
-            V = -m * s.expand(sp.Add(*lifted)) * (said - x)
-            yield "position", words, m * (s.rate(said) ** 2 - v[c] ** 2) / 2, V
+def _first_of(said: Sequence[SaidWrongly]) -> SaidWrongly:
+    """The first of several definitions of which each explains all, that uses none of the others."""
+    names = [key(p.line.name or "") for p in said]
+    free = [p for p, own in zip(said, names, strict=True) if not p.line.names & {x for x in names if x != own}]
+    return (free or said)[0]

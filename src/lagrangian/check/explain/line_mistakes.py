@@ -14,6 +14,7 @@ from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
+from lagrangian.check.reference import Reference
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
@@ -158,7 +159,7 @@ def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[An
     """
     if not groups or not all(groups) or len(groups) > 2 or not equations:
         return groups
-    exprs, P = stated(pool, equations)
+    exprs, P = stated(pool.truth, equations)
     found = alignments(pool.truth, exprs, P)[:MOST_FOR_PAIRS]
     few = [g[: MOST_TOLD if len(groups) == 1 else MOST_TOGETHER] for g in groups]
     chosen: list[dict[int, Explanation]] = [{} for _ in groups]
@@ -196,9 +197,9 @@ def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
     return pool.kept(("shown", kind, i), shown)
 
 
-def stated(pool: Pool, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
+def stated(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
     """The equations that have a value and say something, left minus right, with their values."""
     exprs = [line.expr for line in lines]
-    P = CompiledExpressions(exprs).at(pool.truth.states)
+    P = CompiledExpressions(exprs).at(truth.states)
     says = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1, initial=0.0) > 1e-12)
     return [e for e, s in zip(exprs, says, strict=True) if s], P[says]

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.align import Alignment, alignments
 from lagrangian.check.explain.beyond_lines import beyond
-from lagrangian.check.explain.bodies_said import BodiesSaid, agrees
+from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, blamed_also
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
@@ -30,6 +30,7 @@ from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
 from lagrangian.check.explain.reduced import of_reduced
+from lagrangian.check.explain.said_wrongly import SaidWrongly
 from lagrangian.check.explain.search import (
     EXOTIC,
     Explanation,
@@ -68,7 +69,8 @@ class NamedMistakes:
     """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
     ``certain``: a single likely mistake explains everything. ``sure``: none of them is far-fetched. ``left`` are the
-    wrong equations that they leave open; the first wrong line is explained, or they are not ``sure``.
+    wrong equations that they leave open; the first wrong line is explained, or they are not ``sure``. ``blamed`` are
+    the definitions that are wrong, from which wrong lines follow.
     """
 
     told: tuple[Mistake, ...] = ()
@@ -76,6 +78,7 @@ class NamedMistakes:
     certain: bool = False
     sure: bool = True
     left: tuple[AnsweredLine, ...] = ()
+    blamed: Blamed | None = None
 
 
 def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
@@ -97,13 +100,15 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
+    bodies = BodiesSaid(truth, lines)
+    if (blamed := bodies.of_all(wrong, lines)) is not None:
+        return NamedMistakes(_once([p.mistake for p in blamed.said], ()), certain=True, blamed=blamed)
     pool = pool_of(truth)
     true = [f.line for f in findings if f.status.right]
     against = contradicted(pool, true, lines) | against_derivatives(pool, true)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     left: list[AnsweredLine] = []
-    bodies = BodiesSaid(truth, lines)
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
     prescribed = {line: said for line in wrong if (said := of_prescribed(truth, line)) is not None}
@@ -115,9 +120,8 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
         elif line.kind != "equation":
             found, more = of_line(pool, line, lines)
             if said := bodies.of_line(line):
-                found = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
-                found = found if found and found[0].cost <= EXOTIC else []
-                more = [] if found else [p.mistake for p in said]
+                likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
+                found, more, blamed = _with_definitions(line, said, (found, likely, more), blamed)
             more = more or (of_differences(line, findings) if not found else [])
             groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
@@ -149,9 +153,23 @@ def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequenc
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    rows_left = tuple(line for line in left if line.kind == "equation")
     told, others = of_equations(told, lines), of_equations(others, lines)
-    return replace(named, told=told, others=others, certain=certain, left=rows_left, sure=sure)
+    return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
+
+
+def _with_definitions(
+    line: AnsweredLine,
+    said: Sequence[SaidWrongly],
+    explained: tuple[list[Explanation], list[Explanation], list[Mistake]],
+    blamed: Blamed | None,
+) -> tuple[list[Explanation], list[Mistake], Blamed | None]:
+    """The explanations of a line that follows from definitions, and those that are blamed, unless they are right for
+    another quantity: only the likely explanations agree with them."""
+    found, likely, more = explained
+    likely = likely if likely and likely[0].cost <= EXOTIC else []
+    if any(p.elsewhere for p in said):
+        return likely or found, more, blamed
+    return likely, [] if likely else [p.mistake for p in said], blamed_also(blamed, said, line)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
@@ -267,7 +285,7 @@ def _of_equations(
     ``every`` are all equations of the answer, with those that are sums of right ones; ``against`` are the mistakes that
     a right line speaks against.
     """
-    exprs, P = stated(pool, equations)
+    exprs, P = stated(pool.truth, equations)
     found = alignments(pool.truth, exprs, P)
     if any(np.abs(a.rest).max() <= 1e-9 for a in found):
         return [], []  # what is wrong is too small to be seen in doubles
@@ -278,7 +296,7 @@ def _of_equations(
         return [], [forgotten.mistake(pool.truth)]
     if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
         return explained, []
-    solved, Q = stated(pool, every)
+    solved, Q = stated(pool.truth, every)
     more = _likely(solved_from_wrong(pool, solved, Q), against)
     if more and more[0].cost < cost:
         explained, cost = more, more[0].cost

@@ -38,7 +38,7 @@ def below_right_equations(truth: Reference, findings: Sequence[Finding]) -> set[
 
 def of_slip(pool: Pool, line: AnsweredLine) -> list[Mistake]:
     """The one term of such a line that is wrong, in its own words; nothing if it is more than one."""
-    exprs, P = stated(pool, [line])
+    exprs, P = stated(pool.truth, [line])
     found = alignments(pool.truth, exprs, P)
     if not found or np.abs(found[0].rest).max() <= 1e-9:
         return []

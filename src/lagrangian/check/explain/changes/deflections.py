@@ -13,7 +13,7 @@ from lagrangian.check.explain.changes.change import LocalChange, Site, Words, ma
 from lagrangian.check.explain.changes.pieces import instead_of_piece
 from lagrangian.check.explain.changes.ring import Sum, plus, scaled
 from lagrangian.check.explain.changes.sites import Sites
-from lagrangian.check.explain.misconceptions.base import partner
+from lagrangian.check.explain.misconceptions.base import Ingredients, partner
 from lagrangian.check.explain.misconceptions.base import put as replaced
 from lagrangian.model import Damper, Spring
 from lagrangian.records import dataclass
@@ -45,9 +45,8 @@ class Strut:
         return self.springs[0]
 
 
-def struts(sites: Sites) -> list[Strut]:
+def struts(s: Ingredients) -> list[Strut]:
     """Every linear spring, and every linear spring with each damper that is parallel to it; all that are parallel."""
-    s = sites.of
     springs = [(e, bounded.expand(x)) for e, x, _ in s.springs() if e.k is not None]
     linear = [e for e in s.acting if isinstance(e, Damper) and e.b is not None]
     dampers = [(e, bounded.expand(s.expand(e.rate(s.model)))) for e in linear]
@@ -90,7 +89,7 @@ class DeflectionChanges:
         self.sites = sites
         self.s = sites.of
         self.lengths = list(lengths)
-        self.struts = struts(sites)
+        self.struts = struts(self.s)
 
     def parts(self) -> Iterator[Site]:
         """What springs and the dampers beside them do, everywhere and in each equation."""

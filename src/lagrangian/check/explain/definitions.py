@@ -1,0 +1,53 @@
+"""The verdicts on the definitions of an answer: those that are right, and those from which wrong lines follow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from lagrangian.check.explain.bodies_said import Blamed
+from lagrangian.check.explain.said_wrongly import right_quantities
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.page.formula import text
+
+
+def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -> tuple[Finding, ...]:
+    """The findings with wrong definitions in their places, and what follows from them marked so."""
+    if blamed is None:
+        return tuple(findings)
+    below = {id(line) for line in blamed.because}
+    found = [replace(f, follows=f.follows or id(f.line) in below) for f in findings]
+    lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
+    for line in blamed.later:
+        lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
+    for new in lines.values():
+        found = _inserted(found, new)
+    return tuple(found)
+
+
+def with_right_definitions(
+    truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]
+) -> tuple[Finding, ...]:
+    """The findings with the definitions that are right for a quantity of the system, in their places."""
+    told = {(f.line.number, f.line.text) for f in findings}
+    parts: dict[tuple[int, str], list[AnsweredLine]] = {}
+    for line in lines:
+        if line.kind == "definition" and (line.number, line.text) not in told:
+            parts.setdefault((line.number, line.text), []).append(line)
+    found = list(findings)
+    for same in parts.values():
+        every = [right_quantities(truth, line) for line in same]
+        if not all(every):
+            continue
+        words = {str(text(*q.words)): q.words for quantities in every for q in quantities}
+        note = text("the ", *next(iter(words.values()))) if len(words) == 1 else None
+        found = _inserted(found, Finding(same[0], Status.RIGHT, note))
+    return tuple(found)
+
+
+def _inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
+    """The findings with one more, before those of lines below it and of what is judged in the same line."""
+    lines = [(f.line.number, f.line.kind != "definition") for f in findings]
+    place = next((k for k, x in enumerate(lines) if x > (new.line.number, False)), len(findings))
+    return [*findings[:place], new, *findings[place:]]

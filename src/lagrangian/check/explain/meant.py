@@ -1,0 +1,73 @@
+"""Which quantities a name may mean by its letters: v_S the speed of the body at S, T_2 the kinetic energy of body 2."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.model import Body, Model
+from lagrangian.read.letters import spelled
+
+STEMS = {
+    "omega": ("turning",),
+    "Omega": ("turning",),
+    "w": ("turning",),
+    "v": ("speed", "component", "rate"),
+    "T": ("kinetic",),
+    "K": ("kinetic",),
+    "Ek": ("kinetic",),
+    "Ekin": ("kinetic",),
+    "V": ("potential",),
+    "U": ("potential",),
+    "Ep": ("potential",),
+    "Epot": ("potential",),
+    "J": ("inertia", "axis"),
+    "I": ("inertia", "axis"),
+    "Theta": ("inertia", "axis"),
+    "Q": ("Xi",),
+    "Xi": ("Xi",),
+}
+"""The kinds of quantities that letters are used for; any other letter may be of any kind."""
+TRIVIAL = ("turning", "speed", "component", "kinetic", "Xi")
+"""Kinds that are said of a name with such a letter even where the value is nothing but a letter: ω = φ̇, Q_φ = M."""
+_GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
+_DIGITS = re.compile(r"\d+$")
+
+
+def kinds_of(name: str) -> tuple[str, ...] | None:
+    """The kinds that a name may be of by its letter; None if it may be of any."""
+    return STEMS.get(_split(name)[0])
+
+
+def owner_of(name: str, model: Model) -> Body | None:
+    """The only body that the index of a name may mean: that of its point, its mass, its number or its own name."""
+    index = _split(name)[1]
+    if not index:
+        return None
+    for fits in (_is_at, _is_called):
+        found = [b for b in model.bodies if fits(index, b)]
+        if found:
+            return found[0] if len(found) == 1 else None
+    return None
+
+
+def _split(name: str) -> tuple[str, str]:
+    """The letter of a name and its index: v_S, vS, ω₁, T_cyl."""
+    plain = spelled(name).replace("vec_", "")
+    stem, _, index = plain.partition("_")
+    if index or stem in STEMS:
+        return stem, index.replace("_", "")
+    greek = next((x for x in _GREEK if stem.startswith(x)), stem[:1])
+    return greek, stem[len(greek) :]
+
+
+def _is_at(index: str, body: Any) -> bool:
+    mass = spelled(str(body.mass)).replace("_", "") if isinstance(body.mass, sp.Symbol) else ""
+    number = _DIGITS.search(mass) or _DIGITS.search(body.name)
+    return index in (body.at.name, mass) or (number is not None and index == number[0])
+
+
+def _is_called(index: str, body: Any) -> bool:
+    return len(index) > 1 and any(w.startswith(index.lower()) for w in body.name.lower().replace("_", " ").split())

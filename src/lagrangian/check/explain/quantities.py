@@ -1,0 +1,220 @@
+"""What a name of an answer may stand for: a speed, an ω, a deflection, a part of T*, …, and what a wrong one adds.
+
+ω = φ̇ (R − r)/r where a body turns with (R ψ̇ − (R − r) φ̇)/r, d = φ − x where a spring is longer by R φ − x: each is
+one mistake, from which the energies and the equations with this name follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.candidates import ingredients_of
+from lagrangian.check.explain.changes.deflections import struts
+from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.reference import Reference
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import Body, Damper, Gravity, RigidBody
+from lagrangian.page.formula import Left
+from lagrangian.records import dataclass
+
+SIGNED = frozenset(["component", "turning", "height", "deflection", "rate", "force", "damping", "restoring"])
+"""Kinds that an answer may count in the other sense."""
+LEVEL = frozenset(["position", "height", "deflection", "potential"])
+"""Kinds that a constant does not change."""
+MOST = 80
+"""The largest number of quantities of a system."""
+
+
+@dataclass(frozen=True, eq=False)
+class Effect:
+    """What another value of a quantity adds to T*, to V, to every Ξ_i and to the left-hand sides."""
+
+    T: sp.Expr = sp.S.Zero
+    V: sp.Expr = sp.S.Zero
+    Xi: tuple[sp.Expr, ...] = ()
+    left: tuple[sp.Expr, ...] = ()
+
+
+Adds: TypeAlias = Callable[[sp.Expr], Effect]
+
+
+@dataclass(frozen=True, eq=False)
+class Sayable:
+    """A quantity of a body, of another element or of a coordinate, and what another value in its place adds.
+
+    ``words`` are those of a sentence, without an article. ``adds`` takes what is written, counted as ``right`` is.
+    """
+
+    kind: str
+    owner: Any
+    words: tuple[str | Left, ...]
+    right: sp.Expr
+    adds: Adds
+    coordinate: str | None = None
+    parts: tuple[tuple[tuple[str | Left, ...], sp.Expr], ...] = ()
+    """The words and the values of forces of which it is the sum."""
+
+
+class Sayables:
+    """The quantities of a system, with their values at every state."""
+
+    def __init__(self, truth: Reference) -> None:
+        s = ingredients_of(truth.derivation)
+        self.of = s
+        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s))
+        self.all = [q for q in every if q.right != 0][:MOST]
+        self.rights = [truth.put(q.right) for q in self.all]
+        self.values: Array = CompiledExpressions(self.rights).at(truth.states)
+
+
+@lru_cache(maxsize=16)
+def quantities_of(truth: Reference) -> Sayables:
+    """The quantities of a system, collected once for the systems that were checked most recently."""
+    return Sayables(truth)
+
+
+def _of_bodies(s: Ingredients) -> Iterator[Sayable]:
+    for b in s.bodies:
+        yield from _speeds(s, b)
+        yield from _inertias(s, b)
+        yield from _positions(s, b)
+
+
+def _speeds(s: Ingredients, b: Any) -> Iterator[Sayable]:
+    m, v = s.expand(b.mass), s.velocity(b)
+    square = sp.Add(*[x**2 for x in v])
+    words = (f"square of the speed of {b.title}",)
+    yield Sayable("speed", b, words, square, lambda said: Effect(T=m * (said - square) / 2))
+    for x in v:
+        words = (f"component of the velocity of {b.title}",)
+        yield Sayable("component", b, words, x, lambda said, x=x: Effect(T=m * (said**2 - x**2) / 2))
+
+
+def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
+    omega = s.omega(b) if isinstance(b, RigidBody) else ()
+    if len(omega) != 1:
+        return
+    J, w, words = s.expand(b.inertia[0]), omega[0], f"moment of inertia of {b.title}"
+    turning = (f"angular velocity of {b.title}",)
+    yield Sayable("turning", b, turning, w, lambda said: Effect(T=J * (said**2 - w**2) / 2))
+    yield Sayable("inertia", b, (words,), J, lambda said: Effect(T=(said - J) * w**2 / 2))
+    for square in arms(s, b) if J.free_symbols else ():
+        whole = J + s.expand(b.mass) * square
+        about = (f"{words} about its pivot",)
+        yield Sayable("axis", b, about, whole, lambda said, whole=whole: Effect(T=(said - whole) * w**2 / 2))
+
+
+def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
+    m, v = s.expand(b.mass), s.velocity(b)
+    for c, x in enumerate(s.position(b)):
+        if not s.moves(x):
+            continue
+        weight = m * s.expand(sp.Add(*[e.g * e.direction[c] for e in s.model.elements if isinstance(e, Gravity)]))
+
+        def place(said: sp.Expr, x: sp.Expr = x, v: sp.Expr = v[c], weight: sp.Expr = weight) -> Effect:
+            return Effect(T=m * (s.rate(said) ** 2 - v**2) / 2, V=-weight * (said - x))
+
+        def height(said: sp.Expr, x: sp.Expr = x, weight: sp.Expr = weight) -> Effect:
+            return Effect(V=-weight * (said - x))
+
+        words = (f"{'xyz'[c]} coordinate of {b.title}",)
+        yield Sayable("position", b, words, x, place)
+        if weight != 0:
+            yield Sayable("height", b, words, x, height)
+
+
+def _of_springs(s: Ingredients) -> Iterator[Sayable]:
+    for strut in struts(s):
+        k = sp.Add(*[s.expand(e.k) for e in strut.springs])
+        b = sp.Add(*[s.expand(d.b) for d in strut.dampers])
+        way, rate = strut.deflection, s.rate(strut.deflection)
+        slopes = [bounded.diff(way, q) for q in s.q]
+
+        def stored(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way) -> Effect:
+            damped = _damped(s, b, s.rate(said), s.rate(way)) if b != 0 else ()
+            return Effect(V=k * (said**2 - way**2) / 2, Xi=damped)
+
+        def pulled(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way, slopes: Any = slopes) -> Effect:
+            more = sp.Add(said, -way)
+            return _pushing(k * more + b * s.rate(more), slopes)
+
+        words, whole = (f"deflection of {strut.title}",), k * way + b * rate
+        yield Sayable("deflection", strut.spring, words, way, stored)
+        yield Sayable("deflection", strut.spring, words, way, pulled)
+        parts: Any = [((f"force of {e.title}",), s.expand(e.k) * way) for e in strut.springs]
+        parts += [((f"force of {d.title}",), s.expand(d.b) * rate) for d in strut.dampers]
+        own = (f"force of {strut.title}",)
+        yield Sayable("force", strut.spring, own, whole, _force(whole, slopes), None, tuple(parts))
+
+
+def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
+    for d in (e for e in s.acting if isinstance(e, Damper) and e.b is not None):
+        b, rate = s.expand(d.b), s.expand(d.rate(s.model))
+        slopes = [bounded.diff(rate, v) for v in s.v]
+
+        def worked(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate) -> Effect:
+            return Effect(Xi=_damped(s, b, _rate(s, said), rate))
+
+        def pulled(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate, slopes: Any = slopes) -> Effect:
+            return _pushing(b * (_rate(s, said) - rate), slopes)
+
+        words = (f"velocity of {d.title}",)
+        yield Sayable("rate", d, words, rate, worked)
+        yield Sayable("rate", d, words, rate, pulled)
+        yield Sayable("force", d, (f"force of {d.title}",), b * rate, _force(b * rate, slopes))
+
+
+def _force(right: sp.Expr, slopes: Sequence[sp.Expr]) -> Adds:
+    return lambda said: _pushing(said - right, slopes)
+
+
+def _pulling(right: sp.Expr, only: Sequence[sp.Expr]) -> Adds:
+    return lambda said: Effect(Xi=tuple((said - right) * x for x in only))
+
+
+def _pushing(force: sp.Expr, slopes: Sequence[sp.Expr]) -> Effect:
+    """What a force adds to the left-hand sides, that has these lever arms."""
+    return Effect(left=tuple(force * x for x in slopes))
+
+
+def _rate(s: Ingredients, said: sp.Expr) -> sp.Expr:
+    """What is said of a rate, or the rate of what is said of a deflection."""
+    return said if said.has(*s.v) else s.rate(said)
+
+
+def _damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> tuple[sp.Expr, ...]:
+    """What another rate of dampers adds to every Ξ_i: −b δ̇ ∂δ̇/∂ξ̇_i."""
+    return tuple(-b * (rate * bounded.diff(rate, v) - right * bounded.diff(right, v)) for v in s.v)
+
+
+def _of_energies(s: Ingredients) -> Iterator[Sayable]:
+    """The kinetic energies of bodies and of other elements, and the potential energies of weights and springs."""
+    for e in s.model.elements:
+        words = (f"kinetic energy of {e.title}",) if isinstance(e, Body) else (f"kinetic energy '{e.name}'",)
+        T = s.kinetic(e)
+        yield Sayable("kinetic", e, words, T, lambda said, T=T: Effect(T=said - T))
+    stored = [(b, f"the weight of {b.title}", V) for _, b, V in s.weights()]
+    stored += [(e, e.title, V) for e, _, V in s.springs()]
+    for owner, of, V in stored:
+        yield Sayable("potential", owner, (f"potential energy of {of}",), V, lambda said, V=V: Effect(V=said - V))
+
+
+def _of_coordinates(s: Ingredients) -> Iterator[Sayable]:
+    """Generalized forces, and what the dampers, and the springs and weights add to each equation."""
+    for i, c in enumerate(s.coordinates):
+        damping = -sp.Add(*[s.shares(d).get(i, sp.S.Zero) for d in s.acting if isinstance(d, Damper)])
+        restoring = bounded.diff(s.V, c.symbol)
+        only = [sp.Integer(int(j == i)) for j in range(s.n)]
+        words = ("generalized force of ", c.symbol)
+        for Xi in dict.fromkeys((s.Xi[i], s.Xi[i] + damping)):
+            yield Sayable("Xi", None, words, Xi, _pulling(Xi, only), c.name)
+        words = ("damping in the equation of ", c.symbol)
+        yield Sayable("damping", None, words, damping, _force(damping, only), c.name)
+        words = ("derivative of the potential energy by ", c.symbol)
+        yield Sayable("restoring", None, words, restoring, _force(restoring, only), c.name)

@@ -1,0 +1,298 @@
+"""What the definitions of an answer say of the quantities of a system, rightly or wrongly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
+from lagrangian.check.explain.meant import TRIVIAL, kinds_of, owner_of
+from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
+from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import left_values
+from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import Body, time
+from lagrangian.page.formula import text
+from lagrangian.records import dataclass
+
+_SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
+_WAY = "Go along the way from the fixed point to the body: every piece of it counts."
+_DEFLECTION = "The deflection is the motion of one end relative to the other, less the rest length."
+_DAMPER = "A damper feels the velocity of one end relative to the other."
+WHY = {
+    "speed": text(_SPEED),
+    "component": text(_SPEED),
+    "turning": text("ω is how fast the body itself turns against the fixed axes."),
+    "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
+    "axis": text(
+        "About a parallel axis it is larger, by the mass times the square of the distance of this axis from the centre "
+        "of mass."
+    ),
+    "position": text(_WAY),
+    "height": text(_WAY),
+    "deflection": text(_DEFLECTION),
+    "rate": text(_DAMPER),
+    "force": text("Look at both ends: how far, and how fast, do they move relative to each other?"),
+    "kinetic": text("Every body has the kinetic energy of its translation and, if it turns, that of its rotation."),
+    "potential": text("Every spring and every weight has its own potential energy; heights are counted upwards."),
+    "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
+    "damping": text(_DAMPER),
+    "restoring": text(_DEFLECTION),
+}
+CALLED = {
+    "component": "velocity",
+    "turning": "angular velocity",
+    "inertia": "moment of inertia",
+    "axis": "moment of inertia",
+    "height": "position",
+    "rate": "velocity",
+    "kinetic": "kinetic energy",
+    "potential": "potential energy",
+}
+NAMES = {"component": "speed", "height": "position", "rate": "deflection"}
+"""What mistakes of some kinds are called."""
+STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
+MOST_LACKING = 2
+"""The most terms that are added to what is written, to say what is right."""
+LONGEST = 60
+"""The largest number of operations of such a definition."""
+NEAR = 1e-9
+"""The relative difference of values that is rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class SaidWrongly:
+    """One quantity that a definition has wrong, and what this adds to T*, to V, to every Ξ_i and to left-hand sides."""
+
+    line: AnsweredLine
+    of: Sayable
+    right: sp.Expr
+    """What is right, in the sense in which the answer counts it."""
+    written: sp.Expr
+    effect: Effect
+    letters: frozenset[sp.Basic]
+    """The letters, coordinates and rates in what is right and in what is written."""
+    elsewhere: bool = False
+    """Whether what is written is right for another quantity."""
+
+    @property
+    def number(self) -> int:
+        """The line in which it is said."""
+        return self.line.number
+
+    @property
+    def T(self) -> sp.Expr:
+        """What it adds to T*."""
+        return self.effect.T
+
+    @property
+    def V(self) -> sp.Expr:
+        """What it adds to V."""
+        return self.effect.V
+
+    @property
+    def mistake(self) -> Mistake:
+        """The mistake in words."""
+        kind, owner = self.of.kind, self.of.owner
+        own = f"{NAMES.get(kind, kind)}_{'of_body' if isinstance(owner, Body) or self.T != 0 else 'said'}"
+        what = text(f"Line {self.number} is not right: the ", *self.of.words, " is ", self.right)
+        what = text(*what.parts, ", not ", self.written, ".")
+        title = owner.title if owner is not None else None
+        words = self.of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
+        brief = text("The ", *words, " is not right.")
+        return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, self.of.coordinate, brief)
+
+    def adds(self, truth: Reference, kind: str, i: int | None) -> sp.Expr:
+        """What it adds to an energy, to Ξ_i or to a derivative of L by ξ_i."""
+        e, L = self.effect, self.effect.T - self.effect.V
+        if kind in ("T", "V", "L"):
+            return {"T": e.T, "V": e.V, "L": L}[kind]
+        if i is None:
+            return sp.S.Zero
+        if kind == "Xi":
+            return e.Xi[i] if e.Xi else sp.S.Zero
+        c = truth.model.coordinates[i]
+        momentum, slope = bounded.diff(L, c.rate), bounded.diff(L, c.symbol)
+        if kind in ("p", "slope"):
+            return momentum if kind == "p" else slope
+        rate = bounded.diff(momentum, time)
+        return rate if kind == "p-rate" else rate - slope
+
+    def rows(self, truth: Reference) -> Array:
+        """What it adds to the left-hand side of every equation, left minus right, at every state."""
+        values = left_values(truth, self.T - self.V)
+        for parts, sign in ((self.effect.Xi, -1), (self.effect.left, 1)):
+            values = values + sign * CompiledExpressions(list(parts)).at(truth.states) if parts else values
+        return values
+
+
+def _said(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
+    """What a definition says, in names of the system; None if it says nothing that could be a quantity of it."""
+    if line.kind != "definition" or bounded.operations(line.expr) > LONGEST:
+        return None
+    if line.name in truth.model.symbols:
+        return None
+    said = truth.expand(line.expr)
+    foreign = said.free_symbols - truth.names
+    if foreign or said.has(*(c.acceleration for c in truth.model.coordinates)):
+        return None
+    return said if letters_in(said) or said == 0 else None
+
+
+def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
+    """The places of the quantities that a name may stand for by its letters."""
+    every, name = quantities_of(truth).all, line.name or ""
+    kinds, owner = kinds_of(name), owner_of(name, truth.model)
+    found = [k for k, q in enumerate(every) if kinds is None or q.kind in kinds]
+    own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
+    return own or found  # J_P is the moment of inertia about P
+
+
+def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False) -> list[Sayable]:
+    """The quantities whose value a definition has, as it counts them; with ``but``, a constant more does not matter."""
+    said = _said(truth, line)
+    trivial = said is None or _is_trivial(said)
+    if said is None or (trivial and kinds_of(line.name or "") is None):
+        return []
+    every = quantities_of(truth)
+    values = CompiledExpressions([said]).at(truth.states)[0]
+    found: list[Sayable] = []
+    for k in _plausible(truth, line) if np.isfinite(values).all() else ():
+        q, right = every.all[k], every.values[k]
+        if trivial and q.kind not in TRIVIAL:
+            continue
+        for x, expr in _readings(q, values, said):
+            rest = x - right
+            rest = rest - rest[0] if but and q.kind in LEVEL else rest
+            near = np.abs(rest).max() <= NEAR * (1 + np.abs(right).max())
+            if near and (but or zero_everywhere(truth, expr - every.rights[k])):
+                found.append(
+                    q if expr is said or q.kind != "speed" else replace(q, words=(f"speed of {q.owner.title}",))
+                )
+                break
+    return found
+
+
+def _readings(q: Sayable, values: Array, said: sp.Expr) -> Iterator[tuple[Array, sp.Expr]]:
+    """What is written, as the quantity is counted: in either sense, or its square."""
+    yield values, said
+    if q.kind in SIGNED:
+        yield -values, -said
+    if q.kind == "speed":
+        yield values**2, said**2
+
+
+def _is_trivial(said: sp.Expr) -> bool:
+    """Whether a value is nothing but a letter, a coordinate or a rate."""
+    bare = -said if said.could_extract_minus_sign() else said
+    return bool(bare.is_Symbol or bare.is_Function or isinstance(bare, sp.Derivative) or bare.is_number)
+
+
+def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
+    """What a definition may say wrongly of the quantities that its name may stand for."""
+    if (said := _said(truth, line)) is None:
+        return
+    every, elsewhere = quantities_of(truth), bool(right_quantities(truth, line, but=True))
+    s = every.of
+    for k in _plausible(truth, line):
+        q = every.all[k]
+        if not _alike(s, q, said):
+            continue
+        for written, sign in _senses(s, q, said):
+            effect = _put(truth, q.adds(sign * written))
+            if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
+                of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
+                right = _folded(s, right)
+                right = _beside(s, right, own) if q.kind == "speed" else right
+                quoted = frozenset(y for x in (right, own) for y in letters_in(x))
+                yield SaidWrongly(line, of, right, own, effect, quoted, elsewhere)
+
+
+def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
+    """Of a sum of forces, the only one that is wrong, with what is right and what is written of it."""
+    for k, (words, part) in enumerate(q.parts):
+        others = sp.Add(*[sign * x for j, (_, x) in enumerate(q.parts) if j != k])
+        factor = sp.Mul(*[x for x in sp.Mul.make_args(part) if x.is_Symbol])
+        way = bounded.expand(bounded.expand(written - others) / factor)
+        if way.free_symbols <= (part / factor).free_symbols:
+            return replace(q, words=words), sign * part, cast("sp.Expr", factor * way)
+    return q, right, written
+
+
+def _put(truth: Reference, effect: Effect) -> Effect:
+    T, V = (truth.put(sp.sympify(x)) for x in (effect.T, effect.V))
+    Xi, left = (tuple(truth.put(sp.sympify(x)) for x in parts) for parts in (effect.Xi, effect.left))
+    return Effect(T, V, Xi, left)
+
+
+def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
+    """Whether what is written may be a value of a quantity: constant, or of positions or rates alone, as this is."""
+    moves, rates = s.moves(said), said.has(*s.v)
+    if q.kind in ("inertia", "axis"):
+        return not moves and not rates
+    if q.kind in ("position", "height", "deflection"):
+        return moves and not rates
+    if q.kind in ("turning", "speed", "component"):
+        return bool(rates)
+    return bool(moves or rates or q.kind == "Xi")
+
+
+def _senses(s: Ingredients, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
+    """What is written, and the sense in which it is counted; the sense that leaves fewer motions different first."""
+    if q.kind == "speed":
+        yield said**2, 1
+        yield said, 1
+        return
+    said = s.rate(said) if q.kind == "rate" and not said.has(*s.v) else said
+    if q.kind not in SIGNED:
+        yield said, 1
+        return
+    moving = [x for x in (*s.v, *s.q) if q.right.has(x) or said.has(x)]
+
+    def different(sign: int) -> int:
+        rest = bounded.expand(said - sign * q.right)
+        return sum(rest.has(x) for x in moving)
+
+    for sign in sorted((1, -1), key=different):
+        yield said, sign
+
+
+def _turned(expr: sp.Expr) -> sp.Expr:
+    """The negative of an expression, with the sign inside of its sum: ((R − r) φ̇ − R ψ̇)/r."""
+    factors = list(sp.Mul.make_args(expr))
+    for k, f in enumerate(factors):
+        if isinstance(f, sp.Add):
+            factors[k] = sp.Add(*[-x for x in f.args])
+            return cast("sp.Expr", sp.Mul(*factors))
+    return -expr
+
+
+def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
+    """What is right, as what is written and the few terms that this lacks, if these are few: (h θ̇ + ṡ)² + s² θ̇²."""
+    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
+    try:
+        lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
+    except TooLong:
+        return right
+    found = cast("sp.Expr", written + ring.expr(lacking))
+    shorter = len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
+    return found if len(lacking) <= MOST_LACKING and shorter else right
+
+
+def _folded(s: Ingredients, expr: sp.Expr) -> sp.Expr:
+    """An energy without cos² + sin², if that is shorter."""
+    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
+    try:
+        found = ring.expr(ring.fold(ring.of(bounded.expand(expr))))
+    except TooLong:
+        return expr
+    return found if bounded.operations(found) <= bounded.operations(expr) else expr

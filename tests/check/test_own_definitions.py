@@ -1,0 +1,149 @@
+"""The line in which an answer says what its own ω, v², d, … are has its verdict: the mistake may stand there."""
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+@pytest.fixture(scope="module")
+def drum() -> lg.Derivation:
+    """A cylinder that rolls in a turning drum."""
+    s = lg.System("drum")
+    psi, phi = s.coordinates("psi phi")
+    J, R, r, m, b = s.parameters("J R r m b")
+    M = s.inputs("M")
+    centre = s.point("C", ((R - r) * sp.sin(phi), -(R - r) * sp.cos(phi)))
+    s.rigid_body(m, J, at=s.origin, frame=s.frame(psi, name="drum"), name="drum")
+    s.rigid_body(m, m * r**2 / 2, at=centre, frame=s.frame((R * psi - (R - r) * phi) / r, name="roll"), name="roll")
+    s.gravity()
+    s.damper(b, deflection=psi, name="axle")
+    s.torque(M, on=psi, name="motor")
+    return s.derive()
+
+
+@pytest.fixture(scope="module")
+def hoist() -> lg.Derivation:
+    """A drum that lifts a load by a spring and a damper."""
+    s = lg.System("hoist")
+    phi, x = s.coordinates("phi x")
+    J, R, m, k, b = s.parameters("J R m k b")
+    M = s.inputs("M")
+    s.rigid_body(m, J, at=s.origin, frame=s.frame(phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("Q", (0, x)), name="load")
+    s.gravity()
+    s.spring(k, deflection=R * phi - x, name="rope")
+    s.damper(b, deflection=R * phi - x, name="absorber")
+    s.torque(M, on=phi, name="motor")
+    return s.derive()
+
+
+def found(verdict: lg.CheckedAnswer) -> list[tuple[int, bool, bool]]:
+    """The number of every line with a verdict, whether it is right, and whether it is wrong because of another."""
+    return [(f.line.number, f.status.right, f.follows) for f in verdict.findings]
+
+
+STANDING = """omega = (R - r) phi'/r
+T = J psi'^2/2 + m (R - r)^2 phi'^2/2 + m r^2/2 omega^2/2
+V = -m g (R - r) cos(phi)
+J psi'' + b psi' = M
+3/2 m (R - r)^2 phi'' + m g (R - r) sin(phi) = 0"""
+
+
+def test_a_wrong_angular_velocity_is_the_mistake_and_the_rest_follows(drum: lg.Derivation) -> None:
+    verdict = drum.check(STANDING)
+    (mistake,) = verdict.mistakes
+    assert mistake.name == "turning_of_body" and mistake.element == "rigid body 'roll'"
+    assert str(mistake.what) == (
+        "Line 1 is not right: the angular velocity of rigid body 'roll' is (-R*psi' + (R - r)*phi')/r, "
+        "not (R - r)*phi'/r."
+    )
+    assert found(verdict) == [(1, False, False), (2, False, True), (3, True, False), (4, False, True), (5, False, True)]
+
+
+@pytest.mark.parametrize(
+    ("said", "rows"),
+    [
+        ("d = phi - x", "J phi'' + b R (R phi' - x') + k R d = M\nm x'' - b (R phi' - x') - k d = -m g"),
+        ("d = phi + x", "J phi'' + b R (R phi' - x') + k R d = M\nm x'' - b (R phi' - x') - k d = -m g"),
+        ("u = phi' - x'", "J phi'' + b R u + k R (R phi - x) = M\nm x'' - b u - k (R phi - x) = -m g"),
+    ],
+)
+def test_a_wrong_deflection_or_rate_is_named_in_its_line(hoist: lg.Derivation, said: str, rows: str) -> None:
+    verdict = hoist.check(f"{said}\n{rows}")
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith("Line 1 is not right: the ")
+    assert found(verdict) == [(1, False, False), (2, False, True), (3, False, True)]
+
+
+def test_a_right_definition_is_no_mistake(hoist: lg.Derivation) -> None:
+    """The deflection is right, its sign in one equation is not."""
+    rows = "J phi'' + b R (R phi' - x') - k R d = M\nm x'' - b (R phi' - x') - k d = -m g"
+    verdict = hoist.check(f"d = R phi - x\n{rows}")
+    assert not verdict.right and "Line 1" not in str(verdict.mistakes[0].what)
+
+
+def test_right_definitions_are_said_to_be_right(drum: lg.Derivation) -> None:
+    """What a name stands for is found by its value, and told."""
+    answer = """v_C = (R - r) phi'
+omega = (R psi' - (R - r) phi')/r
+J_C = m r^2/2
+T = J psi'^2/2 + m v_C^2/2 + J_C omega^2/2"""
+    verdict = drum.check(answer)
+    assert not [f for f in verdict.findings if not f.status.right]
+    assert [str(f.note) for f in verdict.findings[:3]] == [
+        "the speed of rigid body 'roll'",
+        "the angular velocity of rigid body 'roll'",
+        "the moment of inertia of rigid body 'roll'",
+    ]
+    assert not any("not judged" in str(note) for note in verdict.notes)
+
+
+def test_names_of_coordinates_and_rates_have_no_verdict(drum: lg.Derivation) -> None:
+    """q1 = ψ and c = R − r are neither right nor wrong."""
+    verdict = drum.check("q1 = psi\nc = R - r\nx3 = psi'\nV = -m g c cos(phi)")
+    assert [f.line.kind for f in verdict.findings] == ["V"]
+
+
+def test_an_index_says_of_which_body_a_value_is(drum: lg.Derivation) -> None:
+    """ψ′ is the angular velocity of the drum: right where the index says so, and without one; not of the roll."""
+    for name, judged in (("omega_drum", True), ("omega", True), ("omega_roll", False)):
+        verdict = drum.check(f"{name} = psi'\nV = -m g (R - r) cos(phi)")
+        assert (verdict.findings[0].line.kind == "definition") is judged, name
+
+
+PARTS = """T_drum = J psi'^2/2
+T_roll = m (R - r)^2 phi'^2/2
+V = -m g (R - r) cos(phi)
+J psi'' + b psi' = M
+m (R - r)^2 phi'' + m g (R - r) sin(phi) = 0"""
+
+
+def test_parts_of_t_are_judged_where_no_t_is_stated(drum: lg.Derivation) -> None:
+    verdict = drum.check(PARTS)
+    (mistake,) = verdict.mistakes
+    assert mistake.name == "kinetic_of_body" and mistake.element == "rigid body 'roll'"
+    assert str(mistake.what).startswith("Line 2 is not right: the kinetic energy of rigid body 'roll' is ")
+    right = [(1, True, False), (2, False, False), (3, True, False)]
+    assert found(verdict) == [*right, (4, False, True), (5, False, True)]
+    assert not any("not judged" in str(note) for note in verdict.notes)
+
+
+def test_a_definition_that_uses_a_wrong_one_follows_from_it(drum: lg.Derivation) -> None:
+    """Even where it stands above: T_roll with ω, whose value comes below it."""
+    answer = PARTS.replace("\nV", "\nomega = (R - r) phi'/r\nV").replace("T_roll = m", "T_roll = m r^2/4 omega^2 + m")
+    verdict = drum.check(answer.replace("m (R - r)^2 phi''", "3/2 m (R - r)^2 phi''"))
+    assert [x for x in found(verdict) if not x[1]] == [(2, False, True), *((k, False, k > 3) for k in (3, 5, 6))]
+    assert verdict.first_wrong is not None and verdict.first_wrong.line.number == 3
+    assert "line 2 not right, but only because of line 3" in " ".join(verdict.to_text().split())
+    assert "Line 3 is not right: the angular velocity" in str(verdict.mistakes[0].what)
+
+
+def test_the_same_slip_in_two_definitions_is_named_in_both(hoist: lg.Derivation) -> None:
+    answer = """F_s = k (phi - x)
+F_d = b (phi' - x')
+J phi'' + R F_s + R F_d = M
+m x'' - F_s - F_d = -m g"""
+    verdict = hoist.check(answer)
+    assert found(verdict) == [(1, False, False), (2, False, False), (3, False, True), (4, False, True)]
+    assert [str(m.what).partition(" is ")[2][:19] for m in verdict.mistakes] == ["not right: the force"[:19]] * 2
