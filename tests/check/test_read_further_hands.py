@@ -137,3 +137,10 @@ def test_a_sheet_in_numbers_for_a_system_with_a_constraint() -> None:
     found = smooth_puck().check(sheet.replace("0.4 r theta'^2", "0.8 r theta'^2"))
     assert [x.line.number for x in found.findings if not x.status.right] == [4]
     assert not smooth_puck().check(sheet.replace("V = 3.924", "V = 3.9")).right
+
+
+@pytest.mark.parametrize("amount", ["0.6 m", "0.6", "0.60 m"])
+def test_what_an_abbreviation_amounts_to_is_no_other_value_of_it(amount: str) -> None:
+    sheet = f"a = 2 l = {amount}\n{CART.replace('m l', '1/2 m a')}\n{POLE.replace('m l x', '1/2 m a x')}"
+    assert right(sheet)
+    assert not right(sheet.replace("2 l", "3 l"))

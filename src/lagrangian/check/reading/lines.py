@@ -32,6 +32,7 @@ from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
+from lagrangian.check.reading.own_values import amounts_to
 from lagrangian.check.reading.parts import left_out, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
@@ -202,8 +203,7 @@ class Lines:
             stated = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
             return stated if subject else self._equations(sides, reader)
 
-        for base in [base for base, at in self._waiting.items() if at == i]:
-            del self._waiting[base]
+        self._waiting = {base: at for base, at in self._waiting.items() if at != i}
         before = set(self.names.unknown)
         lines = self.names.fitting(sides, read)
         general = all(line.kind == "statement" for line in lines)  # it may use its own letters: ξ_i
@@ -227,6 +227,8 @@ class Lines:
                 continue
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
+            elif subject.kind == "definition" and amounts_to(above, value, self.model):
+                continue
             elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
                 lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0
             elif above is not None and subject.kind == "p-rate" and accelerates(above) and not accelerates(value):
@@ -268,8 +270,7 @@ class Lines:
                 return made_line(kind, above, value, None, sides[0], side, reader)  # v' = x'' and v' = F/M
         elif kind == "identity":
             lhs = reader.scalar(sides[0])
-            if solves(lhs, value):
-                kind = "equation"
+            kind = "equation" if solves(lhs, value) else kind
         elif kind in ("Xi", "slope") and name is not None and accelerates(value):  # d/dt p_θ = ∂L/∂θ is Lagrange's
             lhs, value = value, generalized_force(name) if kind == "Xi" else slope_of_L(name, self.model)
             kind, name = "equation" if kind == "Xi" else "statement", None
@@ -292,8 +293,7 @@ class Lines:
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
         assert subject.token is not None
-        rates = self.names.changes(subject.token)  # q1dd is a rate of q1
-        if self.names.occurs(subject.token) == 1 and not subject.order and not rates:
+        if self.names.occurs(subject.token) == 1 and not subject.order and not self.names.changes(subject.token):
             self._not_judged(reader, f"nothing else uses {subject.token}")
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
