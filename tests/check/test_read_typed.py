@@ -67,6 +67,19 @@ def test_macros_in_latex(written: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
+@pytest.mark.parametrize(
+    "squared", [r"\cos[2](\theta)", r"\cos[2]\left(\theta\right)", r"\cos[2]{\theta}", r"\cos[2]\qty(\theta)"]
+)
+def test_powers_and_matrices_of_the_package_physics(squared: str) -> None:
+    inertia = rf"\pqty{{J+ml^2-\flatfrac{{(ml)^2{squared}}}{{(M+m)}}}}\ddot\theta"
+    gravity = r"mgl\sin\theta - \frac{ml\cos\theta}{M+m}\bqty{F - b\dot x + ml\sin(\theta)\dot\theta^2}"
+    matrix = r"\mqty(M+m & ml\cos\theta \\ ml\cos\theta & J+ml^2) \mqty[\ddot x \\ \ddot\theta] = "
+    force = r"\pmqty{F-b\dot{x}+ml\sin(\theta)\dot\theta^2 \\ mgl\sin\theta}"
+    written = rf"\[{matrix}{force}\]" + "\n" + rf"\[{inertia} = {gravity}\]"
+    verdict = derivation("cart-pole").check(written)
+    assert verdict.right, verdict.to_text()
+
+
 def test_a_macro_that_grows_is_refused_and_errors_keep_their_place() -> None:
     model = derivation("pendulum").model
     doubled = "".join(rf"\newcommand{{\{b}}}{{\{a}\{a}}}" for a, b in zip("abcdef", "bcdefg", strict=True))

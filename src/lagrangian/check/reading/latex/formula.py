@@ -275,11 +275,18 @@ class LatexParser(LatexFractions):
                 called, exponent = _INVERSE.get(called, called), None
         elif (raised := self.accept("raised")) is not None:
             exponent = number(raised.text.translate(_DIGITS), raised.start)
+        elif self._has_power_in_brackets():
+            exponent = self._closed("]")
         arguments = self._arguments(token)
         call = node("call", token.start, leaf("NAME", called, token.start), *arguments)
         if exponent is None:
             return call
         return node("power", token.start, call, leaf("POWER", "^", token.end), None, exponent)
+
+    def _has_power_in_brackets(self) -> bool:
+        """Whether a number in square brackets comes next, and brackets behind it, as in \\sin[2](x) of physics."""
+        kinds = [x.kind for x in self.tokens[self.i : self.i + 4]]
+        return kinds[:3] == ["[", "number", "]"] and kinds[3] in ("(", "{")
 
     @staticmethod
     def _is_minus_one(exponent: Tree) -> bool:

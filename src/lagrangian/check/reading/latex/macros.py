@@ -1,6 +1,7 @@
 r"""Writes out macros in LaTeX: those that an answer defines, \newcommand{\st}{\sin\theta}, and those of packages.
 
 \dv{t}  \dv{x}{t}  \pdv{L}{x}  \qty(…)  \vb{q}  \abs{x}  \dd t       of the package physics, \od and \pd of commath
+\flatfrac{a}{b}  \pqty{…}  \mqty(a & b \\ c & d)                    also of physics
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from collections import Counter
 
 from lagrangian.check.reading.latex.layout import closing
 from lagrangian.check.reading.markup import blanked
+from lagrangian.check.reading.programs.sessions import closes
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.records import dataclass
@@ -44,6 +46,8 @@ class Macro:
     least: int | None = None
     """The fewest arguments in braces, if the last may be left out; ``short`` is the text then."""
     short: str = ""
+    bracketed: bool = False
+    """Whether its argument may also stand in round or square brackets."""
 
 
 def _derivative(d: str) -> Macro:
@@ -55,6 +59,11 @@ _PACKAGES = {name: _derivative("d") for name in ("dv", "derivative", "od", "odv"
 _PACKAGES |= {name: _derivative(r"\partial ") for name in ("pdv", "pd", "diffp", "partialderivative")}
 _PACKAGES |= {"dd": Macro("d"), "qty": Macro(""), "vb": Macro(r"\mathbf{#1}", 1), "va": Macro(r"\mathbf{#1}", 1)}
 _PACKAGES |= {"abs": Macro(r"\lvert #1 \rvert", 1), "dotproduct": Macro(r"\cdot"), "vdot": Macro(r"\cdot")}
+_PACKAGES |= {"quantity": Macro(""), "flatfrac": Macro(r"\frac{#1}{#2}", 2)}
+_PACKAGES |= {"pqty": Macro("(#1)", 1), "bqty": Macro("[#1]", 1), "Bqty": Macro("(#1)", 1)}
+_MATRIX = Macro(r"\begin{pmatrix}#1\end{pmatrix}", 1, bracketed=True)
+_MATRICES = "mqty matrixquantity pmqty bmqty Pmqty smqty spmqty sbmqty"
+_PACKAGES |= dict.fromkeys(_MATRICES.split(), _MATRIX)
 _PACKAGES |= {"Dot": Macro(r"\dot{#1}", 1), "Ddot": Macro(r"\ddot{#1}", 1), "differential": Macro("d")}
 
 
@@ -146,7 +155,7 @@ def _arguments(macro: Macro, text: str, at: int) -> tuple[str, list[str], int]:
         if macro.least is not None and len(values) == macro.least and text[start : start + 1] != "{":
             body = macro.short
             break
-        value, at = _argument(text, start)
+        value, at = _argument(text, start, macro.bracketed)
         values.append(value)
     return body, values, at
 
@@ -163,8 +172,10 @@ def _with_arguments(body: str, values: list[str]) -> str:
     return made.replace("^{}", "")
 
 
-def _argument(text: str, at: int) -> tuple[str, int]:
-    """The argument that begins at a place, without its braces, and where it ends."""
+def _argument(text: str, at: int, bracketed: bool) -> tuple[str, int]:
+    """The argument that begins at a place, without its braces, or brackets if it is ``bracketed``, and its end."""
+    if bracketed and text[at : at + 1] in ("(", "[") and (last := closes(text, at)) > 0:
+        return text[at + 1 : last], last + 1
     if text[at : at + 1] == "{":
         end = closing(text, at + 1)
         return text[at + 1 : end - 1], end
