@@ -98,3 +98,10 @@ def test_what_is_said_elsewhere_is_found(answer: str, old: str, new: str) -> Non
     assert right(answer)
     assert not any("not judged" in str(note) for note in derivation("cart-pole").check(answer).notes)
     assert not right(answer.replace(old, new))
+
+
+@pytest.mark.parametrize("said", ["Step 7: 5 = 6", "7. (5) = (6):", "Equating (5 = 6)"])
+def test_numbers_that_are_equated_name_steps(said: str) -> None:
+    assert right(f"{KINETIC}\n{said}\n{CART}\n{POLE}")
+    assert not right(f"{said}\n{CART}")
+    assert not right(f"{said.replace('5', '0')}\n{CART}\n{POLE}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 
 import sympy as sp
@@ -19,6 +20,8 @@ from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
+
+_NUMBER = re.compile(r"\s*+[(\[]?\s*+(\d{1,2})\s*+[)\]]?\s*+[.:]?\s*+")
 
 
 @dataclass(frozen=True)
@@ -57,7 +60,12 @@ def says_constant(statement: Statement, names: Names) -> bool:
     return constant
 
 
-def is_place(statement: Statement, names: Names) -> bool:
+def is_aside(statement: Statement, names: Names) -> bool:
+    """Whether a statement is no equation but about one position, or about numbers of lines."""
+    return _is_place(statement, names) or _equates_numbers(statement, names)
+
+
+def _is_place(statement: Statement, names: Names) -> bool:
     """Whether a statement gives a coordinate of the answer's own a value, which is no definition: ψ = 0 at the top."""
     if len(statement.sides) != 2 or (found := only_name(statement.sides[0])) is None:
         return False
@@ -69,6 +77,17 @@ def is_place(statement: Statement, names: Names) -> bool:
         written = " ".join(statement.source.text.split())
         names.notes.setdefault(f"'{written}' was not judged: it is about one position.")
     return own and valued
+
+
+def _equates_numbers(statement: Statement, names: Names) -> bool:
+    """Whether a statement only says with their numbers which lines or steps it equates: Step 7: (5) = (6)."""
+    sides = [_NUMBER.fullmatch(x) for x in statement.source.text.split("=")]
+    numbers = {int(m[1]) for m in sides if m is not None}
+    found = all(sides) and len(numbers) == len(sides) > 1 and 0 not in numbers
+    if found:
+        written = " ".join(statement.source.text.split())
+        names.notes.setdefault(f"'{written}' was not judged: numbers alone name lines or steps.")
+    return found
 
 
 def without_expressions(

@@ -17,8 +17,8 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    is_aside,
     is_general,
-    is_place,
     is_rate_of,
     listed_names,
     made_line,
@@ -148,7 +148,7 @@ class Lines:
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
         self.subjects.plain = own_letters([s.sides for s in self._statements], self.subjects)
-        self._places = {i for i, s in enumerate(self._statements) if is_place(s, self.names)}
+        self._places = {i for i, s in enumerate(self._statements) if is_aside(s, self.names)}
         self._made |= {i: [] for i in self._places}
         turned = [self.subjects.turned(list(s.sides)) for s in self._statements]
         first = [None if i in self._places else subject for i, (subject, _) in enumerate(turned)]
