@@ -65,3 +65,21 @@ def test_a_constraint_is_no_remark() -> None:
     assert wheel.check(f"{equations}Check: phi' = x'/r, because it rolls").right
     assert wheel.check(f"{equations}Check: for beta = 0 nothing drives it, x'' = 0").right
     assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls").right
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "Initial conditions: everything at rest at t = 0.",
+        "t = 0: x = 0, x' = 0",
+        "Anfangsbedingungen: x = 0, x' = 0 für t = 0",
+        "Equilibrium: x = 0",
+        "Linearized about x = 0: cos(x) = 1",
+    ],
+)
+def test_a_case_is_no_constraint(remark: str) -> None:
+    rows = "m x'' = 2 lam x\nm y'' + m g = 2 lam y\nx^2 + y^2 = l^2"
+    pendulum = derivation("rod-pendulum")
+    assert pendulum.check(f"{rows}\n\n{remark}").right
+    assert not pendulum.check(f"{rows.replace('m g', '2 m g')}\n\n{remark}").right
+    assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}").right

@@ -118,7 +118,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
             if verdict.right and wrong <= {(line.number, line.text) for line in decides.lines}:
                 return _told(verdict, other, decides.notes)
-            wrong |= _wrong_beside(verdict) if other is answer else set()
+            wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
     decides = own[-1]
     verdict = check.check(derivation, decides.lines, hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
@@ -132,10 +132,15 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     return _told(verdict, answer, decides.notes)
 
 
-def _wrong_beside(verdict: check.Verdict) -> set[tuple[int, str]]:
-    """The lines of remarks that are wrong beside right equations: no reading without these is taken."""
+def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
+    """The lines of remarks that are wrong beside right equations: no reading without these is taken.
+
+    Where constraints hold, what is said of a case, at t = 0 or at rest, is no position that they would forbid.
+    """
     wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG] if verdict.motion else []
-    return {(line.number, line.text) for line in wrong if line.beside}
+    accelerations = [c.acceleration for c in derivation.model.coordinates]
+    cases = {"case"} if derivation.multipliers else set[str]()
+    return {(x.number, x.text) for x in wrong if x.beside and not (x.beside & cases and not x.expr.has(*accelerations))}
 
 
 def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:

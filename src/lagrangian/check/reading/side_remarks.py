@@ -33,7 +33,8 @@ _CHECKS = (
 _CASES = (
     "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
     "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
-    "static statics statisch statische statischer steady stationär stationäre"
+    "static statics statisch statische statischer steady stationär stationäre "
+    "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
 )
 CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
@@ -60,7 +61,8 @@ _RELATION = re.compile(
     rf"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=)[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
 )
 _CUE = re.compile(
-    r"(?<![^\W_])(?:if|when|whenever|for|unless|provided|assuming|setting|set|without|with|at|wenn|falls|bei|"
+    r"(?<![^\W_])(?:if|when|whenever|for|unless|provided|assuming|setting|set|without|with|at|about|around|near|"
+    r"wenn|falls|bei|um|"
     r"f(?:ü|ue|[\\ ]?\"[{ ]?u[} ]?)r|sofern|mit|ohne|setzt|setze|si|pour|sans|avec)(?![^\W_])",
     re.IGNORECASE,
 )
@@ -103,6 +105,10 @@ class SideRemarks:
 
 def without_side_remarks(text: str, model: Model, known: Callable[[str], bool]) -> SideRemarks:
     """Find the remarks in an answer."""
+    return _without(text, model, lambda name: name == "t" or known(name))  # at t = 0
+
+
+def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemarks:
     lines = text.split("\n")
     starts = [0, *accumulate(len(line) + 1 for line in lines)]
     found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
@@ -272,7 +278,7 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
         if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
             continue
         before = plain[max(0, match.start() - 80) : match.start()]
-        if led and _begins(before, known):
+        if (led or match["left"] == "t") and _begins(before, known):
             return True
         cues = list(_CUE.finditer(before))
         if cues and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :])):
