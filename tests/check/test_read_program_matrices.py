@@ -4,6 +4,8 @@ Oracle: the equations of the cart with a pole and of the motor in the grammar of
 twin, which stays wrong.
 """
 
+import re
+
 import pytest
 
 from built_in import derivation
@@ -242,6 +244,39 @@ end
     assert judge.check(written).right
     assert not judge.check(written.replace("; m*g*l*", "; -m*g*l*")).right
     assert not judge.check(written.replace("dy = [xd; thetad", "dy = [thetad; xd")).right
+
+
+OF_STATES = """function dz = rhs(t, z)
+  % z = [x; theta; x'; theta']
+  A = [M+m, m*l*cos(z(2)); m*l*cos(z(2)), J+m*l^2];
+  r = [F - b*z(3) + m*l*sin(z(2))*z(4)^2; m*g*l*sin(z(2))];
+"""
+IN_JULIA = OF_STATES.replace("dz = rhs(t", "rhs!(dz").replace("z)", "z, p, t)", 1).replace("%", "#")
+IN_PYTHON = """def rhs(t, y):
+    x, theta, xd, thetad = y
+    A = np.array([[M + m, m*l*np.cos(theta)], [m*l*np.cos(theta), J + m*l**2]])
+    r = np.array([F - b*xd + m*l*np.sin(theta)*thetad**2, m*g*l*np.sin(theta)])
+"""
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        f"{OF_STATES}dz = [z(3:4); A\\r];\nend",
+        f"{OF_STATES}q = z(1:2); v = z(3:end);\nsol = A\\r;\ndz = [v; sol];\nend",
+        f"{OF_STATES}dz = zeros(4, 1);\ndz(1:2) = z(3:4);\ndz(3:4) = inv(A)*r;\nend",
+        f"{IN_JULIA}dz[1:2] .= z[3:4]\na = A \\ r\ndz[3] = a[1]\ndz[4] = a[2]\nend",
+        f"{IN_PYTHON}    return np.concatenate(([xd, thetad], np.linalg.solve(A, r)))",
+        f"{IN_PYTHON}    v = y[2:]\n    return np.r_[v, np.linalg.inv(A) @ r]",
+    ],
+)
+def test_programs_slice_states_and_solve_in_lists(program: str) -> None:
+    verdict = derivation("cart-pole").check(program)
+    assert verdict.right and "0 = 0" not in verdict.to_text()
+    assert not derivation("cart-pole").check(program.replace("m*g*l", "-m*g*l")).right
+    turned = re.sub(r"z([(\[])3:(?:4|end)", r"z\g<1>1:2", program)
+    turned = turned.replace("y[2:]", "y[:2]").replace("[xd, thetad]", "[thetad, xd]")
+    assert not derivation("cart-pole").check(turned).right
 
 
 MASSES = "[[M + m, m*l*cos(theta)], [m*l*cos(theta), J + m*l**2]]"

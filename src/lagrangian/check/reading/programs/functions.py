@@ -37,12 +37,8 @@ _INDEX = r"(?:\[(?P<zero>\d)\]|\((?P<one>\d)\))"
 _INDEXED = re.compile(
     rf"(?:^|(?<=;))[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<of>{_NAME}){_INDEX}[ \t]*+(?:;|$)", re.MULTILINE
 )
-_SLICES = re.compile(
-    rf"^[ \t]*+(?P<out>{_NAME})(?:\((?P<one>\d):\d\)|\[(?P<zero>\d?):\d?\])[ \t]*+=[ \t]*+"
-    rf"(?P<of>{_NAME})(?:\((?P<one_of>\d):(?P<last>\d|end)\)|\[(?P<zero_of>\d?):(?P<stop>\d?)\]){_END}",
-    re.MULTILINE,
-)
-"""The rates of positions, which are the velocities: dx(1:2) = x(3:4)."""
+_VALUE = re.compile(r"[ \t]*+=[ \t]*+(?P<entry>[\w()\[\]'’′]{1,60}+)[ \t]*+(?:;|$)", re.MULTILINE)
+"""A state or a rate alone, as it is assigned."""
 _LIST = r"(?:(?:np|numpy|jnp)\.(?:array|asarray|hstack)[ \t]*\([ \t]*)?[\[(]"
 _RETURNED = re.compile(rf"^[ \t]*+return[ \t]++(?P<list>{_LIST})", re.MULTILINE)
 _NAMED = re.compile(
@@ -114,10 +110,9 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
     edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     if function.state is not None:
-        edits += [*_indices(text, function.state, states), *_slices(text, function, states)]
+        edits += _indices(text, function.state, states)
     if function.out is not None:
-        rates = [(m, _place(m)) for m in re.finditer(rf"(?<!\w){function.out}{_INDEX}(?=[ \t]*=)", text)]
-        edits += [(*m.span(), f"{states[at]}'") for m, at in rates if 0 <= at < len(states)]
+        edits += _rates(text, function, states)
     edits += _returned(text, function, states)
     return written.edited(apart(edits))
 
@@ -243,17 +238,13 @@ def _indices(text: str, state: str, states: Sequence[str]) -> Iterator[Edit]:
             yield match.start(), match.end(), states[at]
 
 
-def _slices(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
-    """The equations in the place of slices of states: the rate of a state is another one, which has its own name."""
-    for match in _SLICES.finditer(text):
-        if (match["out"], match["of"]) != (function.out, function.state):
-            continue
-        pairs = (("one", "zero"), ("one_of", "zero_of"))
-        first, of = (int(match[x]) - 1 if match[x] else int(match[y] or 0) for x, y in pairs)
-        end = match["last"] if match["last"] != "end" else None
-        rest = states[of : int(end or match["stop"] or len(states))]
-        said = [f"{a}' = {b}" for a, b in zip(states[first:], rest, strict=False) if b != f"{a}'"]
-        yield *match.span(), "\n".join(said)
+def _rates(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
+    """The rates of states in the place of dz(1); nothing where it is only said that they are the rates."""
+    for match in re.finditer(rf"(?<!\w){function.out}{_INDEX}(?=[ \t]*=)", text):
+        if 0 <= _place(match) < len(states):
+            name, given = states[_place(match)], _VALUE.match(text, match.end())
+            own = given is not None and _is_rate(_state_of(given["entry"], function, states), name)
+            yield (match.start(), given.end(), "") if given and own else (*match.span(), f"{name}'")
 
 
 def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
@@ -269,7 +260,7 @@ def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator
         for name, (start, stop) in zip(states, spans, strict=True):
             entry = text[start:stop]
             lead = len(entry) - len(entry.lstrip())
-            said = "" if _is_rate(entry.strip(), name) else f"{name}' = "
+            said = "" if _is_rate(_state_of(entry.strip(), function, states), name) else f"{name}' = "
             yield at, start + lead, f"\n{said}"
             if not said:
                 yield start + lead, stop, ""
@@ -279,8 +270,16 @@ def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator
         yield at, end if end >= 0 else len(text), "\n"
 
 
+def _state_of(entry: str, function: _Function, states: Sequence[str]) -> str:
+    """The name of the state that an entry of a list is; the entry as it is if it is none."""
+    match = re.fullmatch(rf"{function.state}{_INDEX}", entry)
+    return states[_place(match)] if match is not None and 0 <= _place(match) < len(states) else entry
+
+
 def _is_rate(entry: str, name: str) -> bool:
-    """Whether an entry is only the spelled-out rate of its state: dx for x, ddx for dx."""
+    """Whether an entry is only the rate of its state, perhaps spelled out: x' or dx for x, ddx for dx."""
+    if entry == f"{name}'":
+        return True
     own = {(name.rstrip("'"), name.count("'")), *((stem, order) for order, stem in spelled_rates(name))}
     return any((stem, order - 1) in own for order, stem in spelled_rates(entry) if re.fullmatch(_NAME, entry))
 

@@ -18,6 +18,7 @@ from itertools import islice
 
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
 from lagrangian.check.reading.programs.sessions import MOST, closes
+from lagrangian.check.reading.programs.slices import with_states_one_by_one
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
@@ -58,7 +59,7 @@ LONGEST = 400
 
 def with_whole_matrices(written: TracedText) -> TracedText:
     """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
-    written = written.edited(_continued(written.text))
+    written = with_states_one_by_one(written.edited(_continued(written.text)))
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
     return written.sub(_SOLVED, lambda m: _product(m, given)) if given else written
