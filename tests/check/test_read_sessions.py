@@ -166,3 +166,14 @@ IN_MAPLE = [
 )
 def test_lists_of_equations_may_have_labels_names_and_several_lines(session: str) -> None:
     twins(session, "cart-pole")
+
+
+def test_what_is_called_like_a_momentum_and_balances_forces_is_a_left_hand_side() -> None:
+    kinetic = "(M + m)*x.diff(t)**2/2 + m*l*cos(theta)*x.diff(t)*theta.diff(t) + (J + m*l**2)*theta.diff(t)**2/2"
+    session = f">>> T = {kinetic}\n>>> V = m*g*l*cos(theta)\n>>> L = T - V\n"
+    session += ">>> p1 = L.diff(x.diff(t)).diff(t) - L.diff(x) - F + b*x.diff(t)\n"
+    session += ">>> p2 = L.diff(theta.diff(t)).diff(t) - L.diff(theta)\n"
+    session += f">>> print(expand(p1), '= 0')\n{X} = 0\n>>> print(expand(p2), '= 0')\n{ANGLE} = 0"
+    twins(session, "cart-pole")
+    momentum = "p1 = (M + m)*x' + m*l*cos(theta)*theta'"
+    twins(f"{momentum}\n{X} = 0\n{ANGLE} = 0", "cart-pole", momentum, momentum.replace("cos", "sin"))

@@ -64,8 +64,8 @@ class Subjects:
         found = only_name(sides[0])
         if found is not None and not found[1] and not undotted(found[0])[1] and is_matrix(sides[1]):
             return Subject("definition", str(found[0]), found[0]), sides  # M = [a, b; c, d], even if M is a mass, too
-        moving = any(self.accelerates(side) for side in sides)
-        subjects = [self.of(side, moving=moving) for side in sides]
+        moving, balanced = any(self.accelerates(side) for side in sides), any(map(self._is_balance, sides))
+        subjects = [self.of(side, moving=moving, balanced=balanced) for side in sides]
         order = [0, len(sides) - 1, *(i for i, s in enumerate(subjects) if s is not None and s.kind == "Xi")]
         first, last = subjects[0], subjects[-1]
         if first is not None and last is not None and (first.order or first.kind == "identity") and self._new(last):
@@ -83,6 +83,12 @@ class Subjects:
     def accelerates(self, tree: Node) -> bool:
         """Whether an acceleration stands in a tree: of any name, in any spelling."""
         return self.moves(tree, 2)
+
+    def _is_balance(self, side: Tree) -> bool:
+        """Whether a side is a sum with accelerations and with a term without rates, which is no momentum."""
+        side = inside(side)
+        terms = [x for x in side.children if isinstance(x, Tree)] if side.data == "sum" else []
+        return any(map(self.accelerates, terms)) and not all(map(self.moves, terms))
 
     def moves(self, tree: Node, least: int = 1) -> bool:
         """Whether a rate, or a derivative of at least this order, stands in a tree."""
@@ -114,13 +120,14 @@ class Subjects:
         """Whether a statement is the first to say what a name is."""
         return subject.kind == "definition" and not subject.order and not self.names.is_own(str(subject.token))
 
-    def of(self, side: Tree, *, moving: bool = False) -> Subject | None:
+    def of(self, side: Tree, *, moving: bool = False, balanced: bool = False) -> Subject | None:
         """The subject of a statement with this left-hand side; None if it is an equation.
 
-        ``moving``: the statement contains accelerations, so it states no energy: T is then a torque.
+        ``moving``: the statement contains accelerations, so it states no energy: T is then a torque. ``balanced``: it
+        has them beside other terms and states no momentum either: p1 then calls a left-hand side.
         """
         if (found := only_name(side)) is not None:
-            return self._named(*found, moving)
+            return self._named(*found, moving, balanced)
         if (token := squared_name(side)) is not None and not self._taken(token):
             return Subject("definition", str(token), token, square=True)
         return self._derivative_of_energy(inside(side))
@@ -210,7 +217,7 @@ class Subjects:
             if "dot" in written or not found or self.names.scope[found[0]] in self.names.moving_symbols:
                 yield order, stem
 
-    def _named(self, token: Token, primes: int, moving: bool) -> Subject | None:
+    def _named(self, token: Token, primes: int, moving: bool, balanced: bool) -> Subject | None:
         base, dots = undotted(token)
         order = primes + dots
         if not order and not self._taken(token):
@@ -225,8 +232,9 @@ class Subjects:
             return Subject(cast("Kind", kind), None, token)
         if (coordinate := self.names.force(token)) is not None:
             return Subject("Xi", coordinate)
-        if (coordinate := momentum_of(token, self.model)) is not None and self.names.occurs(token) == 1:
-            return Subject("p", coordinate)
+        momentum = momentum_of(token, self.model) if self.names.occurs(token) == 1 and not balanced else None
+        if momentum is not None:
+            return Subject("p", momentum)
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
     def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr, sp.Expr, str] | None:
