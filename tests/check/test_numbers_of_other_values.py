@@ -5,14 +5,45 @@ Oracle: the equations of the cart with a pole for M = 2, m = 1, l = 0.5, b = 0.2
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 
 from built_in import derivation
+from lagrangian import loads
+from lagrangian.derivation import Derivation
 from student_answers import CART, POLE, right
 
+ROLLING = """
+name = "cylinder and block on a slope"
+[coordinates]
+x = "axle, down the slope"
+s = "elongation"
+[parameters]
+m1 = "4 kg"
+m2 = "2 kg"
+k = "200 N/m"
+alpha = "30 deg"
+g = "9.81 m/s^2"
+[define]
+down = "x + s"
+[[kinetic]]
+value = "3/4*m1*x'^2 + m2*down'^2/2"
+[[potential]]
+value = "-(m1*x + m2*down)*g*sin(alpha)"
+[[spring]]
+k = "k"
+deflection = "s"
+"""
 NUMBERS = """3 x'' + 0.5 theta'' cos theta - 0.5 theta'^2 sin theta + 0.2 x' = F
 0.7 theta'' + 0.5 x'' cos theta - 4.905 sin theta = 0"""
 VALUES = "With M = 2, m = 1, l = 0.5, b = 0.2, J = 0.45, g = 9.81:"
+
+
+@cache
+def rolling() -> Derivation:
+    """A cylinder that rolls down a slope, and a block on a spring."""
+    return loads(ROLLING).derive()
 
 
 @pytest.mark.parametrize("head", ["With numbers:", VALUES])
@@ -38,3 +69,11 @@ def test_pi_is_a_number_in_the_spelling_of_every_program(pi: str) -> None:
     answer = f"alpha = theta - {pi}/2\nm L^2 alpha'' + b alpha' + m g L cos(alpha) = 0"
     assert derivation("pendulum").check(answer).right
     assert not derivation("pendulum").check(answer.replace("/2", "/3")).right
+
+
+def test_what_a_product_with_a_sine_amounts_to_stands_in_a_list_of_values() -> None:
+    rows = "3/2 m1 x'' = m1 g sin α + k s\nm2 (x'' + s'') = m2 g sin α - k s"
+    listed = "m1 = 4 kg, α = 30°, g sin α = 4,905 m/s², cos α = 0.866"
+    verdict = rolling().check(f"{rows}\n{listed}")
+    assert verdict.right and "Right if" not in verdict.to_text()
+    assert "α = 0.7" in rolling().check(f"{rows}\n{listed.replace('30°', '0.7')}").to_text()

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import permutations
+from math import isclose
 from typing import Any, cast
 
 import sympy as sp
@@ -46,8 +47,8 @@ class Declared:
 
     def told(self, truth: Reference) -> Text | None:
         """The assumptions, in words: J = ½ m R², L = 1; None if they are the system's own values."""
-        own = {p: sp.Rational(str(v)) for p, v in truth.model.values.items()}
-        assumed = {p: v for p, v in self.values.items() if own.get(p) != v}
+        own = truth.model.values
+        assumed = {p: v for p, v in self.values.items() if p not in own or not _are_equal(v, float(own[p]))}
         parts: list[Any] = []
         for parameter, value in assumed.items():
             number = f"{float(value):.15g}" if isinstance(value, sp.Rational) else value
@@ -63,6 +64,11 @@ def declared(truth: Reference, lines: Sequence[AnsweredLine]) -> Declared:
     if speeds:
         found = tuple(_put(_without(line, speeds), speeds) for line in found)
     return Declared(*_assumed(truth, found))
+
+
+def _are_equal(value: sp.Expr, number: float) -> bool:
+    """Whether a value is a number but for the rounding of π in it."""
+    return bool(value.is_number) and isclose(float(value), number, rel_tol=1e-12)
 
 
 def _without_values(truth: Reference, line: AnsweredLine) -> AnsweredLine:

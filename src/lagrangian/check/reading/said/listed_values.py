@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from math import isclose, pi
 
+from lagrangian.check.reading.prose.words import function_of
 from lagrangian.quantities.units import joined, lookup
 
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
@@ -63,11 +64,11 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
 
 
 def _start(line: str, match: re.Match[str], values: Callable[[str], float | None]) -> int:
-    """Where the product begins whose value is given: n K = 2."""
+    """Where the product begins whose value is given: n K = 2, g sin α = 4.905."""
     start = match.start()
-    while (factor := _FACTOR.search(line, max(0, start - 60), start)) is not None and values(
-        factor["name"]
-    ) is not None:
+    while (factor := _FACTOR.search(line, max(0, start - 60), start)) is not None:
+        if values(factor["name"]) is None and function_of(factor["name"]) is None:
+            break
         start = factor.start()
     return start
 
