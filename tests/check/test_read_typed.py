@@ -54,6 +54,8 @@ def test_word_s_matrices_and_indices() -> None:
     "written",
     [
         "\\newcommand{\\st}{\\sin\\theta}\n\\def\\dth{\\dot\\theta}\n\\[ mL^2\\ddot\\theta + b\\dth + mgL\\st = 0 \\]",
+        "\\newcommand{\\st}{\\sin\\theta}\\newcommand{\\ct}{\\cos\\theta}\\newcommand{\\dth}{\\dot\\theta}"
+        "\\[ mL^2\\ddot\\theta + b\\dth^2/\\dth + mgL\\st(\\st^2 + \\ct^{2}) = 0 \\]",
         "\\newcommand{\\of}[2][x]{#1\\left(#2\\right)}\n$mL^2\\ddot\\theta + b\\dot\\theta = -mgL\\of[\\sin]\\theta$",
         "\\DeclareMathOperator{\\sn}{sin}\n$mL^2\\ddot\\theta + b\\dot\\theta + mgL\\sn\\theta = 0$",
         r"$T = \frac m2 L^2\dot\theta^2$, $\dv{t}\pdv{T}{\dot\theta} + b\dv{\theta}{t} + mgL\sin\qty(\theta) = 0$",

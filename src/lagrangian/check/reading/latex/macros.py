@@ -32,6 +32,9 @@ _DEFINES = re.compile(
 )
 _USED = re.compile(r"\\(?P<name>[A-Za-z]+|[^A-Za-z\s])(?P<star>\*?)")
 _PARAMETER = re.compile(r"#(\d)")
+_FUNCTION = re.compile(r"\s*+\\(?:sin|cos|tan|cot)\s*+\\?\w++(?:\{\w{1,12}\})?\s*+")
+"""A function of one name: the power behind its macro, \\ct^2, is not that of the name."""
+_POWER = re.compile(r"\s{0,9}\^\s{0,9}(?:\d|\{\s{0,9}\d)")
 _SPACE = re.compile(r"\s*")
 _SPACED = re.compile(r"[ \t]*")
 
@@ -131,6 +134,8 @@ def _once(text: str, origins: list[int], macros: dict[str, Macro], source: Sourc
         if size + len(text) > MAX_WRITTEN:
             raise _too_long(source, origins[match.start()])
         made = _with_arguments(body, values)
+        if _FUNCTION.fullmatch(made) and _POWER.match(text, end):
+            made = f"{{{made}}}"
         gap = " " if made[-1:].isalpha() or made[:1].isalpha() else ""
         made = f"{gap}{made}{gap}"
         pieces += [text[at : match.start()], made]
