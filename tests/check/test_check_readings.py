@@ -61,6 +61,15 @@ def test_a_number_may_be_g_or_a_value(l: str, w: str, c: str, g: str, right: boo
     assert derived("elastic-pendulum").check(PENDULUM.format(l=l, w=w, c=c, g=g)).right is right
 
 
+def test_energies_in_letters_go_with_equations_in_numbers_alone() -> None:
+    energies = "T = m/2*(r'^2 + r^2*theta'^2)\nV = k/2*(r - L_0)^2 - m*g*r*cos(theta)\nwith m*g = 4.905 N\n"
+    numbers = PENDULUM.format(l="0.6", w="4.905", c="2", g="9.81")
+    judge = derivation("elastic-pendulum")
+    assert judge.check(energies + numbers).right
+    assert not judge.check(energies + numbers.replace("2*r'", "1*r'")).right
+    assert not judge.check(energies.replace("m*g*r", "g*r") + numbers).right
+
+
 def test_what_is_wrong_in_numbers_is_told_in_the_answers_numbers() -> None:
     verdict = derived("elastic-pendulum").check(PENDULUM.format(l="0.5", w="4.905", c="2", g="9.81"))
     assert verdict.first_wrong is not None

@@ -1,4 +1,4 @@
-"""Answers in letters with the same equations in numbers behind them: the lines in numbers are judged with values."""
+"""Answers in letters with equations in numbers behind them: the lines in numbers are judged with values."""
 
 from __future__ import annotations
 
@@ -21,40 +21,41 @@ Judge = Callable[[Reference, Sequence[AnsweredLine]], Verdict]
 
 def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: Judge) -> Verdict | None:
     """The verdict on the lines in letters, and on those in numbers with the values of the system; None if there are no
-    lines in numbers, or if the others do not hold an equation for every coordinate."""
+    lines in numbers, or if neither these nor the others hold an equation for every coordinate."""
     accelerations = [c.acceleration for c in truth.model.coordinates]
     said = [line.kind in _JUDGED or (line.kind == "equation" and line.expr.has(*accelerations)) for line in lines]
     numeric = [k for k, line in enumerate(lines) if said[k] and in_numbers(truth, [line])]
     lettered = [k for k in range(len(lines)) if k not in numeric]
-    moving = [k for k in lettered if lines[k].kind == "equation"]
+    whole, moved = (sum(lines[k].kind == "equation" for k in x) >= truth.n for x in (lettered, numeric))
     numbers = [lines[k] for k in numeric]
     values = values_of(truth, numbers)
-    if not numeric or len(moving) < truth.n or not values or any(x.expr.free_symbols - {time} for x in numbers):
+    if not numeric or not (whole or moved) or not values or any(x.expr.free_symbols - {time} for x in numbers):
         return None
     first = judge(truth, [lines[k] for k in lettered])
-    if first.status is Status.INCOMPLETE:
+    if first.status is Status.INCOMPLETE and whole:
         return None
     second = judge(truth.with_values(values), numbers)
     if second.status is Status.OTHER_COORDINATES:
         return None
-    others = first.right and len(numeric) > 1 and not truth.values
+    others = whole and first.right and len(numeric) > 1 and not truth.values
     if others and all(f.status is Status.WRONG for f in second.findings):
         note = text("The lines in numbers were not judged: they are for other values than those of the system.")
         return replace(first, notes=(*first.notes, note))
-    wrong = first if not first.right else second
+    wrong = first if first.status is Status.WRONG else second
+    status = first.status if whole or first.status is Status.WRONG else second.status
     order: dict[int, list[Finding]] = {}
     for finding in (*first.findings, *second.findings):
         order.setdefault(finding.line.number, []).append(finding)
     told = text("The lines in numbers are judged with the values of the system.")
-    notes = (*first.notes, told, *(x for x in second.notes if second.status is not Status.INCOMPLETE))
+    notes = [x for v in (first, second) if v.status is not Status.INCOMPLETE for x in v.notes]
     return Verdict(
-        first.status if second.status is not Status.WRONG else Status.WRONG,
+        status if second.status is not Status.WRONG else Status.WRONG,
         tuple(x for number in sorted(order) for x in order[number]),
         wrong.mistakes,
         wrong.alternatives,
         first.combination,
         change=first.change,
-        notes=tuple(dict.fromkeys(notes)),
+        notes=tuple(dict.fromkeys((*notes, told))),
         hint=first.hint,
         sure=wrong.sure,
     )
