@@ -66,6 +66,11 @@ def test_what_sympy_draws_is_read(form: str, wide: bool) -> None:
     assert not right(answer(-1))
 
 
+def test_what_a_loop_shows_is_no_part_of_it() -> None:
+    shown = "\n".join(drawn(sp.Eq(each, 0)) for each in cart(1))
+    assert right(f"In [9]: for e in (e1, e2):\n   ...:     pprint(Eq(e, 0))\n{shown}")
+
+
 @pytest.mark.parametrize("wide", [True, False])
 def test_roots_and_nested_fractions_are_put_on_one_line(wide: bool) -> None:
     length = sp.sqrt(x**2 + l**2)

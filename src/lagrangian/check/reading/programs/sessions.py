@@ -34,6 +34,8 @@ _NAME_ALONE = re.compile(
     rf"^[ \t]*+(?:In[ \t]?\[\d{{1,4}}\][ \t]*+:?=?|>>>|julia>|sage:)[ \t]*+{_NAME};?[ \t]*+$", re.MULTILINE
 )
 """A name behind a prompt, which only shows what it is."""
+_TYPED_LAST = re.compile(r"^[ \t]*+\.\.\.:?(?:[ \t][^\n]*+)?\n(?=[ \t]*+[^\s.])", re.MULTILINE)
+"""The last line of a block that is typed, behind its prompt: what a program shows stands below it."""
 _BREAK = re.compile(r"(?P<mark>['\"])(?:\\[nrt]){1,4}(?P=mark)")
 """A string that only breaks a line."""
 _MAGIC = re.compile(r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$", re.MULTILINE)
@@ -94,7 +96,8 @@ class Piece:
 
 def without_prompts(written: TracedText) -> TracedText:
     """Return an answer without prompts and without commands to a notebook."""
-    written = written.sub(_BREAK, lambda m: " ").sub(_NAME_ALONE, lambda m: "").sub(_PROMPT, _unprompted)
+    written = written.sub(_BREAK, lambda m: " ").sub(_NAME_ALONE, lambda m: "")
+    written = written.sub(_TYPED_LAST, lambda m: f"{m.group()}\n").sub(_PROMPT, _unprompted)
     return written.sub(_MAGIC, lambda m: "")
 
 
