@@ -18,7 +18,6 @@ from lagrangian.quantities.units import joined, lookup
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
 _VALUE = re.compile(
     rf"(?<![\w.])(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
-    r"(?P<ten>[ \t]?[·×⋅*][ \t]?10(?:(?:\^|\*\*)[({]?(?P<power>[-+−]?\d{1,2})[)}]?|(?P<raised>[⁻⁺]?[⁰¹²³⁴-⁹]{1,2})))?+"
     r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
     r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:[ \t]?[/·* ]?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
@@ -33,12 +32,28 @@ FEWEST = 2
 """The fewest values in a line that make it a list of values."""
 
 
+_TEN = re.compile(
+    rf"(?P<head>(?<![\w.]){_NAME}[ \t]*+=[ \t]*+[-−]?)(?P<number>\d++(?:[.,]\d++)?+)[ \t]?[·×⋅*][ \t]?10"
+    r"(?:(?:\^|\*\*)[({]?(?P<power>[-+−]?\d{1,2})[)}]?|(?P<raised>[⁻⁺]?[⁰¹²³⁴-⁹]{1,2}))(?![\d(^⁰¹²³⁴-⁹])"
+)
+"""A value with a power of ten, perhaps with a unit behind it: k = 8·10⁶ N/m."""
+
+
+def _with_exponents(text: str) -> str:
+    """The text, as long as it was, with 8·10⁶ as 8e6 in values of names."""
+    return _TEN.sub(lambda m: f"{m['head']}{m['number'].replace(',', '.')}e{_power(m)}".ljust(len(m.group())), text)
+
+
+def _power(match: re.Match[str]) -> str:
+    return (match["power"] or match["raised"].translate(_RAISED)).replace("−", "-")
+
+
 def without_values(text: str, values: Callable[[str], float | None], notes: dict[str, None]) -> str:
     """Return an answer in plain text without its lists of values.
 
     ``values`` returns the value of a parameter of the system, NaN for one without a value, and None for other names.
     """
-    lines = text.split("\n")
+    lines = _with_exponents(text).split("\n")
     for k, line in enumerate(lines):
         if line.count("=") < FEWEST:
             continue
@@ -50,12 +65,9 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         kept = list(" " * len(line))
         for match in found:
             read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
-            end = match.end() if read else max(match.end("number"), match.end("ten"))
+            end = match.end() if read else match.end("number")
             start = _start(line, match, values)
             kept[start:end] = line[start:end].replace(",", ".")
-            if match["ten"]:
-                first, last = match.start("number"), match.end("ten")
-                kept[first:last] = _number(match).ljust(last - first)
             if end < len(line):
                 kept[end] = ";"
         lines[k] = "".join(kept)
@@ -80,14 +92,8 @@ def _moves(words: str) -> bool:
 
 def _same(match: re.Match[str], value: float | None) -> bool:
     """Whether a number is the value in the system, in SI units."""
-    number = float(_number(match))
+    number = float(match["number"].replace(",", "."))
     return value is not None and isclose(number, value, rel_tol=1e-9)
-
-
-def _number(match: re.Match[str]) -> str:
-    """The number of a value as programs write it: 0,4·10⁶ is 0.4e6."""
-    power = match["power"] or (match["raised"] or "").translate(_RAISED)
-    return match["number"].replace(",", ".") + (f"e{power.replace('−', '-')}" if power else "")
 
 
 def _factor(unit: str) -> float | None:
