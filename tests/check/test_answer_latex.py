@@ -39,6 +39,8 @@ PENDULUM = m * L**2 * theta.diff(t, 2) + b * theta.diff(t) + m * g * L * sp.sin(
         r"\boxed{mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0}",
         r"(1)\quad mL^2\ddot\theta = -b\dot\theta - mgL\sin\theta \qquad (1)",
         r"\mathrm{m}L^2\ddot{\theta}+\frac{b}{1}\dot\theta+\tfrac22 mgL\sin \theta=0",
+        r"mL^2 d^2\theta/dt^2 + bd\theta/dt + mgL\sin\theta = 0",
+        r"L m\, \mathrm{d}(L\dot\theta)/\mathrm{d}t + b d{\theta}/d t + mgL\sin\theta = 0",
         r"\frac{d}{dt} mL^2\dot\theta + b\dot\theta + mgL\,\sin\theta = 0 % a comment",
         r"m_{}L^2θ̈ + bθ̇ + mgL\sin θ = 0",
     ],

@@ -137,6 +137,10 @@ def test_a_damper_in_front_of_a_name_with_primes_is_a_factor() -> None:
     assert s.derive().check("J phi'' + dphi' + kphi = 0").right
     assert not s.derive().check("J phi'' + dphi'' + kphi = 0").right
     assert s.derive().check("dphi = phi'\nJ dphi' + d dphi + kphi = 0").right  # here it is a name
+    for rate in ("d dphi/dt", "ddphi/dt", "d d/dt(phi)", "d d(phi)/dt"):
+        assert s.derive().check(f"J d2phi/dt2 + {rate} + k phi = 0").right, rate
+    for rate in (r"d d\phi/dt", r"d\,\mathrm d\phi/\mathrm dt", r"d \, d(\phi)/{dt}", r"d\, d/dt \phi"):
+        assert s.derive().check(rf"$J\, d^2\phi/dt^2 + {rate} + k \phi = 0$").right, rate
 
 
 def test_expressions_beside_every_generalized_force_are_left_hand_sides() -> None:

@@ -87,6 +87,7 @@ class LatexParser(LatexFractions):
     def operand(self) -> Tree:
         """Read an operand with its primes and powers."""
         start = self.next.start
+        self._put_in_fraction()
         if self.next.kind in ("letters", "symbol", "upright", "accent", "decoration"):
             return self._symbol()
         return self._powered(self._atom(), start)

@@ -42,6 +42,46 @@ class LatexFractions(LatexSymbols):
         over, under = self._part(), self._part()
         return node("product", token.start, over, leaf("OPERATOR", "/", token.start), under)
 
+    def _put_in_fraction(self) -> None:
+        """Make a fraction of a derivative that is written on one line, if it is next: dx/dt, d²x/dt², d(…)/dt, d/dt."""
+        if not _begins_with_d(self.tokens[self.i : self.i + 1]) or self.known("dt"):
+            return
+        over = self._end_of_differential()
+        written = "".join(x.text for x in self.tokens[self.i : over])
+        factor = written == "dd" and self.known("d") and not self.names.changes("d")  # d d/dt(x) is d ẋ
+        if self.tokens[over].kind != "over" or factor:
+            return
+        for end in range(min(over + 6, len(self.tokens) - 1), over + 1, -1):
+            top, bottom = self.tokens[self.i : over], self.tokens[over + 1 : end]
+            if _differential_of_time(bottom):
+                opened, closed = (AnswerToken(x, x, self.next.start, self.next.start) for x in "{}")
+                frac = replace(opened, kind="frac", text="frac")
+                self.tokens[self.i : end] = [frac, opened, *top, closed, opened, *bottom, closed]
+                return
+
+    def _end_of_differential(self) -> int:
+        """Where d, d² or what follows it, one symbol or a bracket, ends."""
+        at = self.i + 1
+        at += 1 if self.tokens[at].kind == "raised" else 0
+        at = self._behind(at + 1) if self.tokens[at].kind == "^" else at
+        if len(self.next.text) == 1 and self.tokens[at].kind != "over":
+            while self.tokens[at].kind in ("accent", "decoration"):
+                at += 1
+            at = self._behind(at)
+        while self.tokens[at].kind in ("_", "lowered", "primes"):
+            at = self._behind(at + 1) if self.tokens[at].kind == "_" else at + 1
+        return at
+
+    def _behind(self, at: int) -> int:
+        """Where a group in brackets, or one token, ends."""
+        closing, depth, end = CLOSING.get(self.tokens[at].kind), 0, at
+        while closing is not None and end < len(self.tokens) - 1:
+            depth += (self.tokens[end].kind == self.tokens[at].kind) - (self.tokens[end].kind == closing)
+            if not depth:
+                break
+            end += 1
+        return min(end + 1, len(self.tokens) - 1)
+
     def _part(self) -> Tree:
         """Read one argument of a fraction: a group, or one token, or one digit of a number."""
         if self.next.kind == "number" and len(self.next.text) > 1:
@@ -89,7 +129,7 @@ class LatexFractions(LatexSymbols):
         if len(top[0].text) > 1:
             self._cut(1)
         self.take()
-        if self.accept("^"):
+        if not self.accept("raised") and self.accept("^"):
             self._argument()
         self.deeper(token.start)
         inner = self.sum()

@@ -12,6 +12,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.quantities.source import Source
 from lagrangian.quantities.units import lookup
+from lagrangian.read.letters import undotted
 
 _LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
 _MARK = r"[\u0307\u0308\u20db\u20dc]"
@@ -92,6 +93,9 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
             assert match is not None
             at = match.end()
             tokens += _names(match.group(), source, match.start(), words)
+        elif kind == "rate" and _is_times_rate(match["of1"], words):
+            at = match.start() + 1
+            tokens.append(AnswerToken("name", "d", match.start(), at))
         elif kind == "root":
             tokens.append(AnswerToken("name", "sqrt", match.start(), at))
         elif kind == "number":
@@ -111,6 +115,16 @@ def _is_partial(match: re.Match[str], words: Words) -> bool:
         return True
     quotient = any(words.is_name(f"d{match[x]}") for x in ("what", "by"))
     return not quotient and words.is_own(match["what"]) and words.names.changes(match["by"])
+
+
+def _is_times_rate(of: str, words: Words) -> bool:
+    """Whether what stands between d and /dt has a d of its own, so that the first d is a factor of the system or of the
+    answer: d dx/dt is d ẋ, unless dx is a name."""
+    if of == "d":
+        return words.is_name("d") and not words.names.changes("d")
+    if not of.startswith("d") or not words.is_name("d") or words.is_name(of):
+        return False
+    return words.names.changes(undotted(of[1:])[0]) or words.is_own(of[1:])
 
 
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
