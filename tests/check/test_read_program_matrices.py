@@ -321,3 +321,57 @@ def test_speeds_of_kane_are_named_beside_the_matrices(said: str) -> None:
     judge = derivation("cart-pole")
     assert judge.check(written).right
     assert not judge.check(written.replace("b*v", "b*w")).right
+
+
+SOLVED = """function dz = odefun(t, z, p)
+x = z(1); theta = z(2);
+dx = z(3); dtheta = z(4);
+MM = [M + m, m*l*cos(theta); ...
+      m*l*cos(theta), J + m*l^2];
+rhs = [F - b*dx + m*l*sin(theta)*dtheta^2; m*g*l*sin(theta)];
+acc = MM\\rhs;   % ddx, ddtheta
+dz = [dx; dtheta; acc];
+end
+"""
+TOOLKIT = (
+    f"""using ModelingToolkit: t_nounits as t, D_nounits as D
+@parameters M m l
+eqs = [
+    {ROWS_BY_HAND[0].replace("=", "~")},
+    {ROWS_BY_HAND[1].replace("=", "~")},
+]
+""".replace("x''", "D(D(x))")
+    .replace("theta''", "D(D(θ))")
+    .replace("theta'", "D(θ)")
+    .replace("x'", "D(x)")
+)
+MODELICA = (
+    f"""model Cart
+  Real x, theta, v, w;
+equation
+  der(x) = v;
+  der(theta) = w;
+  {ROWS_BY_HAND[0]};
+  {ROWS_BY_HAND[1]};
+end Cart;
+""".replace("x''", "der(v)")
+    .replace("theta''", "der(w)")
+    .replace("theta'", "w")
+    .replace("x'", "v")
+)
+
+
+@pytest.mark.parametrize("program", [SOLVED, TOOLKIT, MODELICA])
+def test_functions_of_matlab_and_models_of_julia_and_modelica_are_read(program: str) -> None:
+    assert derivation("cart-pole").check(program).right
+    assert not derivation("cart-pole").check(program.replace("m*g*l", "2*m*g*l")).right
+
+
+def test_a_name_for_a_rate_in_a_state_is_no_product() -> None:
+    program = """function dz = f(t, z)
+x = z(1); y = z(2); theta = z(3);
+dx = z(4); dy = z(5); dtheta = z(6);
+dz = [dx; z(5); dtheta; -(b*dx + (F1 + F2)*sin(theta))/m; ((F1 + F2)*cos(theta) - b*dy)/m - g; L*(F1 - F2)/J];
+end"""
+    assert derivation("planar-quadrotor").check(program).right
+    assert not derivation("planar-quadrotor").check(program.replace("b*dy", "2*b*dy")).right

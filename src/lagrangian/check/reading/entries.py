@@ -16,7 +16,7 @@ _MATRIX = re.compile(r"(?<![\w\\.])([A-Za-z]\w{0,9})\s*=\s*\[")
 _SOLVED = re.compile(
     r"^(?P<left>[^=\n]{1,200})=[ \t]*(?:inv\([ \t]*(?P<inv>[A-Za-z]\w{0,9})[ \t]*\)[ \t]*[*·]?"
     r"|(?P<raised>[A-Za-z]\w{0,9})[ \t]*\^[ \t]*[({]?-1[)}]?[ \t]*[*·]?|(?P<under>[A-Za-z]\w{0,9})[ \t]*\\)"
-    r"[ \t]*(?P<right>[^=\n;]{1,400}?)[ \t]*;?[ \t]*$",
+    r"[ \t]*(?P<right>[^=\n;%]{1,400}?)[ \t]*;?[ \t]*(?=$|%)",
     re.MULTILINE,
 )
 _ACCELERATIONS = re.compile(r"q?acc(?:el(?:erations?)?)?|a|sol|ans")

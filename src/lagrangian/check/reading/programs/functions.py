@@ -93,6 +93,11 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         return written
     function = loose or _function(text, headers)
     function.names = _commented(text, function.state, coordinates) | function.names
+    rates = {name: rate for name in function.names.values() if (rate := _spelled_out(name, coordinates)) != name}
+    if rates:  # dy = z(4) is y', not d y
+        function.names = {i: rates.get(name, name) for i, name in function.names.items()}
+        written = written.edited(apart(list(_used(text, rates))))
+        text, headers = written.text, list(_HEADER.finditer(written.text))
     names = [function.names.get(i) for i in range(2 * len(coordinates))]
     default = [*coordinates, *(f"{name}'" for name in coordinates)]
     if function.state is not None and _alternates(text, function, len(coordinates)):
@@ -220,6 +225,14 @@ def _commented(text: str, state: str | None, coordinates: Sequence[str]) -> dict
 def _spelled_out(name: str, coordinates: Sequence[str]) -> str:
     """theta' for theta_dot, which may get a prime behind it."""
     return next((stem + "'" * order for order, stem in spelled_rates(name) if stem in coordinates), name)
+
+
+def _used(text: str, rates: dict[str, str]) -> Iterator[Edit]:
+    """The rates themselves in the place of names for them, but where these are unpacked from a state."""
+    given = [m.span() for form in (_UNPACKED, _INDEXED) for m in form.finditer(text)]
+    for match in re.finditer(rf"(?<![\w.])(?:{'|'.join(map(re.escape, rates))})(?!\w)", text):
+        if not any(start <= match.start() < end for start, end in given):
+            yield *match.span(), rates[match.group()]
 
 
 def _alternates(text: str, function: _Function, n: int) -> bool:

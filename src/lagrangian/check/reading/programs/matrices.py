@@ -39,6 +39,9 @@ _SOLVED = re.compile(
     r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
     re.MULTILINE,
 )
+_JULIA = re.compile(r"\bModelingToolkit\b|\bDifferential\(|@(?:variables|parameters|mtkmodel)\b|(?<!\w)D\(D\(")
+_EQUATES = re.compile(r"(?<=\S)[ \t]+~[ \t]+(?=\S)")
+"""The sign of an equation of Julia, also in a list."""
 _SHOWN = re.compile(rf"[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+\Z")
 _BRACKETED = re.compile(r"[ \t]*+(?P<open>\[)[^\[\]=]*+(?P<close>\])[ \t]*+\Z")
 _ENTRY = re.compile(r"[ \t]++(?![+*/^)]|-[ \t])[^\[\]{}=%#>;]*[^\s\[\]{}=%#>;+*/^(-][ \t]*+\Z")
@@ -59,6 +62,7 @@ LONGEST = 400
 
 def with_whole_matrices(written: TracedText) -> TracedText:
     """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
+    written = written.sub(_EQUATES, lambda m: " = ") if _JULIA.search(written.text) else written
     written = with_states_one_by_one(written.edited(_continued(written.text)))
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))

@@ -7,6 +7,7 @@ Derivative[2][x][t]  (x^\\[Prime])[t]  \\[Theta]     x''  x'  θ                
 D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
 m*D(D(x)) ~ F  Differential(t)(x(t))                m*x'' = F  x'                        Julia
+der(x) = v                                          x' = v                              Modelica
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ _OPERATOR = re.compile(
 _JULIA = re.compile(
     rf"(?P<outer>Differential\(t\)\()?Differential\(t(?:,\s*(?P<two>2))?\)\(\s*(?P<of>{_NAME})\(t\)\s*\)(?(outer)\))"
 )
+_MODELICA = re.compile(rf"(?<!\w)(?P<twice>der\()?der\((?P<of>{_NAME})\)(?(twice)\))")
 _FULL_FORM = re.compile(rf"\bDerivative\[(?P<order>[12])\]\[(?P<of>{_NAME})\](?:\[t\])?")
 _LONG_NAME = re.compile(r"\\\[(?P<capital>Capital)?(?P<letter>Curly(?:Theta|Phi|Epsilon)|[A-Z][a-z]{1,6})\]")
 _ONE_NAME = rf"(?:\\\[\w+\]|{_NAME})"
@@ -125,6 +127,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
     written = written.sub(_OPERATOR, lambda m: m.group() if taken("D") else m["of"] + ("'" if m["once"] else "''"))
     written = written.sub(_JULIA, lambda m: m["of"] + ("''" if m["outer"] or m["two"] else "'"))
+    written = written.sub(_MODELICA, lambda m: m["of"] + ("''" if m["twice"] else "'"))
     written = written.sub(_FULL_FORM, lambda m: m["of"] + "'" * int(m["order"]))
     written = (
         written.sub(_QUOTED, lambda m: "").sub(_TWO_LINES, lambda m: "_").sub(_EQUALS, lambda m: f"{m['left']} = ")
