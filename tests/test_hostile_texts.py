@@ -33,6 +33,7 @@ ANSWERS = {
     "blanks behind an equation": "m = 1" + BLANK + "y",
     "newlines": "\n" * N + "y",
     "blanks in front": BLANK + "y",
+    "blanks behind a label": "cart:" + BLANK + "1/2 m1 x1'^2",
     "blanks behind a name": "y" + BLANK + "z = 1",
     "a line below": "x1'' = 0 " + "_" * N + "y",
     "words in brackets": "x1'' = 0 (" + "so" * (N // 2) + ")",

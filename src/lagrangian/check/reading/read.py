@@ -21,6 +21,7 @@ from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
+from lagrangian.check.reading.energy_parts import with_parts_of_energies
 from lagrangian.check.reading.entries import entered_matrices, solved_matrices
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.indexed import counted_names, without_indices
@@ -333,6 +334,7 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
         with_variations(tagless, taken), names.changes, taken, latex=bool(_LATEX.search(tagless.text))
     )
     said = with_values_above(said)
+    of = [c.name for c in lines.model.coordinates]
     if _LATEX.search(said.text):
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
@@ -343,15 +345,13 @@ def _without_notations(typed: Source, lines: Lines) -> TracedText:
             ),
             taken,
         )
-        said = with_stated_rates(said, [c.name for c in lines.model.coordinates], names.known, sure=True)
+        said = with_stated_rates(said, of, names.known, sure=True)
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
-        of = [c.name for c in lines.model.coordinates]
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
-    bare = without_functions(said, [c.name for c in lines.model.coordinates])
-    plain = without_programs(bare, names.changes, taken)
+    plain = without_programs(without_functions(said, of), names.changes, taken)
     if not _LATEX.search(plain.text):
         names.notes |= dict.fromkeys(told_comments(plain.text))
-    return sentences_apart(on_one_line(plain))
+    return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)
 
 
 def _has_no_minus(lines: Lines, name: str) -> bool:

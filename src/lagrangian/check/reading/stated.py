@@ -36,6 +36,11 @@ ENERGY_NAMES = {
     "R": "D",
 }
 """Common names of the energies, without underscores."""
+ENERGY_NAMES |= {
+    f"{letter}{whole}": kind
+    for letter, kind in (("T", "T"), ("Ekin", "T"), ("V", "V"), ("U", "V"), ("Epot", "V"))
+    for whole in ("total", "tot", "ges", "gesamt", "sys", "system", "sum")
+}
 
 _CAREFUL = frozenset(["K", "P", "R", "U"])
 """Letters that are read as an energy only if a line states them."""

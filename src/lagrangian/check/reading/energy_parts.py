@@ -1,0 +1,259 @@
+"""Names the energies of parts of a system that an answer states by words alone, in lists and in tables, T_drum = …
+
+Kinetic energy                   T                  | body | T | V |            rod: T = m v^2/2 + I w^2/2
+  drum   1/2 J theta'^2          - cart: ½ M ẋ²     | cart | ½ M ẋ² | 0 |       T_rod = …
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+
+import sympy as sp
+
+from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.model import Body, Model, RigidBody
+from lagrangian.read.letters import SPELLED, key, undotted
+from lagrangian.records import dataclass
+
+LONGEST = 300
+"""The most characters of such an energy, and of a line in which one is sought."""
+LONGEST_WORD = 3
+"""The most letters of a name that nothing explains."""
+
+_KINDS = {"T": r"kin[eé]ti|cin[eé]t", "V": r"poten[tcz]i"}
+_LETTERS = {
+    "T": r"T\*?|E_?\{?(?:\\(?:text|mathrm)\{)?kin\}*",
+    "V": r"V|U|E_?\{?(?:\\(?:text|mathrm)\{)?pot\}*",
+}
+_OF_KIND = {kind: re.compile(rf"\b(?:{words})", re.IGNORECASE) for kind, words in _KINDS.items()}
+_ALONE = {
+    kind: re.compile(rf"[ \t\W]*+(?:(?:[Ss]tep|[Ss]chritt)?[ \t]*+\d{{1,2}}[ \t.):]*+)?(?:{x})[ \t$*:.]*+\Z")
+    for kind, x in _LETTERS.items()
+}
+"""A letter alone on a line, or in the head of a table."""
+_LED = {kind: re.compile(rf"[ \t]*+(?:{x})[ \t]++(?=[^\W\d_]{{3}})") for kind, x in _LETTERS.items()}
+"""A letter in front of the name of a part: T beam."""
+_BULLET = re.compile(r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?")
+_LABEL = re.compile(
+    r"(?P<label>[^\W\d_][\w,+.()'’&/-]{0,24}(?:[ ][\w,+.()'’&/-]{1,24}){0,6}?)"
+    r"(?P<gap>[ \t]?:(?=[ \t\w½¼⅐-⅞])|[ ]{2}|[ ]?\t|[ ][–—-](?=[ ]))[ \t]*+"
+)
+_ARROW = re.compile(r"(?:-+>|=+>|→|⇒|⟶)[ \t]*+")
+_REMARK = re.compile(r"[ \t]{2}[(;,#]")
+_RATE = re.compile(r"['’′˙\u0307]|\\dot(?![A-Za-z])|(?<=[^\W\d])d(?:ot)?\d?(?:²|\^|\*\*)")
+_TWICE = re.compile(r"['’′]{2}|[\u0308″¨]|\\ddot|ddot|dd\b")
+_SQUARE = re.compile(r"²|\^\s?\{?2|\*\*\s?2")
+_HALF = re.compile(r"½|\b1\s?/\s?2\b|\b0[.,]5|/\s?2\b|\\frac|[⅐-⅞¼¾]|\b1\s?/\s?\d")
+_NAME = re.compile(r"\\?[^\W\d½¼¾⅐-⅞⁰-⁹¹²³](?:\w|[\u0307\u0308]){0,24}")
+_FORMULA = re.compile(r"[\w\s.,+\-−–*·×/^()\[\]{}'’′²³½¼⅐-⅞¾\\|⋅∙\u0307]{2,300}")
+_OTHER = re.compile(
+    r"damp|dissip|rayleigh|dämpf|amort|reib|fricti|loss|verlust|lagrang|power|leistung|work|arbeit|total|sum|gesamt"
+    r"|whole|check|probe|deriv|force|kraft|equation|gleichung|result|momentum|unit|term",
+    re.IGNORECASE,
+)
+"""Words of labels of other things, and of the energy of the whole."""
+_SMALL = frozenset(["the", "its", "for", "der", "die", "das", "des", "von", "and", "und", "part"])
+_STATED = re.compile(r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])")
+_LATEX = re.compile(r"\\[A-Za-z(\[]|\$")
+_DEFINED = re.compile(r"([^\W\d]\w{0,24})[ \t]*+(?:(?:²|\^2)[ \t]*+)?=(?![=>])")
+_CELL = re.compile(r"\|")
+_RULE = re.compile(r"[-+=| \t:]+")
+_WORD = re.compile(r"[^\W\d_]{2,24}")
+
+
+def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which such energies have a name: that of the body, or the first word in front of it.
+
+    ``taken`` tells whether the system has a name. A T = … behind the name of one body, which has no mass or moment of
+    inertia of another, is the energy of this body.
+    """
+    lines = list(re.finditer(r"[^\n]+", written.text))
+    own = {key(m[1]) for m in _DEFINED.finditer(written.text)}
+    latex = _LATEX.search(written.text) is not None
+    parts = _Parts(model, lambda x: taken(x) or key(x) in own, own, latex=latex)
+    return written.edited(edit for line in lines for edit in parts.named(line))
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A line with a label: the label, and where what it says begins and ends."""
+
+    label: str
+    start: int
+    end: int
+
+
+class _Parts:
+    """Finds parts of energies line by line; ``kind`` is the energy that a heading above announces."""
+
+    def __init__(self, model: Model, known: Callable[[str], bool], own: set[str], *, latex: bool) -> None:
+        self.model, self.known, self.own, self.latex = model, known, set(own), latex
+        self.kind: str | None = None
+        self.columns: list[str | None] = []
+        self.body, self.indent = "", 0
+        self.inertias = {b.name: _letters(b) for b in model.bodies}
+
+    def named(self, line: re.Match[str]) -> Iterator[Edit]:
+        """What is put into a line so that the energies of parts in it have names."""
+        text, at = line.group(), line.start()
+        if len(text) > 2 * LONGEST or _RULE.fullmatch(text):
+            return
+        if text.count("|") > 1:
+            yield from self._in_table(text, at)
+            return
+        self.columns = []
+        if (stated := self._of_body(text)) is not None:
+            yield (at + stated[0], at + stated[1], stated[2])
+        elif not self.latex and (found := self._in_list(text)) is not None:
+            yield (at + found[0], at + found[0], f"{found[1]} = ")
+
+    # -- lists -----------------------------------------------------------------------------------------------------
+
+    def _in_list(self, text: str) -> tuple[int, str] | None:
+        """Where a value begins behind its label, and its name."""
+        row = self._row(text)
+        kind = None if row is None else self._kind(row.label, text[row.start : row.end], ":" in text[: row.start])
+        if row is not None and kind is not None and self._is_energy(kind, text[row.start : row.end]):
+            return row.start, self._name(kind, row.label)
+        if "=" not in text and not _TWICE.search(unicodedata.normalize("NFD", text)):
+            self.kind = _heading(text)
+        elif row is None:
+            self.kind = None if _TWICE.search(unicodedata.normalize("NFD", text)) else self.kind
+        return None
+
+    def _row(self, text: str) -> _Row | None:
+        bullet = _BULLET.match(text)
+        label = _LABEL.match(text, bullet.end() if bullet is not None else 0)
+        if label is None or _OTHER.search(label["label"]) or not self._speaks(label["label"]):
+            return None
+        start, end = label.end(), len(text.rstrip(" \t.;,"))
+        for arrow in _ARROW.finditer(text, start):
+            start = arrow.end()
+        if (remark := _REMARK.search(text, start)) is not None:
+            end = remark.start()
+        return None if "=" in text[start:end] else _Row(label["label"], start, end)
+
+    def _kind(self, label: str, value: str, marked: bool) -> str | None:
+        """Which energy a label or the heading above it says; without both, a mass and squares of rates show T."""
+        said = next((k for k in _KINDS if _OF_KIND[k].search(label) or _LED[k].match(f"{label} ")), None)
+        if said is not None or self.kind is not None:
+            return said or self.kind
+        bare = key("".join(value.split()))
+        heavy = any(x in bare for letters in self.inertias.values() for x in letters)
+        return "T" if marked and heavy and _is_kinetic(value) and _HALF.search(value) else None
+
+    def _speaks(self, label: str) -> bool:
+        """Whether a word of a label is no name of the system or of the answer."""
+        words = _WORD.findall(label)
+        return any(len(x) > 2 and not self.known(x) and x not in _GREEK for x in words)
+
+    def _is_energy(self, kind: str, value: str) -> bool:
+        plain = unicodedata.normalize("NFD", value)
+        if _FORMULA.fullmatch(plain) is None or _TWICE.search(plain) or not all(map(self._reads, _NAME.findall(plain))):
+            return False
+        return _is_kinetic(value) if kind == "T" else not _RATE.search(plain) and bool(_NAME.search(plain))
+
+    def _reads(self, word: str) -> bool:
+        """Whether a run of letters may be a name or a product of names."""
+        base = undotted(word.lstrip("\\"))[0]
+        if word.startswith("\\") or len(base) <= LONGEST_WORD or function_of(base) is not None:
+            return True
+        stems = [base, *(stem for _, stem in spelled_rates(base))]
+        return any(self.known(x) or x in _GREEK for x in stems) or any(x in base for x in ("sin", "cos"))
+
+    # -- tables ----------------------------------------------------------------------------------------------------
+
+    def _in_table(self, text: str, at: int) -> Iterator[Edit]:
+        """The names of the energies in a row of a table; its head says what the columns are."""
+        bars = [m.start() for m in _CELL.finditer(text)]
+        cells = [(a + 1, b) for a, b in pairwise(bars)]
+        listed = [text[a:b].strip() for a, b in cells]
+        if len(heads := [_heading(x.strip("$ ")) for x in listed]) > 1 and any(heads[1:]):
+            self.columns = heads
+            return
+        label = listed[0] if listed else ""
+        if not self._speaks(label) or _OTHER.search(label):
+            return
+        led = next((k for k in _KINDS if _OF_KIND[k].search(label) or _LED[k].match(f"{label} ")), None)
+        kinds = self.columns if len(self.columns) == len(cells) else [None, led] if len(cells) == 2 else []
+        for (a, b), kind in list(zip(cells, kinds, strict=False))[1:]:
+            inside = text[a:b].strip()
+            math = inside.startswith("$") and inside.endswith("$") and inside.count("$") == 2
+            value = inside.strip("$ ")
+            if kind is None or "=" in value or math != self.latex or not self._is_energy(kind, value):
+                continue
+            place = at + text.index(value, a)
+            yield place, place, f"{self._name(kind, label)} = "
+
+    # -- energies of one body --------------------------------------------------------------------------------------
+
+    def _of_body(self, text: str) -> tuple[int, int, str] | None:
+        """The T of one body: where its letter stands, and its name."""
+        bullet = _BULLET.match(text)
+        begins = bullet.end() if bullet is not None else 0
+        head, colon, _ = text[begins:].partition(":")
+        indent = len(text) - len(text.lstrip())
+        if colon and "=" not in head and len(head) <= 6 * 12:
+            found = self._bodies(head)
+            self.body, self.indent = (found[0] if len(found) == 1 else ""), indent
+            begins += len(head) + 1
+        elif not (self.body and indent > self.indent):
+            self.body = ""
+        stated = _STATED.match(text, len(text) - len(text[begins:].lstrip()))
+        if not self.body or stated is None or stated["letter"] not in ("T", "T*"):
+            return None
+        others = frozenset[str]().union(*(x for name, x in self.inertias.items() if name != self.body))
+        mine = self.inertias[self.body]
+        named = {key(x) for x in _NAME.findall(text[stated.end() :])}
+        if not others - mine or not mine & named or named & (others - mine):
+            return None
+        return *stated.span("letter"), self._name("T", self.body)
+
+    # -- names -----------------------------------------------------------------------------------------------------
+
+    def _name(self, kind: str, label: str) -> str:
+        """The name of an energy of a part, new in the answer unless a line states the same once more."""
+        found = self._bodies(label)
+        words = [x for x in _WORD.findall(label) if len(x) > 2 and x.lower() not in _SMALL and not self.known(x)]
+        more = [x for x in words if re.match(r"(?:trans|rot)", x, re.IGNORECASE)]
+        index = _plain(found[0]) if len(found) == 1 else "".join(map(_plain, words[:1]))
+        name = f"{kind}_{index}{''.join(map(_plain, more[:1])) if index not in map(_plain, more[:1]) else ''}"
+        while key(name) in self.own and len(found) != 1:
+            name += "x"
+        self.own.add(key(name))
+        return name.replace(f"{kind}_", f"{kind}_{{") + "}" if self.latex else name
+
+    def _bodies(self, label: str) -> list[str]:
+        """The bodies that a label names by a word of their names."""
+        said = {x.lower() for x in _WORD.findall(label)}
+        return [b.name for b in self.model.bodies if said & {x.lower() for x in _WORD.findall(b.name)}]
+
+
+_GREEK = frozenset(x.lower() for x in SPELLED.values()) | frozenset(SPELLED.values())
+
+
+def _heading(text: str) -> str | None:
+    """The energy that a heading announces; None if it is no such heading."""
+    found = [k for k in _KINDS if _OF_KIND[k].search(text) or _ALONE[k].match(text)]
+    return found[0] if len(found) == 1 else None
+
+
+def _is_kinetic(value: str) -> bool:
+    plain = unicodedata.normalize("NFD", value)
+    return _RATE.search(plain) is not None and _SQUARE.search(plain) is not None
+
+
+def _letters(body: Body) -> frozenset[str]:
+    """The letters of the mass and the moments of inertia of a body."""
+    listed = [body.mass, *(body.inertia.flat() if isinstance(body, RigidBody) else ())]
+    return frozenset(key(str(x)) for expr in listed for x in sp.sympify(expr).free_symbols)
+
+
+def _plain(word: str) -> str:
+    """A word in letters without accents."""
+    return "".join(c for c in unicodedata.normalize("NFD", word) if c.isascii() and c.isalnum())

@@ -1,0 +1,95 @@
+"""Energies of parts that words alone name, in lists, in tables and behind labels, are those of these parts."""
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.check.reading import parse_answer
+
+
+@pytest.fixture(scope="module")
+def swing() -> lg.Derivation:
+    """A rod that hangs from a turning wheel, by a spring at the wheel."""
+    s = lg.System("swing")
+    phi, theta = s.coordinates("phi theta")
+    J, R, m, l, k, b = s.parameters("J R m l k b")
+    tau = s.inputs("tau")
+    centre = s.point("C", (R * sp.sin(phi) + l * sp.sin(theta) / 2, -R * sp.cos(phi) - l * sp.cos(theta) / 2))
+    s.rigid_body(0, J, at=s.origin, frame=s.frame(phi, name="wheel"), name="wheel")
+    s.rigid_body(m, m * l**2 / 12, at=centre, frame=s.frame(theta, name="rod"), name="rod")
+    s.gravity()
+    s.spring(k, deflection=R * phi, name="spring")
+    s.damper(b, deflection=phi, name="axle")
+    s.torque(tau, on=phi, name="motor")
+    return s.derive()
+
+
+ROD = "1/2 m (R^2 phi'^2 + l^2 theta'^2/4 + R l phi' theta' cos(phi - theta)) + 1/24 m l^2 theta'^2"
+SLIP = ROD.replace(" + 1/24 m l^2 theta'^2", "")
+"""Without the energy of its rotation."""
+ROWS = """(J + m R^2) phi'' + 1/2 m R l (theta'' cos(phi - theta) + theta'^2 sin(phi - theta)) + m g R sin(phi)
+  + k R^2 phi = tau - b phi'
+1/3 m l^2 theta'' + 1/2 m R l (phi'' cos(phi - theta) - phi'^2 sin(phi - theta)) + 1/2 m g l sin(theta) = 0"""
+LIST = f"""Kinetic energy
+  wheel   1/2 J phi'^2
+  rod     {ROD}
+
+Potential energy
+- rod: -m g (R cos(phi) + l/2 cos(theta))      (zero at the axle)
+- spring: 1/2 k (R phi)^2
+
+{ROWS}"""
+TABLE = f"""| body | kinetic energy | V |
+|---|---|---|
+| wheel | ½ J φ'² | ½ k R² φ² |
+| rod | {ROD} | -m g (R cos(phi) + l/2 cos(theta)) |
+
+{ROWS}"""
+
+
+@pytest.mark.parametrize(("answer", "count"), [(LIST, 4), (TABLE, 4)])
+def test_energies_in_lists_and_tables_are_judged(swing: lg.Derivation, answer: str, count: int) -> None:
+    verdict = swing.check(answer)
+    energies = [f for f in verdict.findings if f.line.kind == "definition"]
+    assert verdict.right and len(energies) == count
+    assert all(f.status.right and " energy of " in str(f.note) for f in energies)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("answer", [LIST, TABLE])
+def test_a_wrong_energy_in_a_list_is_named_in_its_line(swing: lg.Derivation, answer: str) -> None:
+    verdict = swing.check(answer.replace(ROD, SLIP).replace("1/3 m l^2 theta''", "1/4 m l^2 theta''"))
+    (mistake,) = verdict.mistakes
+    line = next(n for n, x in enumerate(answer.split("\n"), 1) if ROD in x)
+    assert str(mistake.what).startswith(f"Line {line} is not right: the kinetic energy of rigid body 'rod'")
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [line]
+
+
+@pytest.mark.parametrize("label", ["Rod (König): ", "energy of the rod: ", "rod:\n   "])
+def test_the_t_of_one_body_is_not_the_whole(swing: lg.Derivation, label: str) -> None:
+    """T of the rod, with all its letters; T_total below is the whole."""
+    found = parse_answer(f"{label}T = {ROD}\nT_total = 1/2 J phi'^2 + {ROD}\n{ROWS}", swing.model)
+    assert [(x.kind, x.name) for x in found.lines][:2] == [("definition", "T_rod"), ("T", None)]
+
+
+@pytest.mark.slow
+def test_a_wrong_t_of_one_body_is_named(swing: lg.Derivation) -> None:
+    verdict = swing.check(f"rod: T = {SLIP}\nT_total = 1/2 J phi'^2 + {SLIP}\n{ROWS.replace('1/3', '1/4')}")
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith("Line 1 is not right: the kinetic energy of rigid body 'rod'")
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [1]
+
+
+@pytest.mark.parametrize("label", ["wheel and rod: ", "The rod turns, too: ", "rod: "])
+def test_a_t_with_the_letters_of_two_bodies_is_the_whole(swing: lg.Derivation, label: str) -> None:
+    found = parse_answer(f"{label}T = 1/2 J phi'^2 + {ROD}", swing.model)
+    assert [x.kind for x in found.lines] == ["T"]
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["axle: 1/2 b phi'^2", "Rayleigh: 1/2 m phi'^2", "wheel: J phi''", "phi: m R^2 phi'^2", "wheel: turns by phi"],
+)
+def test_what_is_no_energy_has_no_name(swing: lg.Derivation, line: str) -> None:
+    found = parse_answer(f"{line}\n{ROWS}", swing.model)
+    assert not [x for x in found.lines if x.kind in ("definition", "T", "V")]
