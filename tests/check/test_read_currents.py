@@ -39,6 +39,7 @@ def motor() -> Derivation:
         "L q'' + R q' + K phi' = u\nJ phi'' + b phi' = K i\ni = q'",
         "i' = (u - R*i - K*w)/L\nphi' = w\nw' = (K*i - b*w)/J",
         "q' = i\nL i' + R i + K w = u\nJ w' + b w = K i",
+        "U = u  [V]\nU - R i - L di/dt = K phi'\nJ phi'' + b phi' = K i",
         "L i_a' + R i_a + K phi' = u\nJ phi'' + b phi' = K i_a",
         r"$$L\dot{i} + R i + K\dot\varphi = u$$ $$J\ddot\varphi + b\dot\varphi = K i$$",
     ],

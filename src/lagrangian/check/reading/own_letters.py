@@ -36,7 +36,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             found.add("P")
         if moving[k]:
             continue
-        if kind in ("V", "L") and any(names.changes(x) or key(x) in given for x in listed):
+        other = only_name(sides[1]) if len(sides) == 2 else None
+        renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
+        if kind in ("V", "L") and not renamed and any(names.changes(x) or key(x) in given for x in listed):
             continue
         others = [s for s, moved in zip(statements, moving, strict=True) if moved and s is not sides]
         used = (str(x) for s in others for side in s for x, changing in names_in(side) if not changing)
