@@ -1,0 +1,127 @@
+"""Takes off an answer, before its statements are found, how programs, HTML and drawings write mathematics."""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.applied import with_functions_applied, with_values_above
+from lagrangian.check.reading.arguments import with_own_functions
+from lagrangian.check.reading.copied import without_copying, without_proved
+from lagrangian.check.reading.crossed_out import without_crossed_out
+from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
+from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
+from lagrangian.check.reading.drawn.barred import with_tall_brackets
+from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
+from lagrangian.check.reading.drawn.text_matrices import on_one_line
+from lagrangian.check.reading.energy_parts import with_parts_of_energies
+from lagrangian.check.reading.entries import entered_matrices, solved_matrices
+from lagrangian.check.reading.hypertext import without_tags
+from lagrangian.check.reading.labelled_forces import with_labelled_forces
+from lagrangian.check.reading.latex.layout import with_open_text
+from lagrangian.check.reading.lines import Lines
+from lagrangian.check.reading.markup import sentences_apart
+from lagrangian.check.reading.operators import without_operators
+from lagrangian.check.reading.programs.functions import without_functions
+from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
+from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
+from lagrangian.check.reading.programs.names import with_program_names
+from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
+from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
+from lagrangian.check.reading.programs.sessions import without_prompts, without_session
+from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
+from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
+from lagrangian.check.reading.prose.remarks import without_legend
+from lagrangian.check.reading.references import without_references
+from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
+from lagrangian.check.reading.said.stands_for import (
+    with_stated_letters,
+    with_stated_rates,
+    with_stated_values,
+    with_variations,
+)
+from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.quantities.source import Source
+from lagrangian.read.letters import key
+
+LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
+"""What only LaTeX has."""
+
+_BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
+_BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
+_DEGREES = re.compile(
+    r"(?<![\d.,_])(?P<number>\d{1,6}(?:[.,]\d{1,6})?)(?:\\[,;! ]|[ ]){0,3}"
+    r"(?:\^\s?(?:\{\s?\\circ\s?\}|\\circ(?![A-Za-z]))|\\degree(?![A-Za-z])|°)"
+)
+"""An angle in degrees in LaTeX."""
+_BY_TIME = re.compile(r"[(\[](?P<by>d/dt)[)\]](?=[ \t]?[(\[d∂])")
+"""d/dt in brackets of its own: (d/dt)(∂T/∂x')."""
+_ROUND_BY_TIME = re.compile(
+    r"∂[ ]?(?P<two>²|\^2)?[ ]?(?P<of>(?![TVLDℒE]\b)[^\W\d]\w{0,23}+(?:\(t\))?)[ ]?/[ ]?∂[ ]?t(?P<twice>²|\^2)?(?!\w)"
+)
+"""A rate with round signs: ∂²x/∂t²."""
+
+
+def without_notations(typed: Source, lines: Lines) -> TracedText:
+    """An answer without HTML and without the spellings of programs, and with matrices in one line."""
+    names, text = lines.names, typed.text
+
+    def taken(name: str) -> bool:
+        return bool(names.scope.meanings(name)[0])
+
+    commands: list[int] = []
+    typed_in = without_crossed_out(
+        without_terminators(
+            without_maxima(with_drawn_pieces(with_tall_brackets(without_copying(without_proved(TracedText(text))))))
+        ),
+        names.notes,
+    )
+    shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(typed_in))))
+    prompted = with_columns(with_whole_matrices(without_prompts(shown)))
+    code = without_code(prompted, taken, commands.append, session=is_session(text))
+    session = without_session(code, taken, commands.append)
+    if commands:
+        names.notes.setdefault(told_commands(text, commands))
+    names.in_order(told_order(text))
+    own = {key(name) for name in lines.model.symbols}
+    if not LATEX.search(session.text):
+        session = with_derivative_legends(session, names.changes, lambda name: key(name) in own)
+    moving = {key(c.name) for c in lines.model.coordinates}
+    indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
+    referred = without_legend(without_references(indexed))
+    tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
+    latex = bool(LATEX.search(tagless.text))
+    tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
+    tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
+    if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
+        tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
+    if not LATEX.search(tagless.text):
+        tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
+        tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
+    said = with_stated_letters(
+        with_variations(tagless, taken), names.changes, taken, latex=bool(LATEX.search(tagless.text))
+    )
+    said = with_values_above(said)
+    of = [c.name for c in lines.model.coordinates]
+    if LATEX.search(said.text):
+        said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
+        said = with_derivatives_in_latex(with_open_text(without_sets(said)))
+    else:
+        said = with_stated_values(
+            with_derivatives(
+                with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
+            ),
+            taken,
+        )
+        said = with_stated_rates(said, of, names.known, sure=True)
+        said = with_program_names(said, names.changes, lambda name: key(name) in own)
+        said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
+    plain = without_programs(without_functions(said, of), names.changes, taken)
+    if not LATEX.search(plain.text):
+        names.notes |= dict.fromkeys(told_comments(plain.text))
+    return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)
+
+
+def _straight(match: re.Match[str]) -> str:
+    """∂²x/∂t² as d²x/dt²."""
+    return f"d{match['two'] or ''}{match['of']}/dt{match['twice'] or ''}"
