@@ -227,6 +227,13 @@ def test_a_bracket_that_begins_with_a_product_is_no_remark_though_it_spells_a_wo
     assert not right(rows.replace("(by'", "(2 by'"), "planar-quadrotor")
 
 
+def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus() -> None:
+    bold = f"**{CART.replace('m l theta', 'm*l*theta')}**\n**{POLE.replace('m g l', 'm*g*l')}**"
+    assert right(bold) and not right(bold.replace("m*g*l", "2*m*g*l"))
+    broken = "0 = " + CART.replace(" + m l theta''", "\n    + m l theta''", 1).replace("= F", "- F = 0") + "\n" + POLE
+    assert right(broken) and not right(broken.replace("+ m l theta''", "+ 2 m l theta''"))
+
+
 def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
     rows = (
         r"\begin{bmatrix} M+m & m l c\\ m l c & J+m l^2\end{bmatrix}\begin{bmatrix}\ddot x\\ \ddot\theta\end{bmatrix}"

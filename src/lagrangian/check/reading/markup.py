@@ -14,6 +14,11 @@ _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
 _RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
 _CODE = re.compile(r"(?<!`)(`{1,2})(?!`)([^`\n]+)\1(?!`)")
 _BOLD = re.compile(r"(?<![\w)\]'*])(\*\*|__)(?=[^\s*_])([^*\n]*?[^\s*])\1(?![\w(*])")
+_BOLD_LINE = re.compile(
+    r"^(?P<lead>[ \t]*+)\*\*(?=[^\s*])(?P<line>(?:(?<=[\w)])\*\*(?=[\w(])|\*(?!\*)|[^*\n])*)\*\*(?=[ \t]*$)",
+    re.MULTILINE,
+)
+"""A whole line that is bold, which may hold stars of products."""
 _ITALIC = re.compile(r"(?<=[\s(,])(\*|_)(?=[^\W\d_]{3})([^\W\d_]+(?:[ -][^\W\d_]+[\d₀-₉]?){0,8}:?)\1(?=[\s.,;:)!?]|\Z)")
 """A word or some between single marks: *clockwise*, *for θ1*."""
 _HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
@@ -54,6 +59,7 @@ def without_markup(text: str) -> str:
         text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
     text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
+    text = _BOLD_LINE.sub(lambda m: f"{m['lead']}  {m['line']}  ", text)
     for form in (_BOLD, _CODE, _ITALIC):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text

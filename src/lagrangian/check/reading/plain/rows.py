@@ -128,8 +128,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     text = "\n".join(
         opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in _whole_lists(text)
     )
-    rows: list[AnswerRow] = []
-    offset = 0
+    rows, offset = list[AnswerRow](), 0
     open_row: AnswerRow | None = None
     for line in re.split(r"(?<=\n)", text):
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
@@ -160,8 +159,8 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
         told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
         found, split = [row for row, _ in told], [own for _, own in told]
     levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
-    stated = [row for row, level in zip(found, levels, strict=True) if not level and not is_prose(row.text, words)]
-    return stated or found[:1]
+    named = zip(found, levels, strict=True)
+    return [row for row, level in named if not level and not is_prose(row.text, words)] or found[:1]
 
 
 def _ended(head: str, line: str, numbers: Numbering) -> str:
@@ -291,11 +290,18 @@ def _remark(part: str) -> bool:
 def _continues(above: str, line: str) -> bool:
     if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
-    if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
+    if incomplete(above) or _goes_on(above, line):
         return True
     if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
     return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+
+
+def _goes_on(above: str, line: str) -> bool:
+    """Whether a line begins with a sign that goes on above; a plus that is not set in may be that of a list."""
+    deeper = len(line) - len(line.lstrip()) > len(above) - len(above.lstrip()) and not _LISTED_START.match(above)
+    listed = _LISTED_START.match(line) and "=" in above and not deeper
+    return _OPEN_START.match(line) is not None and not listed
 
 
 def _explained_from(above: str, line: str) -> int | None:
