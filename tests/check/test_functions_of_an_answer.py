@@ -72,3 +72,16 @@ def test_unit_vectors_are_functions_of_an_angle(now: str, wrong: str) -> None:
 def test_a_force_is_a_function_of_a_deflection(now: str, wrong: str) -> None:
     assert masses().check(FORCE).right
     assert now in FORCE and not masses().check(FORCE.replace(now, wrong)).right
+
+
+@pytest.mark.parametrize(
+    ("letter", "last"), [("K", "½·K·φ̇²"), ("R", "½·R·φ̇²"), ("K", "½·K(ψ)·φ̇²")], ids=["K", "R of the system", "K(ψ)"]
+)
+def test_the_letter_of_an_energy_alone_is_the_function_that_is_stated(letter: str, last: str) -> None:
+    """K in ½ K φ̇² is K(ψ), where no line says K = … and none differentiates K; R is a radius of the disc."""
+    rest = "(m·l² + m·R·l·cos ψ)·φ̇·ψ̇ + ½·m·l²·ψ̇²"
+    answer = f"{letter}(ψ) = J + m·R² + m·l² + 2·m·R·l·cos ψ\nT = {last} + {rest}"
+    verdict = arm().check(answer)
+    assert [f.status.right for f in verdict.findings] == ([True] if letter == "K" else [False])
+    if letter == "K":
+        assert not arm().check(answer.replace("2·m·R·l", "m·R·l")).right

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
-from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import key
 
 _NAME = r"(?<![\w\\])\\?[^\W\d_]\w*(?:\{\w{1,20}\})?"
@@ -71,7 +71,21 @@ def with_own_functions(
         index = re.sub(r"\W", "", whole.partition("(")[2])
         edits.append((*match.span("of"), f"_{{{index}}}" if latex else f"_{index}"))
         told.setdefault(f"'{whole}' was read as a quantity of its own.")
-    return text.edited(sorted(edits))
+    for whole in named.values():
+        edits += _bare(text.text, whole, system, latex=latex)
+    return text.edited(apart(edits))
+
+
+def _bare(text: str, whole: str, system: Callable[[str], bool], *, latex: bool) -> Iterator[Edit]:
+    """The letter of an energy without what it depends on, where no line states or differentiates it: K φ', after
+    K(θ) = J + m a²."""
+    name, _, of = whole.removesuffix(")").partition("(")
+    alone = rf"(?<![\w\\]){re.escape(name)}(?![\w(]|\s{{0,3}}\()"
+    if system(name) or re.search(rf"{alone}\s{{0,3}}&?\s{{0,3}}=|(?:∂|\bd|\\partial\s?){re.escape(name)}(?!\w)", text):
+        return
+    index = re.sub(r"\W", "", of)
+    for match in re.finditer(alone, text):
+        yield (match.end(), match.end(), f"_{{{index}}}" if latex else f"_{index}")
 
 
 def _slopes(text: str, functions: Iterable[str], *, latex: bool) -> Iterator[Edit]:
