@@ -84,6 +84,30 @@ def test_solutions_and_single_rows(session: str) -> None:
     twins(session, "pendulum", "L*g*m", "g*m")
 
 
+CART = "(M + m)*{0}(x) + m*l*cos(θ)*{0}(θ) - m*l*sin(θ)*{1}(θ)^2 ~ F - b*{1}(x)"
+POLE = "1//2*2(J + m*l^2)*{0}(θ) + m*l*cos(θ)*{0}(x) ~ m*g*l*sin(θ)"
+OF_JULIA = "@variables x(t) θ(t)\nD = Differential(t)\n"
+IN_JULIA = [x.replace("{0}(x)", "D(D(x))").replace("{0}(θ)", "D(D(θ))").replace("{1}", "D") for x in (CART, POLE)]
+IN_MAPLE = [
+    x.replace("{0}(x)", "diff(x(t), t$2)").replace("{0}(θ)", "diff(θ(t), t$2)").replace(" ~ ", " = ")
+    for x in (CART.replace("{1}(x)", "diff(x(t), t)").replace("{1}(θ)", "diff(θ(t), t)"), POLE.replace("//", "/"))
+]
+
+
+@pytest.mark.parametrize(
+    "session",
+    [
+        f"{OF_JULIA}eqs = [\n  {IN_JULIA[0]},\n  {IN_JULIA[1]}\n]\n@named sys = ODESystem(eqs, t)",
+        f"julia> D = Differential(t)\njulia> eqs = [{IN_JULIA[0]}\n  {IN_JULIA[1]}]",
+        f"{OF_JULIA}eq1 = {IN_JULIA[0]}\neq2 = {IN_JULIA[1]}".replace("D(", "Dt(").replace("D =", "Dt ="),
+        f"> eqs := [ {IN_MAPLE[0]},\n  {IN_MAPLE[1]} ];",
+        f"> ode := {{{IN_MAPLE[0]},\n>  {IN_MAPLE[1]}}};",
+    ],
+)
+def test_lists_of_equations_of_julia_and_maple(session: str) -> None:
+    twins(session, "cart-pole", "m*g*l", "m*g")
+
+
 def test_sets_of_equations_in_the_latex_of_programs() -> None:
     rows = (
         "\\left\\{m l \\cos (\\theta (t)) \\theta ''(t)+(m+M) x''(t)+b x'(t)-m l \\theta '(t)^2 \\sin (\\theta (t))=F,"

@@ -27,6 +27,7 @@ _OF_CODE = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=`)", re.MULTILINE)
 """What stands in front of a piece of code, which is no minus."""
 _LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
 _STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
+_BREAK = re.compile(r"(?:(?<=[\w)\]'’′″²])(?P<next>\n)(?=[ \t]*+[^\s=+*/^)−-][^\n=]*=[^=])|\n)")
 _ANY = re.compile(r"=|\bEq\w*\s*\(")
 _FRAME = re.compile("[\u2500-\u257f]")
 _TABLE = re.compile(r"^[ \t]*\|(?=\s).*\s\|[ \t]*$", re.MULTILINE)
@@ -92,4 +93,9 @@ def opened_list(text: str) -> str:
     inside = text[at + 1 : end]
     if opening == "(" and "," not in inside:
         return text
-    return blank(blank(text, end, end + 1), match.start(), at + 1).replace("\n", " ")
+    return _one_a_line(blank(blank(text, end, end + 1), match.start(), at + 1))
+
+
+def _one_a_line(text: str) -> str:
+    """The entries of a list on one line; between those that stand on a line each is a semicolon."""
+    return _BREAK.sub(lambda m: ";" if m["next"] else " ", text)

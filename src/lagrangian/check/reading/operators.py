@@ -3,6 +3,7 @@
 D(x)   D(D(x))   D2(x)   D(D(x))(t)        x'  x''  x''  x''
 D(m*D(x))                                  d/dt(m*D(x))
 where D(z) = dz/dt, D2 = d²/dt²            nothing: what the operators are
+Dt = Differential(t)                       the same in Julia
 """
 
 from __future__ import annotations
@@ -33,6 +34,10 @@ _SAID = re.compile(
     re.MULTILINE,
 )
 """A statement that says what the operators are."""
+_JULIA = re.compile(
+    r"^[ \t]*+(?P<name>[^\W\d]\w{0,7})[ \t]*+=[ \t]*+Differential\([ ]?t[ ]?\)[ \t;]*+(?:#[^\n]*+)?$", re.MULTILINE
+)
+"""The name that Julia's operator gets: Dt = Differential(t)."""
 _TWICE = re.compile(
     rf"{_D}(?:D2\([ \t]*(?P<of>{_NAME})[ \t]*\)|D\([ \t]*D\([ \t]*(?P<inner>{_NAME})[ \t]*\)[ \t]*\))(?:\(t\))?"
 )
@@ -47,6 +52,9 @@ def without_operators(written: TracedText, taken: Callable[[str], bool]) -> Trac
 
     ``taken`` says whether a name belongs to the system.
     """
+    if (named := _JULIA.search(written.text)) is not None:
+        written = written.edited([(*named.span(), "")])
+        written = written.sub(re.compile(rf"(?<![\w.]){named['name']}(?=\()"), lambda m: "D")
     if "D(" not in written.text and "D2(" not in written.text:
         return written
     bare = written.sub(_SAID, lambda m: "")

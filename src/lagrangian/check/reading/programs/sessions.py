@@ -38,7 +38,12 @@ _TYPED_LAST = re.compile(r"^[ \t]*+\.\.\.:?(?:[ \t][^\n]*+)?\n(?=[ \t]*+[^\s.])"
 """The last line of a block that is typed, behind its prompt: what a program shows stands below it."""
 _BREAK = re.compile(r"(?P<mark>['\"])(?:\\[nrt]){1,4}(?P=mark)")
 """A string that only breaks a line."""
-_MAGIC = re.compile(r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$", re.MULTILINE)
+_MAGIC = re.compile(
+    r"^[ \t]*+%(?:matplotlib|pylab|load_ext|reset|display|time|timeit|config)\b[^\n]*+$"
+    r"|^[ \t]*+@(?:variables|parameters|independent_variables|constants|syms|named|mtkbuild)\b[^\n~]*+$",
+    re.MULTILINE,
+)
+"""Commands to a notebook, and declarations in Julia: @variables x(t) s(t)."""
 _CALLED = re.compile(
     rf"(?:(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)[ \t]*+=(?!=)[ \t]*+)?"
     rf"(?P<of>(?:{_NAME}\.){{0,4}}+)(?P<name>{_NAME})(?P<open>[(\[])"
@@ -71,7 +76,7 @@ _SHOWING = frozenset(_SHOW.split())
 _WORK = (
     "solve solveset linsolve nsolve dsolve Solve NSolve DSolve NDSolve plot Plot show figure input clear syms symbols "
     "var Symbol Function dynamicsymbols Point Particle Body depends assume assuming declare kill load restart exit "
-    "quit init_vprinting init_session lambdify ode45 odeint solve_ivp coeff subs help"
+    "quit init_vprinting init_session lambdify ode45 odeint solve_ivp coeff subs help ODESystem ODEProblem"
 )
 _WORKING = frozenset(_WORK.split())
 """Functions that set something up or work on what is known already."""

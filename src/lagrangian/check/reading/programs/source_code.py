@@ -34,6 +34,9 @@ _SESSION = re.compile(r"^[ \t]*+(?:>{1,3}[ \t]|[(\[]%i\d|In[ \t]?\[\d)", re.MULT
 _MAPLE = re.compile(r"^[ \t]*+>[ \t][^\n]*+$", re.MULTILINE)
 _TYPED = re.compile(r"^[ \t]*+>[ \t]++(?P<said>[^\n#]*?;[ \t]*+(?:#[^\n]*+)?$)", re.MULTILINE)
 """A statement of Maple behind its prompt."""
+_OPENED = re.compile(rf"^(?P<prompt>[ \t]*+>[ \t]++)(?:{_NAME}[ \t]*+=[ \t]*+)?[\[{{(]", re.MULTILINE)
+_PROMPT = re.compile(r"^[ \t]*+>[ \t]++", re.MULTILINE)
+"""A prompt of Maple, and a list behind one that goes on over lines with and without prompts."""
 _ENDS = re.compile(
     rf"(?<=[^\s:]):(?=[ \t]*+(?:$|#|{_NAME}(?:\([^()\n]{{0,80}}\))?[ \t]*+=|(?:read|with|lprint|print)\b))"
 )
@@ -103,6 +106,7 @@ def without_code(
     ``session``: lines begin with prompts, so that a call of an unknown function is one of a procedure.
     """
     written = written.sub(_MAPLE, lambda m: _ENDS.sub(";", m.group())).sub(_TYPED, lambda m: m["said"])
+    written = written.edited(apart(_prompts(written.text)))
     text, edits = written.text, list[Edit]()
     edits += _loops(text)
     own = set(_procedures(text)) if session else set[str]()
@@ -119,6 +123,15 @@ def without_code(
         if not made:
             left_out(written.origins[start] if written.origins else start)
     return written.edited(kept)
+
+
+def _prompts(text: str) -> Iterator[Edit]:
+    """Nothing in the place of Maple's prompts before and in a list."""
+    for match in islice(_OPENED.finditer(text), MOST):
+        end = closes(text, match.end() - 1)
+        if end > 0:
+            yield *match.span("prompt"), ""
+            yield from ((*m.span(), "") for m in _PROMPT.finditer(text, match.end(), end))
 
 
 def told_commands(text: str, commands: Sequence[int]) -> str:

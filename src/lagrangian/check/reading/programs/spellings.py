@@ -6,7 +6,7 @@ diff(x(t), t$2)  diff(x(t), `$`(t, 2))  D(x)(t)  (D@@2)(x)(t)              diff(
 Derivative[2][x][t]  (x^\\[Prime])[t]  \\[Theta]     x''  x'  θ                            Mathematica
 D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
-m*D(D(x)) ~ F  Differential(t)(x(t))                m*x'' = F  x'                        Julia
+m*D(D(x)) ~ 1//2*F  Differential(t)(x(t))           m*x'' = (1/2)*F  x'                  Julia
 der(x) = v                                          x' = v                              Modelica
 """
 
@@ -55,7 +55,10 @@ _OVER = re.compile(rf"\bOverDot\[\s*(?P<of>{_ONE_NAME})\s*(?:,\s*(?P<two>2)\s*)?
 _SUBSCRIPT = re.compile(r"\bSubscript\[\s*(?P<of>\w+|\\\[\w+\])\s*,\s*(?P<index>\w+)\s*\]")
 _QUOTED = re.compile(r"(?<![\w)\]'’′])['%](?=[dD]iff\()")
 _TWO_LINES = re.compile(r"(?<=[^\W_])__(?=[^\W_])")
-_EQUALS = re.compile(r"^(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE)
+_EQUALS = re.compile(
+    r"^(?:[ \t]*+[^\W\d]\w{0,23}+[ \t]*+=[ \t]*+)?(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE
+)
+_RATIO = re.compile(r"(?<![\w.])(?P<above>\d{1,6})//(?P<below>\d{1,6})(?![\w.])")
 _RATE = re.compile(rf"(?<![\w\\])D(?P<two>2|[ \t]?(?:²|(?:\^|\*\*)[ \t]?2)[ \t]*)?(?P<of>(?>{_NAME}))(?!\w)")
 _SECOND_RATE = re.compile(rf"(?<![\w\\.])d2_?(?P<of>(?>{_NAME}))(?!\w|[ \t]?\(|[ \t]?/[ \t]?d)")
 """How programs spell second derivatives: d2x for x''."""
@@ -126,6 +129,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
     written = written.sub(_OPERATOR, lambda m: m.group() if taken("D") else m["of"] + ("'" if m["once"] else "''"))
+    written = written.sub(_RATIO, lambda m: f"({m['above']}/{m['below']})")
     written = written.sub(_JULIA, lambda m: m["of"] + ("''" if m["outer"] or m["two"] else "'"))
     written = written.sub(_MODELICA, lambda m: m["of"] + ("''" if m["twice"] else "'"))
     written = written.sub(_FULL_FORM, lambda m: m["of"] + "'" * int(m["order"]))
