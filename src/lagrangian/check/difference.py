@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
@@ -11,7 +12,10 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio
-from lagrangian.check.terms_alike import entries
+from lagrangian.check.terms.alike import entries
+from lagrangian.check.terms.groupings import groupings
+from lagrangian.check.terms.scales import scales
+from lagrangian.check.terms.told import Pair, pairs
 from lagrangian.check.verdict import TermDifference, TermOrigin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
@@ -69,12 +73,15 @@ def nearest(likes: Sequence[Likeness]) -> Likeness | None:
 
 
 def differences(
-    truth: Reference, form: Form, right: Form, factor: sp.Expr, index: int | None
+    truth: Reference, form: Form, right: Form, factor: sp.Expr, index: int | None, expr: sp.Expr | None = None
 ) -> tuple[TermDifference, ...]:
     """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the coordinate of the equation.
 
-    They are given in the scale of the answer, that is, times the factor.
+    They are given in the scale of the answer, that is, times the factor; as they are written in ``expr``, if that is
+    given.
     """
+    if expr is not None and (told := _in_own_terms(truth, expr, right, factor, index)) is not None:
+        return tuple(_as_written(truth, told, index))
     scale = truth.form(factor) if bounded.size(factor) <= LONGEST_FACTOR else None
     if scale is None or scale.is_zero:
         return ()
@@ -108,6 +115,28 @@ def differences(
     return tuple(found)
 
 
+def _in_own_terms(
+    truth: Reference, expr: sp.Expr, right: Form, factor: sp.Expr, index: int | None
+) -> list[Pair] | None:
+    """The differences in the terms of the answer, against the grouping of the right terms in which they are fewest."""
+    best: list[Pair] | None = None
+    for terms in groupings(truth, right, index):
+        found = pairs(truth, expr, terms, factor)
+        if found is None or len(found) < 2:
+            return found
+        best = found if best is None or len(found) < len(best) else best
+    return best
+
+
+def _as_written(truth: Reference, told: Sequence[Pair], index: int | None) -> Iterator[TermDifference]:
+    name = truth.model.coordinates[index].name if index is not None else None
+    for pair in told[:MAX_DIFFERENCES]:
+        own = truth.form(pair.unscaled)
+        origins = _origins(truth, own, index) if own is not None else ()
+        term = pair.right if pair.kind != "extra" else pair.written
+        yield TermDifference(pair.kind, term, pair.written, name, origins)
+
+
 def _in_any_form(
     truth: Reference, mine: Form, right: Form, factor: sp.Expr, index: int | None, name: str | None
 ) -> tuple[TermDifference, ...]:
@@ -137,6 +166,12 @@ def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
         return Form(form.algebra, parts, form.den)
 
     return kept(ours), kept(theirs)
+
+
+def voted(truth: Reference, expr: sp.Expr, right: Form | None, like: Likeness) -> Likeness:
+    """A likeness with the factor for which most terms of ``expr`` speak, one by one."""
+    found = scales(truth, expr, [t.expr for t in right.terms()]) if right is not None else []
+    return replace(like, factor=found[0].factor) if found and found[0].votes > 1 else like
 
 
 def _coefficients(form: Form) -> dict[tuple[object, object], Fraction]:

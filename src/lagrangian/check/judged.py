@@ -10,7 +10,7 @@ import sympy as sp
 from lagrangian.check.beside import beside
 from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
 from lagrangian.check.coordinates.tried import ProposedChange
-from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired
+from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired, voted
 from lagrangian.check.explain.after_definitions import follow_from_definitions
 from lagrangian.check.explain.after_derivatives import follow_from_derivatives
 from lagrangian.check.explain.consequences import follow_from_above
@@ -165,12 +165,13 @@ def _equations(
     found = findings_of(truth, lines, comparison)
     for j in wrong:
         line, like, form = lines[j], pairs[j], forms[j]
-        others = [_differing(truth, form, truth.forms[like.index], like)] if like is not None else []
+        like = voted(truth, line.expr, truth.forms[like.index], like) if like is not None and form is not None else like
+        others = [_differing(truth, line.expr, form, truth.forms[like.index], like)] if like is not None else []
         if j in solved and like is not None:
             accelerations = [c.acceleration for c in truth.model.coordinates]
             alone = Likeness(next(i for i, a in enumerate(accelerations) if line.expr.has(a)), sp.S.One, 1.0)
             form, right = (truth.form(x) for x in solved[j])
-            others.insert(0, _differing(truth, form, right, alone))
+            others.insert(0, _differing(truth, solved[j][0], form, right, alone))
         told = [x for x in others if x is not None]
         if not told:
             found[j] = Finding(line, Status.WRONG, note_on(truth, line.expr, right=False), follows=follow[j])
@@ -184,15 +185,15 @@ def _equations(
 
 
 def _differing(
-    truth: Reference, form: Form | None, right: Form | None, like: Likeness
+    truth: Reference, expr: sp.Expr, form: Form | None, right: Form | None, like: Likeness
 ) -> tuple[int, tuple[TermDifference, ...]] | None:
     """The right equation that one is compared with, and the terms that differ; None for one without a normal form."""
     if form is None or right is None:
         return None
-    found = differences(truth, form, right, like.factor, like.index)
+    found = differences(truth, form, right, like.factor, like.index, expr)
     accelerations = [c.acceleration for c in truth.model.coordinates]
     if like.factor in (1, -1) and any(d.kind == "sign" and d.term.has(*accelerations) for d in found):
-        other = differences(truth, form, right, -like.factor, like.index)
+        other = differences(truth, form, right, -like.factor, like.index, expr)
         if not any(d.term.has(*accelerations) for d in other):  # m y″ has a sign that everybody knows
             return like.index, other
     return like.index, found

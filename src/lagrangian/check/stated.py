@@ -136,7 +136,7 @@ def judge(
     follows = bool(stated_for) and _follows(truth, line, stated_for[0], given(truth, lines[:k]))
     follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
     mine, own = truth.form(line.expr), truth.form(right)
-    differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
+    differing = differences(truth, mine, own, sp.S.One, i, line.expr) if mine is not None and own is not None else ()
     if line.kind in ("V", "L"):  # a constant is nobody's mistake
         moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
         differing = tuple(d for d in differing if d.term.has(*moving) or d.written.has(*moving))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from lagrangian.check.sides_of_terms import on_side
+from lagrangian.check.terms.sides import on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
 from lagrangian.model import Model

@@ -18,7 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.align import agreeing
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.terms_alike import put_together
+from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model.rows import rows_of

@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
-from lagrangian.check.terms_alike import put_together
+from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model, RigidBody, Spring
 from lagrangian.page.formula import Left, Text, text

@@ -39,7 +39,7 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
     if line.kind != "equation" or len(sides) != 2:
         return "", difference
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
-    names = _names_in(difference.term)
+    names = _names_in(difference.written if difference.written != 0 else difference.term)
     here, there = (sum(_names(x) == names for x in _terms(side)) for side in sides)
     if there and not here:
         return flipped

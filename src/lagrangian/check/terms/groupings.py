@@ -1,0 +1,54 @@
+"""The ways in which the terms of a right line may be grouped: as they are displayed, or by the elements they come from.
+
+(k₁ + k₂) x₁ − k₂ x₂ is k₁ x₁ + k₂ (x₁ − x₂) by its springs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.derive.algebra import Form
+
+LONGEST = 60
+"""What an element adds is not used with more operations."""
+
+
+def groupings(truth: Reference, right: Form, index: int | None) -> Iterator[list[sp.Expr]]:
+    """The terms of a right line, whose sum is ``right``, in every grouping; ``index`` is the coordinate of a row."""
+    yield [t.expr for t in right.terms()]
+    for terms in _by_elements(truth, index):
+        form = truth.form(cast("sp.Expr", sp.Add(*terms))) if len(terms) > 1 else None
+        if form is not None and (form - right).is_zero:
+            yield [x for t in terms for x in _products(truth, t)]
+            return
+
+
+def _by_elements(truth: Reference, index: int | None) -> Iterator[Sequence[sp.Expr]]:
+    """What the elements add to an energy, or to the equation or the force of a coordinate, if all of it is short."""
+    if index is None:
+        model = truth.model
+        for of in ("potential", "kinetic", "dissipation"):
+            found = [truth.expand(x) for e in model.elements if (x := getattr(e, of)(model)) is not None and x != 0]
+            if sum(bounded.size(x) for x in found) <= LONGEST * len(found):
+                yield found
+        return
+    name = truth.model.coordinates[index].name
+    origins = truth.derivation.shares.where(truth.rows[index])
+    own = [(o.step, truth.put(o.share)) for o in origins if o.coordinate == name]
+    yield [-x if step == 6 else x for step, x in own]
+    yield [x for step, x in own if step == 6]
+
+
+def _products(truth: Reference, term: sp.Expr) -> Sequence[sp.Expr]:
+    """What an element adds as a product if it is one: k₂ a (a sin θ − y) cos θ, or its terms."""
+    form = truth.form(term)
+    short = min((term, form.expr() if form is not None else term), key=bounded.operations)
+    product = bounded.searched(sp.factor, short) if isinstance(short, sp.Add) else None
+    if product is not None and bounded.operations(product) < bounded.operations(short):
+        return [cast("sp.Expr", product)]
+    return cast("Sequence[sp.Expr]", sp.Add.make_args(short))

@@ -1,0 +1,97 @@
+"""Terms that differ are told as they were written, against the right ones, in the scale of what was written.
+
+Oracle: equations by hand of a cylinder in a turning drum, of a sleeve on a tilted arm, and of three masses.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+DRUM = "J psi'' + m R (R psi'' - (R - r) phi'')/2 + b psi' = M"
+
+
+@cache
+def drum() -> lg.Derivation:
+    """A cylinder rolls in a drum that turns."""
+    s = lg.System("drum")
+    psi, phi = s.coordinates("psi phi")
+    J, R, r, m, b, g = s.parameters("J R r m b g")
+    s.kinetic(J * psi.diff() ** 2 / 2)
+    s.kinetic(m * (R - r) ** 2 * phi.diff() ** 2 / 2 + m * (R * psi.diff() - (R - r) * phi.diff()) ** 2 / 4)
+    s.potential(-m * g * (R - r) * sp.cos(phi))
+    s.damper(b, deflection=psi)
+    s.torque(s.input("M"), on=psi)
+    return s.derive()
+
+
+@cache
+def sleeve() -> lg.Derivation:
+    """A sleeve on a tilted arm that turns, and a mass that hangs on it by a spring."""
+    s = lg.System("sleeve")
+    psi, x, y = s.coordinates("psi x y")
+    J, m, n, e, a, k, c, b = s.parameters("J m n e alpha k c b")
+    radius = e + x * sp.cos(a)
+    s.kinetic(J * psi.diff() ** 2 / 2 + m * (x.diff() ** 2 + radius**2 * psi.diff() ** 2) / 2 + n * y.diff() ** 2 / 2)
+    s.spring(k, deflection=x, name="inner")
+    s.spring(c, deflection=y - x, name="outer")
+    s.damper(b, deflection=y - x, name="between")
+    s.torque(s.input("tau"), on=psi)
+    return s.derive()
+
+
+def told(derivation: lg.Derivation, answer: str) -> list[str]:
+    """The entries of the list, each without its origin."""
+    verdict = derivation.check(answer)
+    assert not verdict.right
+    _, _, found = " ".join(verdict.to_text().split()).partition("Term by term ")
+    return [x.split(". ")[0].rstrip(".") for x in found.lstrip("─ ").split("line ")[1:]]
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ("3 (R - r) phi''/2 - R psi''/2 + g sin(phi)/2 = 0", "½ g sin φ should be g sin φ"),
+        ("(R - r) phi'' - (R psi'' - (R - r) phi'')/2 + m g sin(phi) = 0", "m g sin φ should be g sin φ"),
+        ("3 m (R - r) phi''/2 - R psi''/2 + m g sin(phi) = 0", "−½ R ψ̈ should be −½ m R ψ̈"),
+        ("3 m R^2 phi''/2 - m R (R - r) psi''/2 + m g (R - r) sin(phi) = 0", "should be (3/2) m (R − r)² φ̈"),
+    ],
+)
+def test_the_scale_is_the_one_in_which_most_terms_are_right(row: str, said: str) -> None:
+    (found,) = told(drum(), f"{DRUM}\n{row}")
+    assert found.startswith("2: ") and said in found
+
+
+ARM = "(J + m (e + x cos(alpha))^2) psi'' + 2 m (e + x cos(alpha)) cos(alpha) psi' x' = tau"
+SLIDE = "m x'' - m (e + x cos(alpha)) cos(alpha) psi'^2 + k x - c (y - x) - b (y' - x') = 0"
+LOAD = "n y'' + c (y - x) + b (y' - x') = 0"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        (" cos(alpha) psi'^2", " psi'^2", ["2: −m (e + x cos α) ψ̇² should be −m (e + x cos α) ψ̇² cos α"]),
+        ("2 m (e + x cos(alpha)) cos(alpha) psi' x'", "0", ["1: the term 2 m (e + x cos α) ψ̇ ẋ cos α is missing"]),
+        ("- c (y - x) - b", "+ c (y - x) - b", ["2: c (y − x) has the wrong sign"]),
+        ("- c (y - x) - b", "+ c x - b", ["2: the term −c y is missing"]),
+        (
+            "k x - c (y - x) - b (y' - x')",
+            "k x",
+            ["2: the term c (x − y) is missing", "2: the term b (ẋ − ẏ) is missing"],
+        ),
+        ("c (y - x) + b (y' - x') = 0", "c (y - x) + b y = 0", ["3: b y should be −b (ẋ − ẏ)"]),
+    ],
+)
+def test_terms_are_those_that_were_written(right: str, wrong: str, said: list[str]) -> None:
+    answer = f"{ARM}\n{SLIDE}\n{LOAD}"
+    assert right in answer
+    assert sorted(told(sleeve(), answer.replace(right, wrong))) == sorted(said)
+
+
+def test_a_square_is_told_as_another_square() -> None:
+    energy = "T = J psi'^2/2 + m (R - r)^2 phi'^2/2 + m (R psi' - r phi')^2/4"
+    assert told(drum(), energy) == ["1 (T*): ¼ m (R ψ̇ − r φ̇)² should be ¼ m (R ψ̇ − (R − r) φ̇)²"]
