@@ -78,3 +78,11 @@ def test_what_a_product_with_a_sine_amounts_to_stands_in_a_list_of_values() -> N
     verdict = rolling().check(f"{rows}\n{listed}")
     assert verdict.right and "Right if" not in verdict.to_text()
     assert "α = 0.7" in rolling().check(f"{rows}\n{listed.replace('30°', '0.7')}").to_text()
+
+
+def test_the_whole_expression_in_front_of_a_listed_value_has_it() -> None:
+    values = "(M + m) g l = 3.5316       m g l = 0.5886, 2 M + m = 2.2 and l = 0.3 m g = 9.81 m/s^2 M = 1 kg"
+    values = f"{values}\nM = 1 kg  m l^2 = 0.018 kg m^2  m g = 1.962 N"
+    assert right(f"{values}\n{CART}\n{POLE}")
+    for number in ("3.53", "0.588", "2.2 and", "0.018", "1.96"):
+        assert not right(f"{values.replace(number, '4' + number[1:])}\n{CART}\n{POLE}")

@@ -8,7 +8,7 @@ replaces, so that all places stay the same.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import isclose, pi
 
@@ -17,11 +17,15 @@ from lagrangian.quantities.units import joined, lookup
 
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*+"
 _VALUE = re.compile(
-    rf"(?<![\w.])(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
+    rf"(?<![\w.])(?P<name>{_NAME})(?:\^\d|[²³])?+[ \t]*+=[ \t]*+(?P<number>\d++(?:[.,]\d++)?+(?:[eE][-+]?\d++)?+)"
     r"(?![ \t]*[*·×⋅^+'′″\[=−-]|[ \t]*\((?!\w{1,6}\)))"
-    r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:[ \t]?[/·* ]?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
+    r"(?P<unit>[ \t]*+°|[ \t]*+[^\W\d_]++(?:(?:[ \t]|[ ]?[/·*][ ]?)?[^\W_]++){0,4}(?![\w²³]*[ \t]*=))?"
 )
-_FACTOR = re.compile(rf"(?<![\w.])(?P<name>{_NAME})(?:\^\d|[²³])?[ \t]*[*·]?[ \t]*\Z")
+_FACTOR = re.compile(
+    rf"(?:(?<![\w.])(?P<name>{_NAME})|(?<![\w.,^])\d{{1,6}}|\((?P<sum>[\w \t+*/·−-]{{1,40}})\))(?:\^\d|[²³])?"
+    r"(?:[ ]?[*·/+−-])?[ ]?\Z"
+)
+"""A factor or a term in front of a name: a name, a number or a sum in brackets."""
 _PART = re.compile(r"(?P<by>[/·* ]*)(?P<unit>[^\W\d_]+)(?P<power>\d?)")
 
 _RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
@@ -62,11 +66,11 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
             continue
         if _moves(_VALUE.sub(lambda m: f" {m['unit'] or ''}", line)):
             continue  # an equation without "=" stands beside the values, and is not to be passed over
-        kept = list(" " * len(line))
-        for match in found:
-            read = not _same(match, values(match["name"])) and _factor(match["unit"] or "") is not None
-            end = match.end() if read else match.end("number")
-            start = _start(line, match, values)
+        kept, starts = list(" " * len(line)), _starts(line, found, values)
+        for match, start, below in zip(found, starts, [*starts[1:], len(line)], strict=True):
+            unit = match["unit"] or "" if match.end() <= below else ""
+            read = not _same(match, values(match["name"])) and _factor(unit) is not None
+            end = match.end() if read and unit else match.end("number")
             kept[start:end] = line[start:end].replace(",", ".")
             if end < len(line):
                 kept[end] = ";"
@@ -75,14 +79,20 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
     return "\n".join(lines)
 
 
-def _start(line: str, match: re.Match[str], values: Callable[[str], float | None]) -> int:
-    """Where the product begins whose value is given: n K = 2, g sin α = 4.905."""
-    start = match.start()
-    while (factor := _FACTOR.search(line, max(0, start - 60), start)) is not None:
-        if values(factor["name"]) is None and function_of(factor["name"]) is None:
-            break
-        start = factor.start()
-    return start
+def _starts(line: str, found: Sequence[re.Match[str]], values: Callable[[str], float | None]) -> list[int]:
+    """Where the expressions begin whose values are given: n K = 2, (M + m) g = 20; a unit in front is no part of it."""
+    starts, least = list[int](), 0
+    for match in found:
+        start = match.start()
+        while (factor := _FACTOR.search(line, max(least, start - 60), start)) is not None:
+            named = re.findall(_NAME, factor["name"] or factor["sum"] or "")
+            if any(values(x) is None and function_of(x) is None for x in named):
+                break
+            start = factor.start()
+        starts.append(start)
+        apart = (match["unit"] or "")[:2].isspace() or _factor(match["unit"] or "") is None
+        least = match.end("number") if apart else match.end()
+    return starts
 
 
 def _moves(words: str) -> bool:
