@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
 
 
 @cache
@@ -243,3 +244,24 @@ def test_what_stands_before_a_stated_force_is_no_minus() -> None:
     text = "- Q_phi = tau - d*phi'\n- Q_s = -b*s'\n\nT = 1/2*J*phi'^2 + 1/2*m*((s' - h*phi')^2 + s^2*phi'^2)"
     assert [str(f.status) for f in table().check(text).findings] == ["right"] * 3
     assert [str(f.status) for f in table().check(text.replace("-b*s'", "b*s'")).findings][1] == "wrong"
+
+
+CARTS = """\
+X2 = x1 + x2
+T = 1/2*m1*x1'^2 + 1/2*m2*X2'^2
+V = 1/2*k*(X2 - x1)^2
+∂L/∂x1 = k*(X2 - x1), ∂L/∂X2 = -k*(X2 - x1)
+∂L/∂X2' = m2*X2'
+Q_x1 = -F, Q_X2 = F
+m1*x1'' - k*(X2 - x1) = -F
+m2*X2'' + k*(X2 - x1) = F
+"""
+
+
+@pytest.mark.parametrize("without", ["X2 = x1 + x2\n", "T = 1/2*m1*x1'^2 + 1/2*m2*X2'^2\nV = 1/2*k*(X2 - x1)^2\n", " "])
+def test_a_definition_of_the_system_takes_the_place_of_a_coordinate(without: str) -> None:
+    """Ξ_x1 is 0 with the relative x2, and −F with the absolute X2."""
+    text, judge = CARTS.replace(without, ""), derivation("two-carts")
+    assert judge.check(text).right
+    for now, wrong in (("Q_x1 = -F", "Q_x1 = 0"), ("Q_X2 = F", "Q_X2 = -F"), ("∂L/∂X2 = -k", "∂L/∂X2 = k")):
+        assert now in text and not judge.check(text.replace(now, wrong)).right

@@ -46,7 +46,8 @@ def chart(truth: Reference, lines: tuple[AnsweredLine, ...]) -> OwnCoordinates |
 def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[AnsweredLine], tuple[Any, ...]]:
     """The definitions of the coordinates of an answer's own, and the coordinates of the system that it does not use.
 
-    It uses those that its equations of motion name, and those for which it states a quantity.
+    It uses those that its equations of motion name, and those for which it states a quantity; a definition may be one
+    of the system.
     """
     coordinates = truth.model.coordinates
     moving = [x for x in lines if x.kind == "equation" and _has_any(x, [c.acceleration for c in coordinates])]
@@ -55,7 +56,9 @@ def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[Answ
     used |= {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not is_numbered(x)}
     used |= {key(found[1]) for line in lines if (found := _stated(line)) is not None}
     own = {key(c.name) for c in coordinates}
-    said = {key(str(x.name)): x for x in lines if x.kind == "definition" and _is_place(truth, x)}
+    of_system = (AnsweredLine("definition", truth.expand(d.symbol), 0, d.name) for d in truth.model.definitions)
+    defined = (x for x in (*of_system, *lines) if x.kind == "definition" and _is_place(truth, x))
+    said = {key(str(x.name)): x for x in defined}
     stated = [x for name, x in said.items() if name in used and name not in own]
     return stated, tuple(c.symbol for c in coordinates if key(c.name) not in used)
 

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 import sympy as sp
 from lark import Token, Tree
@@ -273,13 +273,13 @@ class Names:
         for written in self.differentiated:
             stems = [written, *(stem for _, stem in spelled_rates(written))]
             known = next((names[0] for x in stems if (names := self.scope.meanings(x)[0])), None)
-            if known is not None:
-                kept.add(cast("sp.Expr", self.scope[known]))
-                continue
-            base = key(undotted(written)[0])
-            if base not in self.own:
+            base = key(known or undotted(written)[0])
+            if known is None and base not in self.own:
                 self.later(base)
-            _, value = self.own.get(base, ("", sp.S.Zero))
+            value = self.own.get(base, ("", sp.S.Zero))[1] if known is None else self.model.expand(self.scope[known])
+            if known is not None and value == self.scope[known]:
+                kept.add(value)
+                continue
             if not isinstance(value, sp.Expr) or not value.has(AppliedUndef):
                 return None
             meanings[base] = value

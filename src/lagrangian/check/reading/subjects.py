@@ -300,6 +300,7 @@ class Subjects:
             return None
         token, primes = found
         coordinates, chart = {c.name for c in self.model.coordinates}, self.names.coordinates()
+        coordinates |= {d.name for d in self.model.definitions if chart is not None and key(d.name) in chart.columns}
         spellings = [*spelled_rates(token), (0, str(token))]
         for order, stem in spellings[-1:] if self.names.scope.meanings(token)[0] else spellings:  # xd is no new name
             base, dotted = undotted(stem)
