@@ -263,5 +263,5 @@ def test_a_definition_of_the_system_takes_the_place_of_a_coordinate(without: str
     """Ξ_x1 is 0 with the relative x2, and −F with the absolute X2."""
     text, judge = CARTS.replace(without, ""), derivation("two-carts")
     assert judge.check(text).right
-    for now, wrong in (("Q_x1 = -F", "Q_x1 = 0"), ("Q_X2 = F", "Q_X2 = -F"), ("∂L/∂X2 = -k", "∂L/∂X2 = k")):
+    for now, wrong in (("Q_x1 = -F", "Q_x1 = F"), ("Q_X2 = F", "Q_X2 = -F"), ("∂L/∂X2 = -k", "∂L/∂X2 = k")):
         assert now in text and not judge.check(text.replace(now, wrong)).right
