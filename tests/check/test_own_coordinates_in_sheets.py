@@ -258,7 +258,7 @@ m2*X2'' + k*(X2 - x1) = F
 """
 
 
-@pytest.mark.parametrize("without", ["X2 = x1 + x2\n", "T = 1/2*m1*x1'^2 + 1/2*m2*X2'^2\nV = 1/2*k*(X2 - x1)^2\n", " "])
+@pytest.mark.parametrize("without", ["X2 = x1 + x2\n", "T = 1/2*m1*x1'^2 + 1/2*m2*X2'^2\nV = 1/2*k*(X2 - x1)^2\n", ""])
 def test_a_definition_of_the_system_takes_the_place_of_a_coordinate(without: str) -> None:
     """Ξ_x1 is 0 with the relative x2, and −F with the absolute X2."""
     text, judge = CARTS.replace(without, ""), derivation("two-carts")
