@@ -42,6 +42,8 @@ ANSWERS = {
     "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
     "letters in words": "x1'' = 0\n" + "c statt k, " * (N // 11),
     "words of one letter": "x1'' = 0\n" + "c for a " * (N // 8),
+    "rows of tables": "| a | b |\n|---|---|\n" + "| x1 | x2r |\n" * (N // 12),
+    "strokes": "|" * N,
     "names with stars": "m* = 1\n" + "m* " * (N // 3),
     "stars behind indices": "m_a" * (N // 3) + "^*",
     "bullets": "- a\n" * (N // 4),

@@ -40,6 +40,7 @@ from lagrangian.check.reading.said.stands_for import (
     with_variations,
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
+from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
@@ -76,7 +77,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         ),
         names.notes,
     )
-    shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(typed_in))))
+    listed = with_tables(typed_in, names.changes, taken)
+    shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)

@@ -1,0 +1,175 @@
+r"""Reads tables of Markdown in which no cell states anything by itself: what stands in front and above says of what.
+
+| T | ½ m ẋ² |                                T = ½ m ẋ²          a quantity and its value; so Q_x, ∂L/∂ẋ, d/dt
+| q | ∂L/∂q̇ | d/dt | Q |   | x | m ẋ | m ẍ | F |     ∂L/∂x' = m ẋ   d/dt(∂L/∂x') = m ẍ   Q_x = F
+| | x | y |   | ∂L/∂q̇ | m ẋ | m ẏ |                 ∂L/∂x' = m ẋ   ∂L/∂y' = m ẏ
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+
+from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.records import dataclass
+
+MOST, LONGEST = 40, 4_000
+"""The most tables and lines of one, and the most characters of a line."""
+
+_TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]*\|[ \t]*+(?:\n|\Z))+", re.MULTILINE)
+_RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|)+[ \t]*")
+_NOTHING = frozenset(["", "-", "–", "—", "−", "/", "none", "keine"])
+_ENERGIES = {
+    "T": ("T", "T*", "T^*", "kinetic", "kinetic energy", "Ekin", "E_kin", "kinetisch", "kinetische Energie"),
+    "V": ("V", "U", "potential", "potential energy", "Epot", "E_pot", "potentiell", "potentielle Energie"),
+    "D": ("dissipation", "Rayleigh", "Dissipation"),
+}
+_KINDS = {word: kind for kind, words in _ENERGIES.items() for word in words}
+_DOT = r"(?P<dot>\\dot\b[ ]?)?"
+_SLOPE = re.compile(
+    r"(?P<rate>(?:d[ ]?/[ ]?dt|\\[dt]?frac\{d\}\{dt\})[ ]?[(\[]?)?"
+    r"(?:\\[dt]?frac\{)?(?:∂|d|\\partial)[ ]?"
+    r"(?P<of>[TVLDℒ]|\\mathcal\{?L\}?|\\Xi)[ ]?(?:/|\}\{)[ ]?(?:∂|d|\\partial)[ ]?"
+    rf"{_DOT}\{{?(?P<by>[^\W\d_](?:_?\w{{1,8}})?(?:[\u0307\u0308])?)\}}?(?P<prime>['’′])?\}}?[)\]]?"
+)
+_BY_TIME = re.compile(r"(?:d[ ]?/[ ]?dt|\\[dt]?frac\{d\}\{dt\})(?:[ ]?[(\[][.…\s]{0,4}[)\]])?")
+_FORCE = re.compile(r"(?:Q|Ξ|\\Xi)(?:_\{?(?:q|nc|i|k|\\xi|ξ)\}?)?(?:\^\{?nc\}?)?")
+_OF_ONE = re.compile(r"(?:Q|Ξ|\\Xi)_?\{?\\?[^\W_]{1,8}\}?")
+_GENERAL = re.compile(r"(?:q|ξ|\\xi)(?:_?[ik])?|x_?[ik]")
+_WORD = re.compile(r"(?<![\w\\])[A-Za-z][a-z]{2,}(?![\w'’′(])")
+
+
+@dataclass(frozen=True)
+class _Quantity:
+    """What a cell of a table stands for: a derivative of ``of`` by a coordinate or its ``rate``, a generalized force,
+    or the derivative by time of what stands beside it."""
+
+    kind: str
+    of: str = ""
+    rate: bool = False
+
+
+def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which such tables are statements, each on the line of its cell.
+
+    ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system.
+    """
+    edits: list[Edit] = []
+    for match in islice(_TABLE.finditer(written.text), MOST):
+        lines = match.group().rstrip("\n").split("\n")
+        if not 2 < len(lines) <= MOST or _RULE.fullmatch(lines[1]) is None or max(map(len, lines)) > LONGEST:
+            continue
+        cells = [[_bare(x) for x in line.strip()[1:-1].split("|")] for line in lines]
+        made = _made([cells[0], *cells[2:]], moves, taken)
+        if made is None or "=" in match.group():
+            continue
+        at = match.start()
+        for k, line in enumerate(lines):
+            said = [] if k == 1 else made[max(0, k - 1)]
+            if said or k < 2:
+                edits.append((at, at + len(line), "\n".join(said)))
+            at += len(line) + 1
+    return written.edited(edits)
+
+
+def _made(
+    rows: Sequence[Sequence[str]], moves: Callable[[str], bool], taken: Callable[[str], bool]
+) -> list[list[str]] | None:
+    """The statements of each row, the head first; None for a table of another kind."""
+    width = len(rows[0])
+    if width < 2 or any(len(row) != width for row in rows):
+        return None
+    if width == 2:
+        named = [[_stated(row[0], row[1], taken)] for row in rows]
+        return [[x for x in said if x] for said in named] if sum(bool(x[0]) for x in named) > 1 else None
+    head, body = rows[0], rows[1:]
+    if all(moves(_name(x)) for x in head[1:]):
+        rows_of = ((_quantity(row[0]), row[1:], _quantity(body[k - 1][0]) if k else None) for k, row in enumerate(body))
+        said = [[*_listed([kind] * (width - 1), head[1:], values, above)] for kind, values, above in rows_of]
+        return [[], *said] if any(said) else None
+    if all(moves(_name(row[0])) for row in body):
+        kinds = [_quantity(x) for x in head[1:]]
+        said = [[*_listed(kinds, [row[0]] * (width - 1), row[1:], None)] for row in body]
+        return [[], *said] if any(said) else None
+    return None
+
+
+def _listed(
+    kinds: Sequence[_Quantity | None], names: Sequence[str], values: Sequence[str], above: _Quantity | None
+) -> Iterator[str]:
+    """The statements of the cells of a row."""
+    last = above
+    for kind, name, value in zip(kinds, names, values, strict=True):
+        if kind is not None and kind.kind != "time":
+            last = kind
+        if kind is None or value in _NOTHING or (kind.kind == "time" and (last is None or not last.rate)):
+            continue
+        meant = last if kind.kind == "time" and last is not None else kind
+        latex = "\\" in "".join((*values, name))
+        left = _left(meant, _name(name) if not latex else name, latex=latex, by_time=kind.kind in ("time", "p-rate"))
+        yield _statement(left, value, latex=latex)
+
+
+def _left(kind: _Quantity, name: str, *, latex: bool, by_time: bool) -> str:
+    """How a quantity of a coordinate is written."""
+    if kind.kind == "force":
+        return f"Q_{{{name}}}" if latex else f"Q_{name}"
+    if not latex:
+        made = f"∂{kind.of}/∂{name}{chr(39) if kind.rate else ''}"
+        return f"d/dt({made})" if by_time else made
+    by = rf"\dot{{{name}}}" if kind.rate else name
+    return rf"{chr(92)}frac{{d}}{{dt}} " * by_time + rf"\frac{{\partial {kind.of}}}{{\partial {by}}}"
+
+
+def _quantity(cell: str) -> _Quantity | None:
+    """What a cell in front or above stands for, in general: ∂L/∂q̇, d/dt, Q."""
+    if _BY_TIME.fullmatch(cell):
+        return _Quantity("time")
+    if _FORCE.fullmatch(cell):
+        return _Quantity("force")
+    match = _SLOPE.fullmatch(cell)
+    if match is None:
+        return None
+    by = match["by"]
+    dotted = by.endswith("\u0307") or by == "q̇"
+    if not _GENERAL.fullmatch(by.rstrip("\u0307")):
+        return None
+    of = "L" if match["of"] in ("ℒ",) or "cal" in match["of"] else match["of"]
+    rate = bool(match["dot"] or match["prime"] or dotted)
+    return _Quantity("p-rate" if match["rate"] else "slope", of, rate)
+
+
+def _stated(cell: str, value: str, taken: Callable[[str], bool]) -> str | None:
+    """The statement of a row of two cells: an energy, a force or a derivative, and its value."""
+    cell = re.sub(r"[ ]?\([^()]{1,40}\)\Z", "", cell) if cell[:1] in _KINDS else cell
+    energy = _KINDS.get(cell) if not taken(cell.rstrip("*^")) else None
+    named = energy is not None or cell in ("L", "ℒ", "D", "\\mathcal{L}") or _OF_ONE.fullmatch(cell)
+    named = named or _SLOPE.fullmatch(cell) or _BY_TIME.fullmatch(cell)
+    if not named or not _is_formula(value, taken):
+        return None
+    return _statement(energy or cell, value, latex="\\" in value + cell)
+
+
+def _is_formula(cell: str, taken: Callable[[str], bool]) -> bool:
+    """Whether a cell holds a formula and no words."""
+    bare = re.sub(r"\\[A-Za-z]+", " ", cell)
+    words = [x for x in _WORD.findall(bare) if function_of(x) is None and not taken(x)]
+    return not re.search(r"[=,:;]", cell) and len(words) < 2 and re.search(r"\w", cell) is not None
+
+
+def _statement(left: str, value: str, *, latex: bool) -> str:
+    """A statement, as mathematics of LaTeX where that is used."""
+    return f"${left} = {value}$" if latex else f"{left} = {value}"
+
+
+def _bare(cell: str) -> str:
+    """A cell without the marks around it."""
+    bare = cell.strip().strip("*`").strip()
+    marked = bare.startswith("$") and bare.endswith("$") and bare.count("$") == 2
+    return bare.strip("$").strip() if marked else bare
+
+
+def _name(cell: str) -> str:
+    return cell.lstrip("\\").removeprefix("var")

@@ -1,0 +1,49 @@
+"""Tables of Markdown whose cells hold values alone are read: what stands in front and above says of what.
+
+Oracle: the energies, derivatives and forces of the cart with a pole. Every table has a wrong twin.
+"""
+
+import pytest
+
+from student_answers import CART, POLE, right
+
+ENERGIES = """\
+| what | value |
+|---|---|
+| T | `1/2 (M + m) x'^2 + m l x' theta' cos theta + 1/2 (J + m l^2) theta'^2` |
+| V | m g l cos theta |
+| Q_x | F - b x' |
+| Q_theta | 0 |
+"""
+BY_COORDINATE = """\
+| q | ∂T/∂q̇ | d/dt | ∂V/∂q | Q |
+|:--|---|---|---|--:|
+| x | (M + m) ẋ + m l θ̇ cos θ | (M + m) ẍ + m l θ̈ cos θ - m l θ̇² sin θ | – | F - b ẋ |
+| θ | (J + m l²) θ̇ + m l ẋ cos θ | (J + m l²) θ̈ + m l ẍ cos θ - m l ẋ θ̇ sin θ | -m g l sin θ | 0 |
+"""
+BY_QUANTITY = r"""
+| | $x$ | $\theta$ |
+|---|---|---|
+| $\partial T/\partial\dot q$ | $(M+m)\dot x+ml\dot\theta\cos\theta$ | $(J+ml^2)\dot\theta+ml\dot x\cos\theta$ |
+| $\partial V/\partial q$ | 0 | $-mgl\sin\theta$ |
+| $Q_q$ | $F - b\dot x$ | 0 |
+"""
+
+
+@pytest.mark.parametrize(
+    ("table", "was", "now"),
+    [
+        (ENERGIES, "1/2 (J", "1/3 (J"),
+        (ENERGIES, "F - b", "F + b"),
+        (BY_COORDINATE, "- m l θ̇²", "+ m l θ̇²"),
+        (BY_COORDINATE, "F - b", "F + b"),
+        (BY_QUANTITY, "-mgl", "mgl"),
+        (BY_QUANTITY, "F - b", "F + b"),
+    ],
+)
+def test_the_cells_of_a_table_are_judged(table: str, was: str, now: str) -> None:
+    energies = "T = 1/2 (M + m) x'^2 + m l x' theta' cos theta + 1/2 (J + m l^2) theta'^2\nV = m g l cos theta\n"
+    sheet = f"{'' if table is ENERGIES else energies}\n{table}\n{CART}\n{POLE}"
+    assert was in table
+    assert right(sheet)
+    assert not right(sheet.replace(table, table.replace(was, now)))
