@@ -165,6 +165,13 @@ def test_the_principle_of_virtual_work_alone_is_no_answer() -> None:
     assert lg.loads(RING).derive().check(f"{virtual}\ny*x'' - x*(y'' + g) = 0").right
 
 
+def test_a_virtual_work_whose_zero_stands_on_the_line_below() -> None:
+    work = "dW = (F - b x' - (M + m) x'') dx - m l x'' cos theta dtheta\n"
+    work += "   - m l (theta'' cos theta - theta'^2 sin theta) dx - ((J + m l^2) theta'' - m g l sin theta) dtheta = 0"
+    assert right(f"{work}\n{CART}\n{POLE}")
+    assert not right(f"{work.replace('b x', '2 b x')}\n{CART}\n{POLE}")
+
+
 def test_drawn_equations_without_a_blank_line_between_them_are_apart() -> None:
     first = [
         "           2",

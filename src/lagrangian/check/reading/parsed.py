@@ -13,7 +13,8 @@ from lagrangian.check.reading.latex.macros import ExpandedLatex
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.parser import Parser
-from lagrangian.check.reading.plain.rows import AnswerRow, missing_brackets
+from lagrangian.check.reading.plain.ends import missing_brackets
+from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.plain.spans import statements
 from lagrangian.check.reading.plain.tokens import with_points
 from lagrangian.check.reading.prose.marks import readings

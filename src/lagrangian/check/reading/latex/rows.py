@@ -9,7 +9,8 @@ from itertools import pairwise
 from lagrangian.check.reading.latex.layout import closing, without_braces, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
-from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, incomplete, plain_words
+from lagrangian.check.reading.plain.ends import incomplete
+from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_words
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _DISPLAYS = [

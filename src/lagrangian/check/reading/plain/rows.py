@@ -19,6 +19,7 @@ from lagrangian.check.reading.labels import (
 )
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.plain.ends import OPEN_END, incomplete, missing_brackets, open_brackets
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.headings import without_headings
@@ -61,15 +62,15 @@ LONGEST_LABEL = 140
 LONGEST_FORMULA = 400
 """The most characters of a formula with a word behind it that says what a name in it means."""
 
-_CLOSED = {"(": ")", "[": "]"}
 _LISTING = {"{": "}", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
-_OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
-_STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!=*>))")
 _LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–](?![-−–]{0,9}>)")
+_WORK_START = re.compile(r"\s*(?:[dδ]|delta)[ \t]?[WA]\w{0,8}[ \t]*=[^=]*")
+"""A virtual work, a sum whose = 0 may stand below."""
+_WORK_END = re.compile(r"[ \t]+[-−–][^=]*=\s*0\s*+[.;,]?\s*")
 _STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
 _DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
 _LEFT_OUT = re.compile(r"=\s*(?:\.\.\.|…)\s*\Z")
@@ -166,7 +167,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
 def _ended(head: str, line: str, numbers: Numbering) -> str:
     """A line, which goes on from ``head``, without what stands behind it; the comma in a list that goes on is kept."""
     bare, text = behind(line, numbers), line.rstrip()
-    return f"{bare[: len(text) - 1]}," if text[-1:] == "," and _open_brackets(head + bare) > 0 else bare
+    return f"{bare[: len(text) - 1]}," if text[-1:] == "," and open_brackets(head + bare) > 0 else bare
 
 
 def _whole_lists(text: str) -> Iterator[str]:
@@ -290,7 +291,7 @@ def _remark(part: str) -> bool:
 def _continues(above: str, line: str) -> bool:
     if _ends_open(above, line) or (_LEFT_OUT.search(above) and "=" in line and not _OPEN_START.match(line)):
         return False
-    if incomplete(above) or _goes_on(above, line):
+    if incomplete(above) or _goes_on(above, line) or (_WORK_START.fullmatch(above) and _WORK_END.fullmatch(line)):
         return True
     if not _MINUS_START.match(line) or (not line[:1].isspace() and "=" in above and _begins(above, line)):
         return False
@@ -325,30 +326,9 @@ def _begins(above: str, line: str) -> bool:
 
 def _ends_open(above: str, line: str) -> bool:
     """Whether an equation only lacks a bracket at its end, because the next line is another equation."""
-    if "=" not in above or "=" not in line or _OPEN_END.search(above) or _OPEN_START.match(line):
+    if "=" not in above or "=" not in line or OPEN_END.search(above) or _OPEN_START.match(line):
         return False
     return len(missing_brackets(above)) == 1 and not missing_brackets(line)
-
-
-def missing_brackets(text: str) -> str:
-    """The brackets that are missing at the end of a statement, or "?" for one that is closed wrongly or nowhere on its
-    side."""
-    stack: list[str] = []
-    for c in text:
-        if c in _CLOSED:
-            stack.append(_CLOSED[c])
-        elif (c in ")]" and (not stack or stack.pop() != c)) or (c == "=" and stack):
-            return "?"
-    return "".join(reversed(stack))
-
-
-def incomplete(text: str) -> bool:
-    """Whether the statement must continue: it ends with an operator, or a bracket is open."""
-    return bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or _open_brackets(text) > 0
-
-
-def _open_brackets(text: str) -> int:
-    return sum(map(text.count, "([")) - sum(map(text.count, ")]"))
 
 
 def without_sums(row: AnswerRow, names: Names) -> AnswerRow:

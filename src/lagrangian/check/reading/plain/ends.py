@@ -1,0 +1,33 @@
+"""Whether a statement in plain text ends where its line does: brackets that are open, an operator at the end."""
+
+from __future__ import annotations
+
+import re
+
+OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
+"""The end of a line that must go on."""
+
+_CLOSED = {"(": ")", "[": "]"}
+_STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
+
+
+def missing_brackets(text: str) -> str:
+    """The brackets that are missing at the end of a statement, or "?" for one that is closed wrongly or nowhere on its
+    side."""
+    stack: list[str] = []
+    for c in text:
+        if c in _CLOSED:
+            stack.append(_CLOSED[c])
+        elif (c in ")]" and (not stack or stack.pop() != c)) or (c == "=" and stack):
+            return "?"
+    return "".join(reversed(stack))
+
+
+def incomplete(text: str) -> bool:
+    """Whether the statement must continue: it ends with an operator, or a bracket is open."""
+    return bool(OPEN_END.search(text) and not _STAR_END.search(text)) or open_brackets(text) > 0
+
+
+def open_brackets(text: str) -> int:
+    """How many more brackets a text opens than it closes."""
+    return sum(map(text.count, "([")) - sum(map(text.count, ")]"))
