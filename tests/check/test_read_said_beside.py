@@ -227,6 +227,19 @@ def test_a_bracket_that_begins_with_a_product_is_no_remark_though_it_spells_a_wo
     assert not right(rows.replace("(by'", "(2 by'"), "planar-quadrotor")
 
 
+@pytest.mark.parametrize(
+    "letters",
+    [
+        "Solution (my own letters: A = J + m l² for pole + tip, s = M + m)",
+        "With A = J + m l² for pole & tip and s = M + m:",
+        "A = J + m l² (pole + tip), s = M + m",
+    ],
+)
+def test_words_may_be_joined_by_signs(letters: str) -> None:
+    rows = f"\n{CART.replace('(M + m)', 's')}\n{POLE.replace('(J + m l^2)', 'A')}"
+    assert right(letters + rows) and not right(letters.replace("m l²", "m l") + rows)
+
+
 def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus() -> None:
     bold = f"**{CART.replace('m l theta', 'm*l*theta')}**\n**{POLE.replace('m g l', 'm*g*l')}**"
     assert right(bold) and not right(bold.replace("m*g*l", "2*m*g*l"))

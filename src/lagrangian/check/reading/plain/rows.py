@@ -23,6 +23,7 @@ from lagrangian.check.reading.plain.ends import OPEN_END, incomplete, missing_br
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.headings import without_headings
+from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
 from lagrangian.check.reading.prose.sketches import without_sketches
 from lagrangian.check.reading.prose.words import Words
@@ -78,7 +79,6 @@ _LEFT_OUT = re.compile(r"=\s*(?:\.\.\.|…)\s*\Z")
 _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
-
 _SUM_ALONE = re.compile(
     r"\s*[↑→↓←↻↺⟲⟳⤵]?\s*(?:∑|Σ|\\sum(?![A-Za-z]))[\s_{}\\]*[^\W\d]?[\w{}\\]{0,16}(?:\^[\w{}]{1,4}|\(\w{1,4}\))?\s*"
 )
@@ -120,7 +120,7 @@ _BETWEEN = re.compile(
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_headings(_STARRED.sub("T* ", without_sketches(text, words)))
-    text = without_combinations(without_conditions(text, words), words)
+    text = with_words_joined(without_combinations(without_conditions(text, words), words), words)
     text = without_remarks(stated_remarks(without_units(without_dashes(text, words), words)), words)
     text = _RATES.sub(lambda m: f"{m.group()[:-1]};", text)
     numbers = numbering(text, words)
