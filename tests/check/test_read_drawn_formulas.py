@@ -164,3 +164,27 @@ def test_rules_under_headings_are_no_fractions() -> None:
     assert right("Equation\n────────\n\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
     assert right("Equation\n────────\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
     assert right("Equation\n--------\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", "pendulum")
+
+
+SCRIPT = """e1 = expand(L.diff(x.diff(t)).diff(t) - L.diff(x)) + b*x.diff(t) - F
+e2 = L.diff(theta.diff(t)).diff(t) - L.diff(theta)
+{}
+{}"""
+
+
+@pytest.mark.parametrize(
+    ("shown", "between"),
+    [
+        ("print(pprint(Eq(e1, 0)))", "\n"),
+        ("In [4]: pprint(Eq(simplify(e1), 0))", "\n\n"),
+        ("pprint(e1 == 0)\n\n--- output ---", "\n"),
+    ],
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_what_shows_an_equation_by_its_name_and_rules_with_words_are_no_part_of_a_drawing(
+    shown: str, between: str, sign: int
+) -> None:
+    pieces = [sp.pretty(sp.Eq(x, 0), use_unicode=True, num_columns=60) for x in cart(sign)]
+    written = SCRIPT.format(shown, between.join(pieces))
+    assert "↪" in written
+    assert derivation("cart-pole").check(written).right == (sign == 1)

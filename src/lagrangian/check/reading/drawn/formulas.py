@@ -35,8 +35,9 @@ _OPEN_END = re.compile(r"[-+⋅·*/(=^,]\s*\Z")
 _SAID = re.compile(
     r"[^\W\d_]{3,}[ \t]+[^\W\d_]{2,}[ \t]+[^\W\d_]{2,}|[^\W\d_]{2,}:[ \t]*\Z"
     r"|\A[ \t]*(?:[(\[]%i\d{1,4}[)\]]|>{1,3}[ \t])|\A[^\W\d]\w{0,20};?[ \t]*\Z"
+    r"|\A[ \t]*-{3,}[ \t](?:[^\W\d_]{2,20}[ \t:]{1,2}){1,4}-{3,}[ \t]*\Z"
 )
-"""A line of words, or one that was typed, perhaps a name alone."""
+"""A line of words, perhaps between strokes, or one that was typed, perhaps a name alone."""
 _BAR = re.compile("[─━]+")
 _SIGN = re.compile(r"^[ \t]*+-[ \t]", re.MULTILINE)
 """A program's minus in front of an equation, which is no bullet."""
@@ -111,14 +112,21 @@ def _drawings(text: str) -> Iterator[_Drawing]:
     """What may be a drawing: two or more lines without a blank one between them, or one of words."""
     start, lines, at = 0, list[str](), 0
     for line in [*text.split("\n"), ""]:
+        if lines and lines[-1].startswith(_ARROW) and not line.startswith(_ARROW):  # the last piece ends
+            yield from _drawing(start, at - 1, lines)
+            lines = []
         if line.strip() and not _SAID.search(line):
             start = start if lines else at
             lines.append(line)
         elif lines:
-            if 1 < len(lines) <= HIGHEST and max(map(len, lines)) <= WIDEST and not re.search(r"[\\$]", "".join(lines)):
-                yield _Drawing(start, at - 1, tuple(lines))
+            yield from _drawing(start, at - 1, lines)
             lines = []
         at += len(line) + 1
+
+
+def _drawing(start: int, end: int, lines: Sequence[str]) -> Iterator[_Drawing]:
+    if 1 < len(lines) <= HIGHEST and max(map(len, lines)) <= WIDEST and not re.search(r"[\\$]", "".join(lines)):
+        yield _Drawing(start, end, tuple(lines))
 
 
 def _made(drawings: Sequence[_Drawing], at: int, space: _Space) -> tuple[str | None, int]:

@@ -64,6 +64,12 @@ _ACCELERATES = re.compile(
 _BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")
+_SHOWN = rf"(?:\w{{1,20}}\()?(?P<name>{_NAME})(?:\[\d\])?(?:\.\w{{1,20}}\(\))?\)?"
+_NAME_IS_ZERO = re.compile(
+    rf"Eq(?:uality)?\([ \t]*{_SHOWN}[ \t]*,[ \t]*0(?:[ \t]*,[ \t]*evaluate[ \t]*=[ \t]*False)?[ \t]*\)|"
+    rf"{_SHOWN.replace('<name>', '<other>')}[ \t]*==[ \t]*0"
+)
+"""What only shows an equation by its name: Eq(e1, 0)."""
 _CLOSING = {"(": ")", "[": "]", "{": "}"}
 
 _SHOW = (
@@ -160,21 +166,25 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
         if is_program(applied["first"]) or is_program(applied["second"]):
             yield piece.start, piece.end, ""
         return
+    whole, shown = piece, list[Edit]()
     while (match := _whole_call(written)) is not None and match["name"] in _SHOWING:
         inside = written[match.end() : -1]
         if not (_STATED.search(_plain(f"({inside})")) or carries(inside)) or _KEYWORD.search(inside):
             break
+        named = _NAME_IS_ZERO.fullmatch(inside.strip())
+        if named is not None and not taken(named["name"] or named["other"]):
+            yield whole.start, whole.end, ""
+            return
         at = piece.start + match.end()
         if match["to"]:
-            yield piece.start + match.start("of"), at - 1, ""
+            yield from (*shown, (piece.start + match.start("of"), at - 1, ""))
             return
-        yield piece.start, at, ""
-        yield piece.end - 1, piece.end, ""
+        shown += [(piece.start, at, ""), (piece.end - 1, piece.end, "")]
         piece = Piece(at, piece.end - 1)
         written = text[piece.start : piece.end]
+    yield from shown
     if _command(written, taken):
         yield piece.start, piece.end, ""
-        return
 
 
 def _whole_call(written: str) -> re.Match[str] | None:
