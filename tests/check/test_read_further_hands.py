@@ -144,3 +144,14 @@ def test_what_an_abbreviation_amounts_to_is_no_other_value_of_it(amount: str) ->
     sheet = f"a = 2 l = {amount}\n{CART.replace('m l', '1/2 m a')}\n{POLE.replace('m l x', '1/2 m a x')}"
     assert right(sheet)
     assert not right(sheet.replace("2 l", "3 l"))
+
+
+@pytest.mark.parametrize(
+    "work", ["δW = F δx - b x' δx + 0 · δtheta", "δW = Fδx - bx'δx", "δW_F = (F - b x')·δx, δW = 0 δtheta"]
+)
+def test_virtual_displacements_are_no_unknown_names(work: str) -> None:
+    verdict = derivation("cart-pole").check(f"{work}\nQ_x = F - b x'\n{CART}\n{POLE}")
+    assert verdict.right
+    assert "delta" not in verdict.to_text()
+    assert "δ" not in verdict.to_text()
+    assert right(f"δ = theta\n{CART.replace('theta', 'δ')}\n{POLE.replace('theta', 'δ')}")

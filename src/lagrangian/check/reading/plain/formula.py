@@ -30,7 +30,7 @@ from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.calls import PlainCalls
 from lagrangian.check.reading.plain.conditions import AND, NOT, OR
 from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS
-from lagrangian.check.reading.plain.tokens import TOKEN, tokenize
+from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, tokenize
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
@@ -260,6 +260,8 @@ class PlainParser(PlainCalls):
             and (rate := self._d_of_bracket(token)) is not None
         ):
             return rate
+        if token.text[0] == VARIATION and len(token.text) > 1 and not self.words.is_name(VARIATION):
+            return wrapped("variation", token.start, name(token.text[1:], token.start))
         if self.words.is_function(token.text):
             return self._function(token)
         if self.next.kind == "(" and self._called(token):

@@ -61,6 +61,8 @@ _JOINED = frozenset(["N", "mN", "kN", "kg", "Nm", "J"])
 _GOES_ON = tuple("'’′″_([0123456789\u0307\u0308")
 _NUMBER = re.compile(r"(?<![\w.])(?>\d+)(?:\.\d*)?(?:[eE][+-]?\d+)?")
 _BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{_NAME})")
+VARIATION = "δ"
+"""The sign of virtual displacements and virtual work: δx, δW."""
 MOST = 60
 """The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
@@ -128,7 +130,16 @@ def _is_times_rate(of: str, words: Words) -> bool:
 
 
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
-    """The tokens of a word: one, or one for each of its parts."""
+    """The tokens of a word: one, or one for each of its parts; a virtual displacement, δx in Fδx, is one."""
+    if (at := word.find(VARIATION)) >= 0 and len(word) > at + 1 and not words.is_name(VARIATION):
+        more = word.find(VARIATION, at + 1) if at == 0 else at
+        cut = len(word) if more < 0 else more
+        if at == 0:
+            yield AnswerToken("name", word[:cut], start, start + cut)
+        else:
+            yield from _names(word[:cut], source, start, words)
+        yield from _names(word[cut:], source, start + cut, words) if cut < len(word) else ()
+        return
     end = start + len(word)
     called = bool(re.match(r"\s*[\w(\[^²³√]|\s*\*\*", source.text[end : end + 8]))
     at = start
