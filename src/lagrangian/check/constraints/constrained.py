@@ -278,16 +278,23 @@ def consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
 
 
 def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
-    """The largest set of lines that are true together; of equals, that with the first lines."""
+    """The largest set of lines that are true together; of equals, that with the most equations of the system, so that
+    a multiplier does not take up what is wrong in another line, then that with the first lines."""
     if consistent(places, range(count)):
         return set(range(count))
     if count > MOST:
         return {j for j in range(count) if consistent(places, [j])}
+    own = {j for j in range(count) if _row_of(places, j)[0] is not None}
     for size in range(count - 1, 0, -1):
-        for chosen in combinations(range(count), size):
+        for chosen in sorted(combinations(range(count), size), key=lambda js: -sum(j in own for j in js)):
             if consistent(places, chosen):
                 return set(chosen)
     return set()
+
+
+def _row_of(places: Sequence[AnswerAt], j: int) -> tuple[int | None, bool]:
+    """Of which equation of the system a line has the accelerations, and whether it is scaled."""
+    return _like([p.by_acceleration[j] for p in places], [p.mass for p in places])
 
 
 def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:
@@ -299,7 +306,7 @@ def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[Answe
     if all(_in_span(p.by_acceleration[j], p.rows) and not p.by_multiplier[j].any() for p in places):
         return Finding(line, Status.RIGHT, text("what the constraints ask of the accelerations"))
     if any(np.abs(p.by_multiplier[j]).max(initial=0.0) > 0 for p in places) or truth.derivation.minimal is None:
-        index, scaled = _like([p.by_acceleration[j] for p in places], [p.mass for p in places])
+        index, scaled = _row_of(places, j)
         named = None if index is None else truth.names[index]
     else:
         index, scaled = _like([p.by_acceleration[j] @ p.along for p in places], [p.reduced for p in places])

@@ -7,16 +7,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
+import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.multipliers import with_own_multipliers
+from lagrangian.check.explain.consequences import SMALL
 from lagrangian.check.explain.constraint_mistakes import beside_constraints
 from lagrangian.check.explain.constraint_slips import wrong_constraints
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.derive.sampling import Array, CompiledExpressions
 
 Lines: TypeAlias = Sequence[AnsweredLine]
 Findings: TypeAlias = Sequence[Finding]
@@ -48,7 +51,7 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
-    judged = judge(read.lines)
+    judged = _below_constraints(truth, judge(read.lines), [x.finding.line for x in wrong if x.order == SECOND])
     named = _named(truth, read.lines, judged)
     told = (*named.told, *beside_constraints(truth, lines, wrong, judged, read.mistakes))
     if not told:
@@ -71,6 +74,43 @@ def named_beside_multipliers(
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
+
+
+SECOND = 2
+"""How often a constraint is differentiated where it holds accelerations."""
+
+
+def _below_constraints(truth: Reference, findings: Findings, wrong: Lines) -> Findings:
+    """The findings, in which equations follow that are one above them with what wrong lines ask of the accelerations:
+    λ = m g + 2 m a x ẍ, below m ÿ + m g = λ and ÿ = 2 a x ẍ."""
+    rows = [f for f in findings if f.line.kind == "equation"]
+    if not wrong or all(f.status is not Status.WRONG or f.follows for f in rows):
+        return findings
+    by = [
+        *(c.acceleration for c in truth.model.coordinates),
+        *(m.symbol for m in truth.derivation.multipliers.values()),
+    ]
+    exprs = [*(f.line.expr for f in rows), *(line.expr for line in wrong)]
+    compiled = CompiledExpressions(exprs)
+    slopes = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
+    values = compiled.at(truth.states, {x: np.zeros(truth.states.size) for x in by})
+    told = np.moveaxis(np.concatenate([slopes, values[:, None]], axis=1), -1, 0)
+    found: dict[int, Finding] = {}
+    for j, f in enumerate(rows):
+        if f.status is not Status.WRONG or f.follows or not np.isfinite(told).all():
+            continue
+        aside = [k for k, line in enumerate(wrong, len(rows)) if line.number < f.line.number]
+        above = [k for k, x in enumerate(rows[:j]) if x.status.right or x.follows]
+        if any(_in_span(told[:, j], told[:, [k, i]]) for k in aside for i in above):
+            found[id(f)] = replace(f, follows=True)
+    return [found.get(id(f), f) for f in findings]
+
+
+def _in_span(row: Array, rows: Array) -> bool:
+    """Whether a row (S, k) is a combination of others (S, r, k) at every state."""
+    factors = np.einsum("sk,skr->sr", row, np.linalg.pinv(rows, rcond=1e-10))
+    left = np.abs(row - np.einsum("sr,srk->sk", factors, rows)).max(axis=1)
+    return bool((left <= SMALL * np.abs(row).max(axis=1)).all())
 
 
 def _keys(lines: Lines) -> list[tuple[int, str, int]]:

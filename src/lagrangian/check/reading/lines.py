@@ -54,9 +54,6 @@ from lagrangian.read.letters import key, undotted
 MAX_CHAIN = 20
 """The largest number of definitions that may each need the one below it."""
 
-MULTIPLIERS = ("lambda", "lam", "lmbda")
-"""How names of multipliers begin."""
-
 
 class Lines:
     """Reads the statements of one answer."""
@@ -259,15 +256,16 @@ class Lines:
                 self.names.define(subject.token, value)  # K, P are energies only if a line says so
         elif kind == "definition":
             assert subject.token is not None
-            if self.subjects.equates(subject, value, self._equal) or self._is_force_found(subject):
+            above = [s.sides for s in self._statements[: self.names.statement]]
+            if self.subjects.equates(subject, value, self._equal) or self.subjects.is_force_found(subject, above):
                 left = sp.S.Zero if is_label_of_equation(subject) else reader.scalar(sides[0])
                 return made_line("equation", left, value, None, sides[0], side, reader)
-            above = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
+            rate = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
             self._define(subject, value)
             self._used_nowhere(subject, reader)
-            if isinstance(above, sp.Expr) and not is_vector(above) and bounded.expand(above - value) != 0:
-                kind = "equation" if accelerates(above) or accelerates(value) else "identity"
-                return made_line(kind, above, value, None, sides[0], side, reader)  # v' = x'' and v' = F/M
+            if isinstance(rate, sp.Expr) and not is_vector(rate) and bounded.expand(rate - value) != 0:
+                kind = "equation" if accelerates(rate) or accelerates(value) else "identity"
+                return made_line(kind, rate, value, None, sides[0], side, reader)  # v' = x'' and v' = F/M
         elif kind == "identity":
             lhs = reader.scalar(sides[0])
             kind = "equation" if solves(lhs, value) else kind
@@ -282,13 +280,6 @@ class Lines:
             self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
         else:
             self.names.define(subject.token, sp.sqrt(value) if subject.square else value)
-
-    def _is_force_found(self, subject: Subject) -> bool:
-        """Whether a name is a multiplier whose value is a result: λ = m g cos θ, which no other line uses."""
-        token = subject.token
-        if token is None or subject.order or not self.model.constraints or self.names.occurs(token) > 1:
-            return False
-        return key(token).startswith(MULTIPLIERS)
 
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""

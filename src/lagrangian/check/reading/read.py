@@ -20,7 +20,7 @@ from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.latex.variants import with_variants_apart
 from lagrangian.check.reading.line_forms import together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
-from lagrangian.check.reading.lines import MULTIPLIERS, Lines
+from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import LATEX, without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
@@ -39,6 +39,7 @@ from lagrangian.check.reading.said.values import SaidValues, completed, misspell
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.check.reading.subjects import MULTIPLIERS
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source

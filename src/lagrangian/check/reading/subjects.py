@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -14,7 +14,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
-from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.check.reading.names import Names, names_in, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
@@ -24,6 +24,9 @@ from lagrangian.records import dataclass
 
 _CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)_?\d*", re.IGNORECASE)
 """What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""
+
+MULTIPLIERS = ("lambda", "lam", "lmbda")
+"""How names of multipliers begin."""
 
 
 @dataclass(frozen=True)
@@ -177,6 +180,16 @@ class Subjects:
             return False
         others = equal - subject.right
         return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
+
+    def is_force_found(self, subject: Subject, above: Sequence[Sequence[Tree]]) -> bool:
+        """Whether a name is a multiplier whose value is a result: λ = m g cos θ, which no other line uses, or below an
+        equation of motion with λ; ``above`` are the sides of the statements above."""
+        token = subject.token
+        if token is None or subject.order or not self.model.constraints or not key(token).startswith(MULTIPLIERS):
+            return False
+        moving = (sides for sides in above if any(map(self.accelerates, sides)))
+        used = (str(name) for sides in moving for side in sides for name, _ in names_in(side))
+        return self.names.occurs(token) == 1 or any(key(name) == key(token) for name in used)
 
     def left_side(self, side: Tree) -> Subject | None:
         """Recognize d/dt ∂L/∂ξ̇ − ∂L/∂ξ, written with L alone."""

@@ -1,0 +1,47 @@
+"""Lines with a multiplier below the constraint: which are right, which are wrong, and which only follow."""
+
+import pytest
+
+import lagrangian as lg
+
+
+@pytest.fixture(scope="module")
+def bead() -> lg.Derivation:
+    """A bead on a parabolic wire that is fixed to a cart."""
+    s = lg.System("bead on a wire")
+    X, x, y = s.coordinates("X x y")
+    M, m, a, F = *s.parameters("M m a"), s.inputs("F")
+    s.particle(M, at=s.point("A", (X, 0)), name="cart")
+    s.particle(m, at=s.point("B", (X + x, y)), name="bead")
+    s.gravity()
+    s.force(F, deflection=X, name="pull")
+    s.constraint(y - a * x**2, name="wire")
+    return s.derive()
+
+
+CART = "(M + m) X'' + m x'' = F"
+BEAD = "m X'' + m x'' = -2 a x λ"
+ELIMINATED = f"""{CART}
+{BEAD}
+m y'' + m g = λ
+y = a x^2, y' = 2 a x x', y'' = 2 a x'^2 + 2 a x x''
+λ = m g + 2 m a x'^2 + 2 m a x x''
+m X'' + m x'' + 2 a x (m g + 2 m a x'^2 + 2 m a x x'') = 0"""
+
+
+@pytest.mark.slow
+def test_a_multiplier_that_is_eliminated_follows_from_the_constraint(bead: lg.Derivation) -> None:
+    """λ = … below the equation with λ is what follows from it, and no definition that is put in above."""
+    assert bead.check(ELIMINATED).right
+    verdict = bead.check(ELIMINATED.replace("2 a x'^2 + ", "").replace("2 m a x'^2 + ", ""))
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what).startswith("Line 4 is not the second derivative of constraint 'wire'")
+    wrong = [(f.line.number, f.follows) for f in verdict.findings if not f.status.right]
+    assert wrong == [(4, False), (5, True), (6, True)]
+    slip = bead.check(ELIMINATED.replace("λ = m g +", "λ = 2 m g +"))
+    assert [f.line.number for f in slip.findings if not f.status.right and not f.follows] == [5]
+
+
+def test_a_multiplier_takes_up_no_mistake_of_the_line_that_comes_first(bead: lg.Derivation) -> None:
+    verdict = bead.check(f"{CART}\nm x'' = -2 a λ\nm y'' + m g = λ\ny = a x^2")
+    assert [f.status.right for f in verdict.findings] == [True, False, True, True]
