@@ -110,6 +110,13 @@ def test_mistakes_beside_a_multiplier_of_another_scale(
     assert (mistake.name, mistake.element) == (kind, element), str(mistake.what)
 
 
+def test_the_constraint_that_an_answer_states_tells_which_factor_is_wrong(trammel: lg.Derivation) -> None:
+    verdict = trammel.check(f"{ALONG.replace('N*x', 'N*y')}\n{UP}\nx^2 + y^2 = d^2")
+    assert [f.status.right for f in verdict.findings] == [False, True, True]
+    (mistake,) = verdict.mistakes
+    assert mistake.coordinate == "x" and "factor 2*y in the equation of x; beside the others, 2*x" in str(mistake.what)
+
+
 def test_equations_with_a_multiplier_follow_from_a_wrong_energy(trammel: lg.Derivation) -> None:
     T = "T = 1/2*m1*x'^2 + 1/2*m2*y'^2 + 1/2*m3*(x'^2 + y'^2)"
     verdict = trammel.check(f"{T}\n{ALONG}\n{UP}".replace("m3/4", "m3"))

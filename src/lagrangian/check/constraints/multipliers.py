@@ -11,6 +11,7 @@ from dataclasses import replace
 from itertools import islice, permutations, product
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -21,7 +22,6 @@ from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.records import dataclass
@@ -106,19 +106,30 @@ def _is_plainer(truth: Reference, reading: ReadMultipliers, than: ReadMultiplier
 def _of_stated(
     truth: Reference, lines: Sequence[AnsweredLine], names: Sequence[Any], own: Sequence[Any]
 ) -> Iterator[_Reading]:
-    """How λ is read where the answer states the constraint: with c f for our f, λ/c in all equations, or all with −."""
+    """How λ is read where the answer states a constraint with the slopes of c f for our f: λ/c in all equations, or all
+    with −."""
     if len(names) != 1 or len(own) != 1:
         return
-    f = next((row.position for row in rows_of(truth.model) if row.position is not None), None)
-    if f is None:
-        return
     for line in lines:
-        if line.kind != "equation":
+        if line.kind != "equation" or line.expr.has(sp.Derivative):
             continue
-        c = bounded.cancel(line.expr / truth.expand(f))
-        if c.is_number and c != 0:
+        c = _slope_ratio(truth, line.expr, own[0])
+        if c is not None and bounded.size(c) <= LONGEST:
             yield from ({names[0]: (own[0], cast("sp.Expr", sign / c))} for sign in (1, -1))
             return
+
+
+def _slope_ratio(truth: Reference, g: sp.Expr, x: Any) -> sp.Expr | None:
+    """The c with ∂g/∂ξ_i = c times the factor of the multiplier ``x`` in every row; None without one.
+
+    It is √(x² + y²) for g = (x² + y² − l²)/2 and a constraint √(x² + y²) = l.
+    """
+    pairs = [(bounded.diff(g, q), row.diff(x)) for q, row in zip(truth.derivation.coordinates, truth.rows, strict=True)]
+    c = next((bounded.cancel(a / b) for a, b in pairs if a != 0 and b != 0), None)
+    if c is None:
+        return None
+    values = CompiledExpressions([y for a, b in pairs for y in (a, cast("sp.Expr", c * b))]).at(truth.states)
+    return c if np.allclose(values[::2], values[1::2], rtol=1e-9, atol=1e-12) else None
 
 
 def _against(truth: Reference, exprs: Sequence[sp.Expr], found: Sequence[_Match]) -> int:
