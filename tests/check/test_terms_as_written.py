@@ -95,3 +95,25 @@ def test_terms_are_those_that_were_written(right: str, wrong: str, said: list[st
 def test_a_square_is_told_as_another_square() -> None:
     energy = "T = J psi'^2/2 + m (R - r)^2 phi'^2/2 + m (R psi' - r phi')^2/4"
     assert told(drum(), energy) == ["1 (T*): ¼ m (R ψ̇ − r φ̇)² should be ¼ m (R ψ̇ − (R − r) φ̇)²"]
+
+
+def test_of_several_terms_with_the_same_letters_the_odd_one_is_told() -> None:
+    arm = "T = J psi'^2/2 + n y'^2/2 + m (x'^2 + (e + x cos(alpha))^2 psi'^2)/2 + m x'^2/8"
+    assert told(sleeve(), arm) == ["1 (T*): the term ⅛ m ẋ² does not belong there"]
+    assert told(sleeve(), arm.replace("m (x'^2 +", "m (x'^2/2 +")) == ["1 (T*): ⅛ m ẋ² should be ¼ m ẋ²"]
+
+
+def test_an_energy_in_two_forms_is_told_once() -> None:
+    square = "m (R psi' - (R - r) phi')^2/4"
+    forms = f"T = J psi'^2/2 + m (R - r)^2 phi'^2 + {square} = (J + m R^2/2) psi'^2/2 + 5 m (R - r)^2 phi'^2/4"
+    assert told(drum(), f"{forms} - m R (R - r) psi' phi'/2") == ["1 (T*): m (R − r)² φ̇² should be ½ m (R − r)² φ̇²"]
+
+
+def test_the_equations_of_a_matrix_are_named() -> None:
+    rows = "M = [[J + m R^2/2, -m R (R - r)/2], [-m R (R - r)/2, m (R - r)^2]]\nM [psi''; phi''] = [M - b psi'; 0]"
+    rows = rows.replace("M = ", "A = ").replace("M [", "A [").replace("; 0]", "; m g (R - r) sin(phi)]")
+    found = told(drum(), rows)
+    assert found == [
+        "2, the equation of φ: m (R − r)² φ̈ should be (3/2) m (R − r)² φ̈",
+        "2, the equation of φ, on the right-hand side: m g (R − r) sin φ has the wrong sign",
+    ]

@@ -19,7 +19,7 @@ from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.row_words import findings_of, name_of
 from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import Kind, RowComparison, compare
+from lagrangian.check.rows import Kind, RowComparison, compare, zero_everywhere
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.together import right_together
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference
@@ -79,9 +79,28 @@ def judged_lines(
         findings = follow_from_definitions(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
-    status, found = _overall(truth, comparison, findings)
+    status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
+
+
+def _told_once(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings; of a wrong energy that a line gives in several forms, the terms that differ in the shortest one."""
+    told = list(findings)
+    for k, one in enumerate(told):
+        same = [
+            j
+            for j, x in enumerate(told[:k])
+            if (x.line.number, x.line.kind, x.line.name) == (one.line.number, one.line.kind, one.line.name)
+            and x.differences
+            and one.differences
+            and one.line.kind != "equation"
+        ]
+        for j in same:
+            if zero_everywhere(truth, one.line.expr - told[j].line.expr):
+                longer = max(k, j, key=lambda i: len(told[i].differences))
+                told[longer] = replace(told[longer], differences=())
+    return told
 
 
 def _ends_right(truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison) -> bool:

@@ -44,7 +44,7 @@ def report(verdict: Verdict, model: Model) -> Report:
         parts.append(Part(text("Line by line"), (_lines(verdict, model),)))
     if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
         parts.append(Part(text("What went wrong"), tuple(_why(verdict))))
-    if verdict.hint >= 3 and (found := tuple(_terms(verdict))):
+    if verdict.hint >= 3 and (found := tuple(_terms(verdict, model))):
         parts.append(Part(text("Term by term"), found))
     return Report(f"Your answer: {model.name}", model, tuple(parts), Verdict.to_dict(verdict))
 
@@ -241,16 +241,14 @@ def _differing(verdict: Verdict) -> bool:
     return any(f.differences for f in verdict.findings)
 
 
-def _terms(verdict: Verdict) -> Iterator[Item]:
-    """All differences of the lines that need a correction of their own."""
+def _terms(verdict: Verdict, model: Model) -> Iterator[Item]:
+    """All differences of the lines that need a correction of their own; of a matrix, each with its equation."""
+    often = Counter(f.line.title for f in verdict.findings)
     for f in verdict.findings:
+        of = _of(f, model) if often[f.line.title] > 1 else ()
         for d in f.differences if not f.follows else ():
-            yield text(*_said(f, d))
-
-
-def _said(finding: Finding, d: TermDifference) -> tuple[str | Left, ...]:
-    side, said = on_side(finding.line, d)
-    return (f"{finding.line.title}{f', {side}' if side else ''}: ", *_differs(said), *_source(said))
+            side, said = on_side(f.line, d)
+            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *_differs(said), *_source(said))
 
 
 def _differs(d: TermDifference) -> tuple[str | Left, ...]:

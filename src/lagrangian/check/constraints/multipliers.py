@@ -120,11 +120,13 @@ def _of_stated(
 
 
 def _slope_ratio(truth: Reference, g: sp.Expr, x: Any) -> sp.Expr | None:
-    """The c with ∂g/∂ξ_i = c times the factor of the multiplier ``x`` in every row; None without one.
+    """The c with ∂g/∂ξ_i = c times the factor of the multiplier ``x`` on every right-hand side; None without one.
 
     It is √(x² + y²) for g = (x² + y² − l²)/2 and a constraint √(x² + y²) = l.
     """
-    pairs = [(bounded.diff(g, q), row.diff(x)) for q, row in zip(truth.derivation.coordinates, truth.rows, strict=True)]
+    pairs = [
+        (bounded.diff(g, q), -row.diff(x)) for q, row in zip(truth.derivation.coordinates, truth.rows, strict=True)
+    ]
     c = next((bounded.cancel(a / b) for a, b in pairs if a != 0 and b != 0), None)
     if c is None:
         return None

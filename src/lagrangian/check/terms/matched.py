@@ -8,6 +8,7 @@ be.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import Any, cast
 
 import sympy as sp
@@ -19,6 +20,9 @@ from lagrangian.model import time
 from lagrangian.records import dataclass, field
 
 Monomial = tuple[Any, int]
+
+NOWHERE = -1
+"""The place of a right piece that is a part of several."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +114,11 @@ def matched(wrong: Sequence[TermItem]) -> list[PieceMatch]:
     place of a cosine, or with the same letters."""
     own, right = [x for x in wrong if x.mine], [x for x in wrong if not x.mine]
     found: list[PieceMatch] = []
+    for alike in _multiples(own):
+        theirs = [x for x in right if number_between(x.form, alike[0].form) is not None]
+        if len(alike) > 1 and theirs:
+            found.append(_odd_one(alike, theirs))
+            own, right = [x for x in own if x not in alike], [x for x in right if x not in theirs]
     for s in list(own):
         multiples = ((number_between(s.form, r.form), r) for r in right)
         times = [(abs(n) != 1, r) for n, r in multiples if n is not None]
@@ -138,6 +147,31 @@ def matched(wrong: Sequence[TermItem]) -> list[PieceMatch]:
                 found.append(PieceMatch(s, r))
             own, right = [x for x in own if x not in s], [x for x in right if x not in r]
     return [*found, *(PieceMatch([x], []) for x in own), *(PieceMatch([], [x]) for x in right)]
+
+
+def _multiples(items: Sequence[TermItem]) -> list[list[TermItem]]:
+    """The items in groups of numbers times the same."""
+    groups: list[list[TermItem]] = []
+    for x in items:
+        home = next((g for g in groups if number_between(x.form, g[0].form) is not None), None)
+        if home is None:
+            groups.append([x])
+        else:
+            home.append(x)
+    return groups
+
+
+def _odd_one(own: Sequence[TermItem], right: Sequence[TermItem]) -> PieceMatch:
+    """Of several multiples of the same that should add up to ``right``, the one with the simplest number too much or
+    too little: of 1/8 + 1/48 in place of 1/6 it is 1/48, which should be 1/24."""
+    total = sp.Add(*[x.piece.expr for x in right], *[-x.piece.expr for x in own])
+    numbers = [cast("sp.Rational", sp.cancel(total / x.piece.expr)) + 1 for x in own]
+    k = min(range(len(own)), key=lambda j: abs(numbers[j].p) + numbers[j].q)
+    one = own[k]
+    if numbers[k] == 0:
+        return PieceMatch([one], [])
+    piece = Summand(NOWHERE, cast("sp.Expr", numbers[k] * one.piece.expr))
+    return PieceMatch([one], [TermItem(piece, one.form.scaled(Fraction(int(numbers[k].p), int(numbers[k].q))), False)])
 
 
 def _one_by_one(own: Sequence[TermItem], right: Sequence[TermItem]) -> list[PieceMatch] | None:

@@ -19,7 +19,7 @@ from lagrangian.check.terms.pieces import WrittenTerm, denominator, motion, piec
 from lagrangian.model import time
 from lagrangian.records import dataclass
 
-LONGER = 1.5
+LONGER = 1.3
 """How many times the operations of a product one may have that belongs in its place."""
 
 
@@ -169,7 +169,7 @@ class _Sums:
     def _whole(self, rights: Sequence[TermItem]) -> list[int] | None:
         """The right terms of which these are all pieces; None if some of their pieces are not among them."""
         of = sorted({x.piece.of for x in rights})
-        return of if of and len(rights) == sum(len(self.theirs[j].pieces) for j in of) else None
+        return of if of and of[0] >= 0 and len(rights) == sum(len(self.theirs[j].pieces) for j in of) else None
 
     def _of_pieces(self, match: PieceMatch) -> Pair:
         """A match by its pieces or, if these are all pieces of right terms, by those."""
@@ -198,12 +198,12 @@ class _Sums:
             return None
         other = term.expr + sp.Add(*[-x.piece.expr if x.mine else x.piece.expr for x in lacking])
         found = bounded.searched(sp.factor, other)
-        longest = LONGER * bounded.operations(term.expr)
-        if found is None or isinstance(found, sp.Add) or bounded.operations(found) > longest:
+        if found is None or isinstance(found, sp.Add):
             return None
         moving = sorted(found.atoms(AppliedUndef, sp.Derivative), key=sp.default_sort_key, reverse=True)
         sums = {x for t in self.right for x in t.atoms(sp.Add)}
-        return cast("sp.Expr", sp.Mul(*[_collected(f, moving, sums) for f in sp.Mul.make_args(found)]))
+        short = cast("sp.Expr", sp.Mul(*[_collected(f, moving, sums) for f in sp.Mul.make_args(found)]))
+        return short if bounded.operations(short) <= LONGER * bounded.operations(term.expr) else None
 
     def one_term(self, wrong: Sequence[TermItem]) -> Pair | None:
         """The one product with a sum that would have to be another product for all to be right."""
