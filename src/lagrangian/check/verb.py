@@ -10,9 +10,11 @@ from typing import Any
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
-from lagrangian.check.names.needless import Needed, needed, unused_in_motion
+from lagrangian.check.coordinates.auxiliary import with_auxiliary
+from lagrangian.check.names.needless import Needed, accelerates, needed, unused_in_motion
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
+from lagrangian.check.reference import truth_of
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
@@ -119,6 +121,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             if verdict.right and wrong <= {(line.number, line.text) for line in decides.lines}:
                 return _told(verdict, other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
+            wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
     verdict = check.check(derivation, decides.lines, hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
@@ -143,6 +146,15 @@ def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int,
     return {(x.number, x.text) for x in wrong if x.beside and not (x.beside & cases and not x.expr.has(*accelerations))}
 
 
+def _wrong_together(verdict: check.Verdict) -> set[tuple[int, str]]:
+    """The equations of motion that are wrong by what lines with names of the answer's own say together."""
+    return {
+        (f.line.number, f.line.text)
+        for f in verdict.findings
+        if f.status is check.Status.WRONG and accelerates(f.line.expr)
+    }
+
+
 def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]:
     """The lines of an answer that decide, and the verdict on them, without mistakes."""
     *others, last = _deciding(derivation, answer)
@@ -155,7 +167,7 @@ def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]
 
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
-    lines = check.lines_of(answer)
+    lines = with_auxiliary(truth_of(derivation), check.lines_of(answer))
     names = [u.symbol for u in answer.unknown]
     if derivation.multipliers:  # any name beside accelerations may be a multiplier
         names = unused_in_motion(lines, names, [c.name for c in derivation.model.coordinates])

@@ -51,7 +51,7 @@ def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: 
     if any(sum((x.kind, x.number) == at for x in lines) > told.count(at) for at in energies & set(told)):
         return None  # one side of a chain: T = 99 Z = ½ m x′²
     kept = [line for line in lines if not any(line is x for x in aside)]
-    if not aside or sum(line.kind == "equation" and _accelerates(line.expr) for line in kept) < count:
+    if not aside or sum(line.kind == "equation" and accelerates(line.expr) for line in kept) < count:
         return None
     more = tuple(_contradictions([*aside, *_values(lines, unknown)], unknown))
     judged = {(line.number, line.text) for line in more}
@@ -73,7 +73,7 @@ def unused_in_motion(
         held = [line.expr for line in lines if line.expr.has(x)]
         others = [y for y in unknown if y != x and not isinstance(y, AppliedUndef)]  # no angles
         alone = (e for e in held if not any(map(e.has, others)))
-        if not any(map(_accelerates, held)) and all(_slope(e, x) is None for e in alone):
+        if not any(map(accelerates, held)) and all(_slope(e, x) is None for e in alone):
             named.append(x)
     return named
 
@@ -83,7 +83,8 @@ def _called(name: sp.Basic) -> str:
     return str(name.func) if isinstance(name, AppliedUndef) else str(name)
 
 
-def _accelerates(expr: sp.Expr) -> bool:
+def accelerates(expr: sp.Expr) -> bool:
+    """Whether an expression holds an acceleration."""
     return any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative))
 
 

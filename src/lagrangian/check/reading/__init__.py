@@ -3,7 +3,7 @@
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.own_slopes import OwnCoordinates, named, replaced_by
-from lagrangian.check.reading.placeholders import ENERGIES, generalized_force
+from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_placeholder
 from lagrangian.check.reading.read import MAX_ANSWER, parse_answer
 from lagrangian.check.reading.stated import of_coordinate
 
@@ -17,6 +17,7 @@ __all__ = [
     "Unknown",
     "decode_answer",
     "generalized_force",
+    "is_placeholder",
     "named",
     "of_coordinate",
     "parse_answer",

@@ -1,0 +1,91 @@
+"""Coordinates, speeds and momenta that an answer has beside the system's, and that its own lines determine.
+
+X - x - e cos φ = 0      X = x + e cos φ        a constraint of its own, with multipliers in its equations
+ẋ = R φ̇                  φ = x/R                rolling: the constant does not matter where only rates of φ stand
+θ̇ = p/(m l²)             p = m l² θ̇             a momentum that only Hamilton's equations explain
+
+The line is then a definition, and the others are judged with the name written out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reading import is_placeholder
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+
+MOST, LONGEST = 8, 80
+"""The largest number of such names, and of operations of a line that determines one."""
+
+
+def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines with every name written out that a line without accelerations determines, and that others use.
+
+    Each name must be one that changes with time, alone in its line, and linear there.
+    """
+    found = {x for line in lines for x in line.expr.atoms(AppliedUndef) if x.args == (time,)}
+    known = truth.names | {d.symbol for d in truth.model.definitions}
+    unknown = {x for x in found if x not in known and not is_placeholder(x)}
+    out = list(lines)
+    if truth.derivation.multipliers or len(unknown) > MOST:
+        return tuple(out)
+    while unknown:
+        solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
+        if solved is None:
+            break
+        k, name, value = solved
+        unknown -= {name}
+        out[k] = replace(out[k], kind="definition", name=str(name.func), expr=value)
+        out = [
+            x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
+            for j, x in enumerate(out)
+        ]
+    return tuple(out)
+
+
+def _put(expr: sp.Expr, name: AppliedUndef, value: sp.Expr) -> sp.Expr:
+    return cast("sp.Expr", expr.xreplace({name: value}).doit())
+
+
+def _determined(
+    lines: Sequence[AnsweredLine], k: int, unknown: set[AppliedUndef]
+) -> tuple[int, AppliedUndef, sp.Expr] | None:
+    """The name that a line determines, and its value."""
+    line = lines[k]
+    inside = line.expr.atoms(AppliedUndef) & unknown
+    rates = line.expr.atoms(sp.Derivative)
+    if line.kind not in ("equation", "identity") or len(inside) != 1 or bounded.operations(line.expr) > LONGEST:
+        return None
+    name: Any = inside.pop()
+    others = [x.expr for j, x in enumerate(lines) if j != k]
+    if any(d.derivative_count > 1 for d in rates) or not any(x.has(name) for x in others):
+        return None
+    rate = sp.Derivative(name, time)
+    if rate not in rates:
+        value = _solved(line.expr, name)
+        return None if value is None else (k, name, value)
+    stands = any(x.xreplace(dict.fromkeys(x.atoms(sp.Derivative), sp.S.Zero)).has(name) for x in (line.expr, *others))
+    value = None if stands else _solved(line.expr, rate)
+    held = {} if value is None else {d: d.args[0] for d in value.atoms(sp.Derivative)}
+    if value is None or not held:
+        return None
+    place = cast("sp.Expr", value.xreplace(held))
+    return (k, name, place) if bounded.expand(bounded.diff(place, time) - value) == 0 else None
+
+
+def _solved(expr: sp.Expr, name: sp.Expr) -> sp.Expr | None:
+    """The value of what an expression that is zero is a linear function of; None if it is not."""
+    mark = sp.Dummy()
+    put = cast("sp.Expr", expr.xreplace({name: mark}))
+    slope = bounded.diff(put, mark)
+    if slope == 0 or slope.has(mark):
+        return None
+    return cast("sp.Expr", -put.xreplace({mark: sp.S.Zero}) / slope)

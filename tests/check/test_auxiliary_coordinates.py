@@ -1,0 +1,51 @@
+"""Coordinates that a sheet has beside the system's, with constraints and multipliers of its own.
+
+Oracle: the pendulum in Cartesian coordinates, and a cylinder that rolls, by hand. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+from built_in import derivation
+
+FIRST_KIND = """\
+X - L sin(theta) = 0
+Y + L cos(theta) = 0
+m X'' = lambda1
+m Y'' = lambda2 - m g
+0 = -b theta' - lambda1*L*cos(theta) - lambda2*L*sin(theta)
+m L^2 theta'' + b theta' + m g L sin(theta) = 0
+"""
+
+
+@pytest.mark.parametrize(("now", "wrong"), [("- lambda1*L*cos", "+ lambda1*L*cos"), ("Y + L", "Y - L")])
+def test_constraints_of_the_answers_own_say_what_its_coordinates_are(now: str, wrong: str) -> None:
+    verdict = derivation("pendulum").check(FIRST_KIND)
+    assert verdict.right, verdict.to_text()
+    assert not derivation("pendulum").check(FIRST_KIND.replace(now, wrong)).right
+
+
+@cache
+def roller() -> lg.Derivation:
+    """A cylinder on a slope, at a spring."""
+    s = lg.System("roller")
+    x = s.coordinates("x")
+    m, R, k = s.parameters("m R k")
+    F = s.inputs("F")
+    at = s.point("axle", (x, 0))
+    s.rigid_body(mass=m, inertia=m * R**2 / 2, at=at, frame=s.frame(-x / R, name="cylinder"), name="cylinder")
+    s.spring(k, deflection=x)
+    s.force((F, 0), at=at)
+    return s.derive()
+
+
+@pytest.mark.parametrize("rolls", ["x' = R phi'", "x - R phi = 0", "R w = x', w = phi'"])
+def test_rolling_says_what_the_angle_is(rolls: str) -> None:
+    rows = f"m x'' = F - k x - H\n1/2 m R^2 phi'' = R H\n{rolls}\n"
+    assert roller().check(f"{rows}3/2 m x'' + k x = F").right
+    wrong = roller().check(f"{rows.replace('1/2 m', 'm')}3/2 m x'' + k x = F")
+    assert not wrong.right
