@@ -155,3 +155,11 @@ def test_virtual_displacements_are_no_unknown_names(work: str) -> None:
     assert "delta" not in verdict.to_text()
     assert "δ" not in verdict.to_text()
     assert right(f"δ = theta\n{CART.replace('theta', 'δ')}\n{POLE.replace('theta', 'δ')}")
+
+
+@pytest.mark.parametrize("named", ["theta", "th"])
+def test_declarations_of_functions_behind_another_on_one_line(named: str) -> None:
+    sheet = f">>> t = symbols('t'); x = Function('x')(t); {named} = sp.Function('theta')(t)\n>>> print(eq1, '= 0')\n"
+    sheet += f"{CART.replace('theta', f'{named}').replace('= F', '- F = 0')}\n{POLE.replace('theta', named)}"
+    assert right(sheet)
+    assert not right(sheet.replace("- m g", "+ m g"))

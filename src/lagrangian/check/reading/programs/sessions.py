@@ -54,6 +54,12 @@ _APPLIED = re.compile(
 """How Mathematica applies a function without brackets: TeXForm /@ eqs, eqs // Simplify."""
 _LOOP = re.compile(r"(?:for|while|if|with)[ \t][^:\n]{1,200}:(?P<body>[^\n]*+)")
 _STRING = re.compile(r"(?<=[(\[,=])[ \t]*+[bfru]?(?P<mark>['\"])[^'\"\n]{0,200}+(?P=mark)(?=[ \t]*+[,)\]:])")
+_DECLARES = re.compile(
+    rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+(?:\w{{1,8}}\.)?Function"
+    r"\([ \t]*+['\"](?P<called>\w{1,24}+)['\"][^()\n]{0,60}+\)"
+    r"[ \t]*+\([ \t]*+t[ \t]*+\)"
+)
+"""A function of time that has the name with which it is declared: y = Function('y')(t)."""
 _KEYWORD = re.compile(rf"[(,]\s*+{_NAME}[ \t]*+(?:=(?!=)|->)")
 _HUMPED = re.compile(r"(?:[A-Z][a-z]{1,20}){2,6}[A-Z]?|[a-z]{2,20}(?:_[a-z]{2,20}){1,5}")
 _ACCELERATES = re.compile(
@@ -210,6 +216,8 @@ def closes(text: str, at: int) -> int:
 def _command(written: str, taken: Callable[[str], bool]) -> bool:
     """Whether a statement is a command that states nothing about the system."""
     match = _whole_call(written)
+    if (declares := _DECLARES.fullmatch(written)) is not None:
+        return declares["name"] == declares["called"]
     if match is None or carries(written[match.end() :]):
         return False
     name, of = match["name"], match["of"]
