@@ -8,6 +8,7 @@ Both are decided by numbers, at random states.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import partial
@@ -19,6 +20,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.determined import accelerations_determined, ends_right
 from lagrangian.check.constraints.in_rates import in_coordinates
@@ -52,6 +54,9 @@ ROUGH = 1e-6
 
 MOST = 10
 """Lines among which those are sought that are true together."""
+
+_NAME = re.compile(r"[\s$&]*+\\?[^\W\d]\w{0,24}(?:_\{\w{1,24}\})?[\s$&]*+")
+"""A name alone."""
 
 
 class Answered(Protocol):
@@ -311,9 +316,18 @@ def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[Answe
     else:
         index, scaled = _like([p.by_acceleration[j] @ p.along for p in places], [p.reduced for p in places])
         named = None
+    if index is None and _gives_force(truth, line):
+        return Finding(line, Status.RIGHT, FORCE)
     if index is None:
         return Finding(line, Status.SAME_MOTION, text("true whenever the right equations hold"))
     return Finding(line, Status.EQUIVALENT if scaled else Status.RIGHT, None, named)
+
+
+def _gives_force(truth: Compared, line: AnsweredLine) -> bool:
+    """Whether a line says what a multiplier is: λ = m g + 2 m a x ẍ."""
+    new = _names_in(truth, line) - truth.known
+    alone = len(new) == 1 and bounded.diff(line.expr, *new) in (1, -1)
+    return alone and any(_NAME.fullmatch(side) for side in line.text.split("="))
 
 
 def _in_span(slope: Array, rows: Array) -> bool:

@@ -91,18 +91,22 @@ def _below_constraints(truth: Reference, findings: Findings, wrong: Lines) -> Fi
         *(m.symbol for m in truth.derivation.multipliers.values()),
     ]
     exprs = [*(f.line.expr for f in rows), *(line.expr for line in wrong)]
+    truth = held(truth) or truth  # places may be put in
     compiled = CompiledExpressions(exprs)
     slopes = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
     values = compiled.at(truth.states, {x: np.zeros(truth.states.size) for x in by})
     told = np.moveaxis(np.concatenate([slopes, values[:, None]], axis=1), -1, 0)
-    found: dict[int, Finding] = {}
+    if not np.isfinite(told).all():
+        return findings
+    roots = {k: line.number for k, line in enumerate(wrong, len(rows))}
+    above, found = list[int](), dict[int, Finding]()
     for j, f in enumerate(rows):
-        if f.status is not Status.WRONG or f.follows or not np.isfinite(told).all():
-            continue
-        aside = [k for k, line in enumerate(wrong, len(rows)) if line.number < f.line.number]
-        above = [k for k, x in enumerate(rows[:j]) if x.status.right or x.follows]
-        if any(_in_span(told[:, j], told[:, [k, i]]) for k in aside for i in above):
-            found[id(f)] = replace(f, follows=True)
+        if f.status is Status.WRONG and not f.follows:
+            before = [k for k, number in roots.items() if number < f.line.number]
+            if not any(_in_span(told[:, j], told[:, [k, i]]) for k in before for i in above if i != k):
+                continue
+            found[id(f)], roots[j] = replace(f, follows=True), f.line.number
+        above.append(j)
     return [found.get(id(f), f) for f in findings]
 
 
