@@ -147,3 +147,60 @@ m x'' - F_s - F_d = -m g"""
     verdict = hoist.check(answer)
     assert found(verdict) == [(1, False, False), (2, False, False), (3, False, True), (4, False, True)]
     assert [str(m.what).partition(" is ")[2][:19] for m in verdict.mistakes] == ["not right: the force"[:19]] * 2
+
+
+@pytest.fixture(scope="module")
+def crane() -> lg.Derivation:
+    """A trolley with a hanging rod."""
+    s = lg.System("crane")
+    x, phi = s.coordinates("x phi")
+    M, m, J, l = s.parameters("M m J l")
+    s.particle(M, at=s.point("A", (x, 0)), name="trolley")
+    at = s.point("S", (x + l / 2 * sp.sin(phi), -l / 2 * sp.cos(phi)))
+    s.rigid_body(m, J, at=at, frame=s.frame(phi, name="rod"), name="rod")
+    s.gravity()
+    return s.derive()
+
+
+HANGING = """r_S = (x + l sin(phi), -l cos(phi))
+v_S^2 = x'^2 + 2 l x' phi' cos(phi) + l^2 phi'^2
+T = M x'^2/2 + m/2 v_S^2 + J phi'^2/2
+V = -m g l cos(phi)
+(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) = 0
+(J + m l^2) phi'' + m l x'' cos(phi) + m g l sin(phi) = 0"""
+
+
+def test_a_wrong_position_as_a_column_is_the_mistake(crane: lg.Derivation) -> None:
+    verdict = crane.check(HANGING)
+    assert found(verdict) == [(1, False, False), *((k, False, True) for k in range(2, 7))]
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what) == (
+        "Line 1 is not right: the position of rigid body 'rod' is (l*sin(phi)/2 + x, -l*cos(phi)/2), "
+        "not (l*sin(phi) + x, -l*cos(phi))."
+    )
+
+
+@pytest.mark.parametrize(
+    ("said", "right"),
+    [
+        ("r_S = (x + l/2 sin(phi), -l/2 cos(phi))", True),
+        ("r_S = (x + l/2 sin(phi), l/2 cos(phi) + 3)", True),  # y down, from another height
+        ("v_S = (x' + l/2 phi' cos(phi), l/2 phi' sin(phi))", True),
+        ("v_S = (x' cos(phi) + l/2 phi', -x' sin(phi))", True),  # along axes that turn with the rod
+        ("v_S = (x' cos(phi) + l/2 phi', x' cos(phi))", False),
+        ("r_A = (x + l sin(phi), -l cos(phi))", False),
+    ],
+)
+def test_columns_are_right_along_fixed_axes_or_by_their_square(crane: lg.Derivation, said: str, right: bool) -> None:
+    """A column that is not right is no mistake by itself."""
+    verdict = crane.check(f"{said}\n{HANGING.splitlines()[3].replace('g l', 'g l/2')}")
+    assert [f.line.kind == "definition" for f in verdict.findings] == [True, False] if right else [False]
+    assert not [f for f in verdict.findings if not f.status.right]
+
+
+def test_a_name_in_a_right_line_is_defined_rightly(hoist: lg.Derivation) -> None:
+    """d = φ − x may be of use elsewhere: then the spring that is stretched by d is the mistake."""
+    rows = "J phi'' + b R (R phi' - x') + k R d = M\nm x'' - b (R phi' - x') - k d = -m g"
+    verdict = hoist.check(f"d = phi - x\nT = J phi'^2/2 + m (phi' - d')^2/2\n{rows}")
+    assert found(verdict) == [(2, True, False), (3, False, False), (4, False, False)]
+    assert not any(str(m.what).startswith("Line 1") for m in verdict.mistakes)

@@ -179,8 +179,9 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
 
 
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
-    """The verdict with the notes of the reading, each once, but for Q_z that nothing uses and that was judged."""
-    judged = tuple(f"'{f.line.text}' was not judged: nothing else uses " for f in verdict.findings)
+    """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged."""
+    why = ("nothing else uses ", "no equation uses this matrix ")
+    judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     read = (text(Verbatim(note)) for note in answer.notes if not note.startswith(judged))
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(listed.values()))

@@ -5,7 +5,7 @@ A line that follows exactly from such a definition has its mistake there, whatev
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import combinations, islice
 from typing import Any, TypeAlias
@@ -15,6 +15,7 @@ import sympy as sp
 
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.columns_said import columns, said_of_column
 from lagrangian.check.explain.line_mistakes import stated, without_constant
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
@@ -32,7 +33,7 @@ MOST_DEFINITIONS = 16
 """The largest number of definitions that are compared with the bodies."""
 MOST_TOGETHER = 3
 """The largest number of wrong definitions from which one line follows."""
-MOST_PARTS, MOST_FOR_THREE = 60, 16
+MOST_PARTS, MOST_FOR_THREE = 120, 16
 """The most quantities of bodies that are tried, and the most of which three are tried together."""
 NOT_OF_BODIES = (
     "half_forgotten",
@@ -80,23 +81,31 @@ def agrees(explanation: Explanation, said: Sequence[SaidWrongly]) -> bool:
         if change is not None:
             exprs = (change.right, change.written)
             right, written = (letters_in(x) if isinstance(x, sp.Expr) else set[Any]() for x in exprs)
-            lost = change.kind in LEFT_OUT and right and all(right <= letters_in(p.written) for p in said)
+            lost = change.kind in LEFT_OUT and right and all(right <= p.own_letters for p in said)
             if change.kind == "part" or lost or not right | written <= known:
                 return False
     return True
 
 
 class BodiesSaid:
-    """The wrong definitions of an answer that may be of bodies, ready to be compared with its lines."""
+    """The wrong definitions of an answer that may be of bodies, ready to be compared with its lines.
 
-    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
+    No name is defined wrongly that stands in a ``right`` line.
+    """
+
+    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine], right: Sequence[AnsweredLine] = ()) -> None:
         self.truth, self.lines = truth, lines
+        self.proved = frozenset[str]().union(*(x.names for x in right))
 
     @cached_property
     def parts(self) -> list[SaidWrongly]:
         """What the definitions may have wrong."""
-        told = [x for x in self.lines if x.kind == "definition"]
-        every = (part for x in told[:MOST_DEFINITIONS] for part in said_of(self.truth, x))
+        held = columns(self.lines)
+        entries = {id(x) for column in held for x in column}
+        told = [(x,) for x in self.lines if x.kind == "definition" and id(x) not in entries]
+        open_ones = [x for x in (*held, *told) if key((x[0].name or "").removesuffix("_1")) not in self.proved]
+        ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
+        every = (p for x in ordered for p in (said_of_column if len(x) > 1 else _of_one)(self.truth, x))
         return list(islice(every, MOST_PARTS))
 
     def of_all(self, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> Blamed | None:
@@ -154,11 +163,27 @@ class BodiesSaid:
             if count == 1:
                 firsts = {id(p.line): p for k in reversed(chosen) for p in [self.parts[k[0]]]}
                 said = (_first_of(sorted(firsts.values(), key=lambda p: p.number)),)
-            own, lines = [effects[self.parts.index(p)] for p in said], [p.line for p in said]
-            alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in (*own, rest))]
+            places, lines = [self.parts.index(p) for p in said], [p.line for p in said]
+            wholes = [*(effects[k] for k in places), rest]
+            alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in wholes)]
+            alike += self._of_energy_alone(places)
             later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
             return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
         return None
+
+    def _of_energy_alone(self, places: Sequence[int]) -> list[int]:
+        """The definitions that add to T* or V alone what some others add to it, as v_S does beside r_S."""
+        exprs = [x for p in self.parts for x in (p.T, p.V)]
+        both = CompiledExpressions(exprs).at(self.truth.states).reshape(len(self.parts), 2, -1)
+        sizes = np.abs(both).max(axis=2)
+        found: list[int] = []
+        for k, (p, size) in enumerate(zip(self.parts, sizes, strict=True)):
+            energies = [j for j in (0, 1) if size[j] > 0]
+            if len(energies) == 1 and not p.elsewhere and not any(p.effect.Xi) and not any(p.effect.left):
+                j = energies[0]
+                near = [np.abs(both[k, j] - both[i, j]).max() <= SMALL * size[j] for i in places if i != k]
+                found += [k] if any(near) else []
+        return found
 
     def _leads_to(self, effects: Array, chosen: Sequence[int], rest: Array) -> bool:
         """Whether definitions of different lines add up to what is wrong."""
@@ -207,6 +232,10 @@ class BodiesSaid:
                 if np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size:
                     return sorted(said, key=lambda p: p.number)
         return []
+
+
+def _of_one(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[SaidWrongly]:
+    return said_of(truth, lines[0])
 
 
 def _first_of(said: Sequence[SaidWrongly]) -> SaidWrongly:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian.check.explain.bodies_said import Blamed
+from lagrangian.check.explain.columns_said import columns, right_columns
 from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
@@ -16,8 +17,9 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     """The findings with wrong definitions in their places, and what follows from them marked so."""
     if blamed is None:
         return tuple(findings)
-    below = {id(line) for line in blamed.because}
-    found = [replace(f, follows=f.follows or id(f.line) in below) for f in findings]
+    below = {(line.number, line.text) for line in blamed.because}
+    wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in below for f in findings]
+    found = [replace(f, follows=f.follows or follows) for f, follows in zip(findings, wrong, strict=True)]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
     for line in blamed.later:
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
@@ -37,7 +39,8 @@ def with_right_definitions(
             parts.setdefault((line.number, line.text), []).append(line)
     found = list(findings)
     for same in parts.values():
-        every = [right_quantities(truth, line) for line in same]
+        held = columns(same)
+        every = [right_columns(truth, x) for x in held] or [right_quantities(truth, line) for line in same]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}

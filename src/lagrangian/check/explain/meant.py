@@ -56,6 +56,7 @@ def owner_of(name: str, model: Model) -> Body | None:
 def _split(name: str) -> tuple[str, str]:
     """The letter of a name and its index: v_S, vS, ω₁, T_cyl."""
     plain = spelled(name).replace("vec_", "")
+    plain = plain.removesuffix("_vec")
     stem, _, index = plain.partition("_")
     if index or stem in STEMS:
         return stem, index.replace("_", "")

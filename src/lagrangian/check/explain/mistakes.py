@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 import sympy as sp
@@ -52,6 +53,7 @@ from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, St
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.records import dataclass
 
+Lines: TypeAlias = Sequence[AnsweredLine]
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
 BEYOND = 0.3
@@ -81,30 +83,30 @@ class NamedMistakes:
     blamed: Blamed | None = None
 
 
-def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
+def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right: Lines = ()) -> NamedMistakes:
     """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
 
     A mistake that would be visible in a line that is right is not considered. If nothing explains a derivative, the
-    equations that follow from it are explained.
+    equations that follow from it are explained. ``right`` are lines that are right, besides those of the findings.
     """
-    named = _of_lines(truth, lines, findings)
+    named = _of_lines(truth, lines, findings, right)
     derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
     if named.told or not derived or not any(f.follows for f in findings):
         return named
     free = [replace(f, follows=f.follows and f.line.kind != "equation") for f in findings]
-    return _of_lines(truth, lines, free)
+    return _of_lines(truth, lines, free, right)
 
 
-def _of_lines(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
+def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right: Lines) -> NamedMistakes:
     """The mistakes behind the wrong lines that do not follow from others."""
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows and not _is_unclear(f, findings)]
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
-    bodies = BodiesSaid(truth, lines)
+    true = [f.line for f in findings if f.status.right]
+    bodies = BodiesSaid(truth, lines, (*true, *right))
     if (blamed := bodies.of_all(wrong, lines)) is not None:
         return NamedMistakes(_once([p.mistake for p in blamed.said], ()), certain=True, blamed=blamed)
     pool = pool_of(truth)
-    true = [f.line for f in findings if f.status.right]
     against = contradicted(pool, true, lines) | against_derivatives(pool, true)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []

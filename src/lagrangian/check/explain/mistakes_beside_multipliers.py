@@ -15,6 +15,7 @@ from lagrangian.check.constraints.multipliers import with_own_multipliers
 from lagrangian.check.explain.consequences import SMALL
 from lagrangian.check.explain.constraint_mistakes import beside_constraints
 from lagrangian.check.explain.constraint_slips import wrong_constraints
+from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
@@ -52,7 +53,7 @@ def named_beside_multipliers(
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
     judged = _below_constraints(truth, judge(read.lines), [x.finding.line for x in wrong if x.order == SECOND])
-    named = _named(truth, read.lines, judged)
+    named = _named(truth, read.lines, judged, [f.line for f in verdict.findings if f.status.right])
     told = (*named.told, *beside_constraints(truth, lines, wrong, judged, read.mistakes))
     if not told:
         return verdict
@@ -71,6 +72,7 @@ def named_beside_multipliers(
             better[k] = f  # true without any multiplier, however these are read
     found = {k: _without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True)}
     findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
+    findings = with_wrong_definitions(findings, named.blamed)
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
@@ -160,7 +162,7 @@ def _lacks(finding: Finding, forces: Sequence[sp.Expr]) -> bool:
     return any(d.kind == "missing" and d.term.has(*forces) for d in finding.differences)
 
 
-def _named(truth: Reference, lines: Lines, findings: Findings) -> NamedMistakes:
+def _named(truth: Reference, lines: Lines, findings: Findings, right: Lines) -> NamedMistakes:
     """The mistakes behind the wrong equations of a system with constraints.
 
     Where a constraint is put in, terms vanish, and what is missing then may seem more than what was left out. So one
@@ -169,7 +171,7 @@ def _named(truth: Reference, lines: Lines, findings: Findings) -> NamedMistakes:
     forces = [m.symbol for m in truth.derivation.multipliers.values()]
     wrong = [f.line for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
     if all(line.expr.has(*forces) for line in wrong):
-        named = mistakes(truth, lines, findings)
+        named = mistakes(truth, lines, findings, right)
         if len(named.told) == 1 and named.sure and not named.left:
             return named
-    return mistakes(held(truth) or truth, lines, findings)
+    return mistakes(held(truth) or truth, lines, findings, right)

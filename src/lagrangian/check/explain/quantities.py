@@ -91,8 +91,8 @@ def _speeds(s: Ingredients, b: Any) -> Iterator[Sayable]:
     square = sp.Add(*[x**2 for x in v])
     words = (f"square of the speed of {b.title}",)
     yield Sayable("speed", b, words, square, lambda said: Effect(T=m * (said - square) / 2))
-    for x in v:
-        words = (f"component of the velocity of {b.title}",)
+    for c, x in enumerate(v):
+        words = (f"{'xyz'[c]} component of the velocity of {b.title}",)
         yield Sayable("component", b, words, x, lambda said, x=x: Effect(T=m * (said**2 - x**2) / 2))
 
 
@@ -115,7 +115,7 @@ def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
     for c, x in enumerate(s.position(b)):
         if not s.moves(x):
             continue
-        weight = m * s.expand(sp.Add(*[e.g * e.direction[c] for e in s.model.elements if isinstance(e, Gravity)]))
+        weight = weight_along(s, b, c)
 
         def place(said: sp.Expr, x: sp.Expr = x, v: sp.Expr = v[c], weight: sp.Expr = weight) -> Effect:
             return Effect(T=m * (s.rate(said) ** 2 - v**2) / 2, V=-weight * (said - x))
@@ -127,6 +127,12 @@ def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
         yield Sayable("position", b, words, x, place)
         if weight != 0:
             yield Sayable("height", b, words, x, height)
+
+
+def weight_along(s: Ingredients, b: Any, axis: int) -> sp.Expr:
+    """The weight of a body along a fixed axis."""
+    g = sp.Add(*[e.g * e.direction[axis] for e in s.model.elements if isinstance(e, Gravity)])
+    return s.expand(b.mass) * s.expand(g)
 
 
 def _of_springs(s: Ingredients) -> Iterator[Sayable]:
@@ -196,7 +202,9 @@ def _damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> tuple[
 def _of_energies(s: Ingredients) -> Iterator[Sayable]:
     """The kinetic energies of bodies and of other elements, and the potential energies of weights and springs."""
     for e in s.model.elements:
-        words = (f"kinetic energy of {e.title}",) if isinstance(e, Body) else (f"kinetic energy '{e.name}'",)
+        moving = isinstance(e, Body) or e.kind == "kinetic"
+        of = f"kinetic energy of {e.title}" if moving else f"energy of {e.title}"
+        words = (of.replace(" of kinetic", ""),)
         T = s.kinetic(e)
         yield Sayable("kinetic", e, words, T, lambda said, T=T: Effect(T=said - T))
     stored = [(b, f"the weight of {b.title}", V) for _, b, V in s.weights()]

@@ -21,7 +21,7 @@ from lagrangian.check.stated import left_values
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, time
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Left, text
 from lagrangian.records import dataclass
 
 _SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
@@ -39,6 +39,8 @@ WHY = {
     ),
     "position": text(_WAY),
     "height": text(_WAY),
+    "place": text(_WAY),
+    "velocity": text(_SPEED),
     "deflection": text(_DEFLECTION),
     "rate": text(_DAMPER),
     "force": text("Look at both ends: how far, and how fast, do they move relative to each other?"),
@@ -54,11 +56,12 @@ CALLED = {
     "inertia": "moment of inertia",
     "axis": "moment of inertia",
     "height": "position",
+    "place": "position",
     "rate": "velocity",
     "kinetic": "kinetic energy",
     "potential": "potential energy",
 }
-NAMES = {"component": "speed", "height": "position", "rate": "deflection"}
+NAMES = {"component": "speed", "velocity": "speed", "place": "position", "height": "position", "rate": "deflection"}
 """What mistakes of some kinds are called."""
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
 MOST_LACKING = 2
@@ -75,9 +78,9 @@ class SaidWrongly:
 
     line: AnsweredLine
     of: Sayable
-    right: sp.Expr
-    """What is right, in the sense in which the answer counts it."""
-    written: sp.Expr
+    right: tuple[str | Left, ...]
+    """What is right, in the sense in which the answer counts it, in a sentence."""
+    written: tuple[str | Left, ...]
     effect: Effect
     letters: frozenset[sp.Basic]
     """The letters, coordinates and rates in what is right and in what is written."""
@@ -104,12 +107,17 @@ class SaidWrongly:
         """The mistake in words."""
         kind, owner = self.of.kind, self.of.owner
         own = f"{NAMES.get(kind, kind)}_{'of_body' if isinstance(owner, Body) or self.T != 0 else 'said'}"
-        what = text(f"Line {self.number} is not right: the ", *self.of.words, " is ", self.right)
-        what = text(*what.parts, ", not ", self.written, ".")
+        begins = f"Line {self.number} is not right: the "
+        what = text(begins, *self.of.words, " is ", *self.right, ", not ", *self.written, ".")
         title = owner.title if owner is not None else None
         words = self.of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
         brief = text("The ", *words, " is not right.")
         return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, self.of.coordinate, brief)
+
+    @property
+    def own_letters(self) -> set[sp.Basic]:
+        """The letters, coordinates and rates in what is written."""
+        return {y for x in self.written if isinstance(x, sp.Expr) for y in letters_in(x)}
 
     def adds(self, truth: Reference, kind: str, i: int | None) -> sp.Expr:
         """What it adds to an energy, to Ξ_i or to a derivative of L by ξ_i."""
@@ -135,7 +143,7 @@ class SaidWrongly:
         return values
 
 
-def _said(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
+def in_names_of(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
     """What a definition says, in names of the system; None if it says nothing that could be a quantity of it."""
     if line.kind != "definition" or bounded.operations(line.expr) > LONGEST:
         return None
@@ -149,17 +157,17 @@ def _said(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
 
 
 def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
-    """The places of the quantities that a name may stand for by its letters."""
+    """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force."""
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
-    found = [k for k, q in enumerate(every) if kinds is None or q.kind in kinds]
+    found = [k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else q.kind in kinds)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
 
 def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False) -> list[Sayable]:
     """The quantities whose value a definition has, as it counts them; with ``but``, a constant more does not matter."""
-    said = _said(truth, line)
+    said = in_names_of(truth, line)
     trivial = said is None or _is_trivial(said)
     if said is None or (trivial and kinds_of(line.name or "") is None):
         return []
@@ -199,7 +207,8 @@ def _is_trivial(said: sp.Expr) -> bool:
 
 def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
     """What a definition may say wrongly of the quantities that its name may stand for."""
-    if (said := _said(truth, line)) is None:
+    said = in_names_of(truth, line)
+    if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
     every, elsewhere = quantities_of(truth), bool(right_quantities(truth, line, but=True))
     s = every.of
@@ -208,13 +217,13 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         if not _alike(s, q, said):
             continue
         for written, sign in _senses(s, q, said):
-            effect = _put(truth, q.adds(sign * written))
+            effect = put(truth, q.adds(sign * written))
             if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
                 of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
-                right = _folded(s, right)
+                right = folded(s, right)
                 right = _beside(s, right, own) if q.kind == "speed" else right
                 quoted = frozenset(y for x in (right, own) for y in letters_in(x))
-                yield SaidWrongly(line, of, right, own, effect, quoted, elsewhere)
+                yield SaidWrongly(line, of, (right,), (own,), effect, quoted, elsewhere)
 
 
 def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
@@ -228,22 +237,29 @@ def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[
     return q, right, written
 
 
-def _put(truth: Reference, effect: Effect) -> Effect:
+def put(truth: Reference, effect: Effect) -> Effect:
+    """An effect with the values that are put in."""
     T, V = (truth.put(sp.sympify(x)) for x in (effect.T, effect.V))
     Xi, left = (tuple(truth.put(sp.sympify(x)) for x in parts) for parts in (effect.Xi, effect.left))
     return Effect(T, V, Xi, left)
 
 
 def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
-    """Whether what is written may be a value of a quantity: constant, or of positions or rates alone, as this is."""
+    """Whether what is written may be a value of a quantity: constant, or of positions or rates alone, as this is, and
+    with a letter of its own."""
     moves, rates = s.moves(said), said.has(*s.v)
+    if _is_trivial(said) and q.kind not in TRIVIAL:
+        return False
     if q.kind in ("inertia", "axis"):
         return not moves and not rates
     if q.kind in ("position", "height", "deflection"):
         return moves and not rates
     if q.kind in ("turning", "speed", "component"):
         return bool(rates)
-    return bool(moves or rates or q.kind == "Xi")
+    if q.kind == "rate":
+        return bool(moves or rates)
+    common = letters_in(said) & letters_in(q.right)
+    return q.kind == "Xi" or any(x.is_Symbol for x in common)
 
 
 def _senses(s: Ingredients, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
@@ -256,14 +272,20 @@ def _senses(s: Ingredients, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr
     if q.kind not in SIGNED:
         yield said, 1
         return
-    moving = [x for x in (*s.v, *s.q) if q.right.has(x) or said.has(x)]
+    first = turned_to(s, q.right, said)
+    yield said, first
+    yield said, -first
+
+
+def turned_to(s: Ingredients, right: sp.Expr, said: sp.Expr) -> int:
+    """The sense in which what is written is counted: that which leaves fewer motions different."""
+    moving = [x for x in (*s.v, *s.q) if right.has(x) or said.has(x)]
 
     def different(sign: int) -> int:
-        rest = bounded.expand(said - sign * q.right)
+        rest = bounded.expand(said - sign * right)
         return sum(rest.has(x) for x in moving)
 
-    for sign in sorted((1, -1), key=different):
-        yield said, sign
+    return -1 if different(-1) < different(1) else 1
 
 
 def _turned(expr: sp.Expr) -> sp.Expr:
@@ -284,11 +306,12 @@ def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
     except TooLong:
         return right
     found = cast("sp.Expr", written + ring.expr(lacking))
-    shorter = len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
-    return found if len(lacking) <= MOST_LACKING and shorter else right
+    plain = all(not isinstance(f, sp.Pow) or not f.base.is_Add for x in sp.Add.make_args(written) for f in x.args)
+    closer = plain or len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
+    return found if len(lacking) <= MOST_LACKING and closer else right
 
 
-def _folded(s: Ingredients, expr: sp.Expr) -> sp.Expr:
+def folded(s: Ingredients, expr: sp.Expr) -> sp.Expr:
     """An energy without cos² + sin², if that is shorter."""
     ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
     try:

@@ -159,6 +159,15 @@ def matrix_rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[
     return list(zip(both[0], both[1], strict=True))
 
 
+def entries_of(token: Token, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
+    """The entries of a column of two or three that move, as definitions with a number: r_S = (l sin φ, −l cos φ)."""
+    if not isinstance(value, MatrixBase) or 1 not in value.shape or len(value) not in (2, 3):
+        return []
+    if not any(x.has(AppliedUndef) and isinstance(x, (sp.Add, sp.Mul)) for x in value):
+        return []
+    return [made_line("definition", None, x, f"{token}_{k}", side, side, reader) for k, x in enumerate(value, 1)]
+
+
 def made_line(
     kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
 ) -> AnswerLine:

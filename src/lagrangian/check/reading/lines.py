@@ -17,6 +17,7 @@ from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
     accelerates,
+    entries_of,
     is_aside,
     is_general,
     is_rate_of,
@@ -310,7 +311,7 @@ class Lines:
         self._used_nowhere(subject, reader)
         if self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
             self._not_judged(reader, f"no equation uses this matrix {token}")
-        return []
+        return entries_of(token, value, side, reader)
 
     def _is_used_as_matrix(self, token: Token) -> bool:
         """Whether a statement uses a name beside other matrices, or as one side, M q'' = f, or states its rate."""

@@ -1,0 +1,114 @@
+"""What an answer says of the positions and the velocities of bodies as columns, r_S = (x + l sin φ, −l cos φ)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.explain.meant import owner_of
+from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
+from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.said_wrongly import NEAR, SaidWrongly, folded, in_names_of, put, turned_to
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.page.formula import Left
+
+Column: TypeAlias = tuple[AnsweredLine, ...]
+
+
+def columns(lines: Sequence[AnsweredLine]) -> list[Column]:
+    """The definitions of columns, each with the lines of its entries."""
+    found: list[list[AnsweredLine]] = []
+    for line in lines:
+        base, _, index = (line.name or "").rpartition("_")
+        if line.kind != "definition" or not base or index not in ("1", "2", "3"):
+            continue
+        last = found[-1] if found else []
+        same = bool(last) and (last[0].number, last[0].text) == (line.number, line.text)
+        if index == "1":
+            found.append([line])
+        elif same and index == str(len(last) + 1) and last[0].name == f"{base}_1":
+            last.append(line)
+    return [tuple(column) for column in found if len(column) > 1]
+
+
+def right_columns(truth: Reference, column: Column) -> list[Sayable]:
+    """The positions and velocities that a column has rightly, along fixed axes or, of velocities, along any."""
+    said = _said(truth, column)
+    return [] if said is None else [q for q, right, own in _meanings(truth, column, said) if _is(truth, q, right, own)]
+
+
+def said_of_column(truth: Reference, column: Column) -> Iterator[SaidWrongly]:
+    """What a column may say wrongly of the position or the velocity of each body."""
+    said = _said(truth, column)
+    if said is None:
+        return
+    every = [(q, right, own) for q, right, own in _meanings(truth, column, said)]
+    elsewhere = any(_is(truth, q, right, own) for q, right, own in every)
+    s = quantities_of(truth).of
+    for q, right, own in every:
+        effect = put(truth, _effect(s, q.owner, q.kind, own))
+        if effect.T == 0 and effect.V == 0:
+            continue
+        shown, written = (_shown([folded(s, x) for x in xs]) for xs in (right, said))
+        quoted = frozenset(y for x in (*right, *said) for y in letters_in(x))
+        yield SaidWrongly(column[0], q, shown, written, effect, quoted, elsewhere)
+
+
+def _said(truth: Reference, column: Column) -> list[sp.Expr] | None:
+    found = [in_names_of(truth, line) for line in column]
+    return None if any(x is None for x in found) or len(column) != truth.model.dimension else cast("Any", found)
+
+
+def _meanings(
+    truth: Reference, column: Column, said: Sequence[sp.Expr]
+) -> Iterator[tuple[Sayable, list[sp.Expr], list[sp.Expr]]]:
+    """What a column may mean: the quantity, what is right in the senses of the answer, and what it says in ours."""
+    s = quantities_of(truth).of
+    owner = owner_of((column[0].name or "")[:-2], truth.model)
+    moving = any(x.has(*s.v) for x in said)
+    for b in s.bodies:
+        if owner is not None and b is not owner:
+            continue
+        values = s.velocity(b) if moving else s.position(b)
+        if not any(s.moves(x) or x.has(*s.v) for x in values):
+            continue
+        signs = [turned_to(s, x, y) for x, y in zip(values, said, strict=True)]
+        kind, words = ("velocity", "velocity") if moving else ("place", "position")
+        right = [sign * x for sign, x in zip(signs, values, strict=True)]
+        own = [sign * x for sign, x in zip(signs, said, strict=True)]
+        yield Sayable(kind, b, (f"{words} of {b.title}",), sp.S.Zero, lambda _: Effect()), right, own
+
+
+def _effect(s: Ingredients, b: Any, kind: str, own: Sequence[sp.Expr]) -> Effect:
+    """What the position or the velocity adds to T* and V."""
+    m, v, r = s.expand(b.mass), s.velocity(b), s.position(b)
+    rates = [s.rate(x) for x in own] if kind == "place" else own
+    T = m * (sp.Add(*[x**2 for x in rates]) - sp.Add(*[x**2 for x in v])) / 2
+    lifted = [weight_along(s, b, c) * (x - y) for c, (x, y) in enumerate(zip(own, r, strict=True))]
+    return Effect(T=T, V=-sp.Add(*lifted) if kind == "place" else sp.S.Zero)
+
+
+def _is(truth: Reference, q: Sayable, right: Sequence[sp.Expr], own: Sequence[sp.Expr]) -> bool:
+    """Whether all entries are right, but for a constant place; of a velocity, its square is enough."""
+    s = quantities_of(truth).of
+    of = [truth.put(s.velocity(q.owner)[c] if q.kind == "velocity" else x) for c, x in enumerate(s.position(q.owner))]
+    if q.kind == "velocity":
+        return zero_everywhere(truth, truth.put(sp.Add(*[x**2 for x in own])) - sp.Add(*[x**2 for x in of]))
+    rests = CompiledExpressions([x - y for x, y in zip(own, of, strict=True)]).at(truth.states)
+    level = rests - rests[:, :1]
+    return bool(np.isfinite(rests).all() and np.abs(level).max() <= NEAR * (1 + np.abs(rests).max()))
+
+
+def _shown(exprs: Sequence[sp.Expr]) -> tuple[str | Left, ...]:
+    """A column in a sentence: (x + l sin φ, −l cos φ)."""
+    parts: list[str | Left] = []
+    for x in exprs:
+        parts += [", " if parts else "(", x]
+    return (*parts, ")")
