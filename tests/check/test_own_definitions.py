@@ -204,3 +204,30 @@ def test_a_name_in_a_right_line_is_defined_rightly(hoist: lg.Derivation) -> None
     verdict = hoist.check(f"d = phi - x\nT = J phi'^2/2 + m (phi' - d')^2/2\n{rows}")
     assert found(verdict) == [(2, True, False), (3, False, False), (4, False, False)]
     assert not any(str(m.what).startswith("Line 1") for m in verdict.mistakes)
+
+
+def test_a_relation_that_says_the_same_is_not_right_either(drum: lg.Derivation) -> None:
+    """r ω = (R − r) φ′ and then ω = …, with every equation twice."""
+    rows = "\n".join(STANDING.splitlines()[3:])
+    answer = f"r omega = (R - r) phi'\nomega = (R - r) phi'/r\n{rows}\n{rows}"
+    verdict = drum.check(answer)
+    assert not [k for k, right, _ in found(verdict) if right] and verdict.first_wrong is not None
+    assert [k for k, right, follows in found(verdict) if not right and not follows] == [verdict.first_wrong.line.number]
+    assert "the angular velocity of rigid body 'roll'" in str(verdict.mistakes[0].what)
+
+
+def test_a_wrong_rate_of_a_place_is_the_mistake(crane: lg.Derivation) -> None:
+    """ẋ_S lacks ẋ: what follows from it is right in itself."""
+    answer = """x_S = x + l/2 sin(phi)
+x_S' = l/2 phi' cos(phi)
+v^2 = l^2/4 phi'^2
+T = M x'^2/2 + m/2 v^2 + J phi'^2/2"""
+    verdict = crane.check(answer)
+    assert found(verdict) == [(1, True, False), (2, False, False), (3, False, True), (4, False, True)]
+    assert "the x component of the velocity of rigid body 'rod'" in str(verdict.mistakes[0].what)
+
+
+def test_the_sense_is_that_of_the_answer(drum: lg.Derivation) -> None:
+    """ω of the roll is counted against φ: what is right is told with the sign of what is written."""
+    said = STANDING.replace("omega = (R - r) phi'/r", "omega = -(R - r) phi'/r")
+    assert "is (R*psi' - (R - r)*phi')/r, not -(R - r)*phi'/r" in str(drum.check(said).mistakes[0].what)

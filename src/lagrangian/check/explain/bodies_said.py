@@ -7,22 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import cached_property
-from itertools import combinations, islice
+from itertools import combinations, islice, product
 from typing import Any, TypeAlias
 
 import numpy as np
 import sympy as sp
 
-from lagrangian.check.align import LARGEST, alignments
+from lagrangian.check.align import LARGEST, Alignment, alignments
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import columns, said_of_column
 from lagrangian.check.explain.line_mistakes import stated, without_constant
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
+from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of, said_of_rate
 from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
+from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import index_of, right_value, without_dampers
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
@@ -33,6 +34,8 @@ MOST_DEFINITIONS = 16
 """The largest number of definitions that are compared with the bodies."""
 MOST_TOGETHER = 3
 """The largest number of wrong definitions from which one line follows."""
+MOST_ALIGNED = 12
+"""The most correspondences of the equations of an answer with the right ones that are tried."""
 MOST_PARTS, MOST_FOR_THREE = 120, 16
 """The most quantities of bodies that are tried, and the most of which three are tried together."""
 NOT_OF_BODIES = (
@@ -90,12 +93,18 @@ def agrees(explanation: Explanation, said: Sequence[SaidWrongly]) -> bool:
 class BodiesSaid:
     """The wrong definitions of an answer that may be of bodies, ready to be compared with its lines.
 
-    No name is defined wrongly that stands in a ``right`` line.
+    No name is defined wrongly that stands in a ``right`` line. ``rates`` are wrong rates of the answer's own places.
     """
 
-    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine], right: Sequence[AnsweredLine] = ()) -> None:
-        self.truth, self.lines = truth, lines
-        self.proved = frozenset[str]().union(*(x.names for x in right))
+    def __init__(
+        self,
+        truth: Reference,
+        lines: Sequence[AnsweredLine],
+        right: Sequence[AnsweredLine] = (),
+        rates: Sequence[AnsweredLine] = (),
+    ) -> None:
+        self.truth, self.lines, self.rates = truth, lines, rates
+        self.proved = frozenset[str]().union(*(x.names for x in right if x.kind in JUDGED and x.expr != 0))
 
     @cached_property
     def parts(self) -> list[SaidWrongly]:
@@ -104,28 +113,38 @@ class BodiesSaid:
         entries = {id(x) for column in held for x in column}
         told = [(x,) for x in self.lines if x.kind == "definition" and id(x) not in entries]
         open_ones = [x for x in (*held, *told) if key((x[0].name or "").removesuffix("_1")) not in self.proved]
+        open_ones += [(x,) for x in self.rates]
         ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
-        every = (p for x in ordered for p in (said_of_column if len(x) > 1 else _of_one)(self.truth, x))
+        every = (p for x in ordered for p in _parts(self.truth, x))
         return list(islice(every, MOST_PARTS))
 
-    def of_all(self, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> Blamed | None:
-        """The fewest wrong definitions from which all wrong lines follow; None if there are none."""
+    def of_all(self, findings: Sequence[Finding], every: Sequence[AnsweredLine]) -> Blamed | None:
+        """The fewest wrong definitions from which all lines follow that are wrong; None if there are none.
+
+        ``every`` are these lines, those that may have been meant otherwise not among them.
+        """
+        wrong = [line for line in every if not any(line is x for x in self.rates)]
         if not wrong or not self.parts or any(line.kind not in JUDGED for line in wrong):
             return None
-        blocks = [self._of_value(x, lines) for x in wrong if x.kind != "equation"]
+        blocks = [self._of_value(x) for x in wrong if x.kind != "equation"]
         if any(x is None for x in blocks):
             return None
         direct = [x for x in blocks if x is not None]
-        if all(line.kind != "equation" for line in wrong):
-            return self._blamed(direct, wrong)
-        exprs, P = stated(self.truth, [line for line in lines if line.kind == "equation"])
-        size, rows = np.abs(self.truth.W).max(), self._rows
-        for a in alignments(self.truth, exprs, P)[:MOST_FOR_PAIRS]:
-            scale = np.abs(a.rest).max() + size
-            block = (a.rest.ravel() / scale, rows[:, list(a.rows)].reshape(len(rows), -1) / scale)
-            if (found := self._blamed([*direct, block], wrong)) is not None:
+        rows = [x for x in wrong if x.kind == "equation"]
+        equations = [f for f in findings if f.line.kind == "equation" and f.line.expr != 0]
+        dealt = [sheet for sheet in sheets(self.truth, equations) if any(x is y for x in sheet for y in rows)]
+        if not all(any(x is y for sheet in dealt for y in sheet) for x in rows):
+            return None
+        under = [alignments(self.truth, *stated(self.truth, sheet))[:MOST_FOR_PAIRS] for sheet in dealt]
+        for chosen in islice(product(*under), MOST_ALIGNED):
+            if (found := self._blamed([*direct, *map(self._of_rows, chosen)], wrong)) is not None:
                 return found
         return None
+
+    def _of_rows(self, under: Alignment) -> Block:
+        """What is wrong in a set of equations, and what each definition adds to them."""
+        scale, rows = np.abs(under.rest).max() + np.abs(self.truth.W).max(), self._rows
+        return under.rest.ravel() / scale, rows[:, list(under.rows)].reshape(len(rows), -1) / scale
 
     @cached_property
     def _rows(self) -> Array:
@@ -134,12 +153,12 @@ class BodiesSaid:
         every[~(np.abs(every) <= LARGEST).all(axis=(1, 2))] = np.nan
         return every
 
-    def _of_value(self, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Block | None:
+    def _of_value(self, line: AnsweredLine) -> Block | None:
         """What is wrong in an energy, a Ξ or a derivative, and what each definition adds to it; None if it is too small
         or too large."""
         truth, i = self.truth, index_of(self.truth, line.name)
         right = right_value(truth, line, i)
-        if line.kind == "Xi" and (undamped := without_dampers(truth, line, i, lines)) is not None:
+        if line.kind == "Xi" and (undamped := without_dampers(truth, line, i, self.lines)) is not None:
             right = undamped
         if right is None:
             return None
@@ -234,8 +253,11 @@ class BodiesSaid:
         return []
 
 
-def _of_one(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[SaidWrongly]:
-    return said_of(truth, lines[0])
+def _parts(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[SaidWrongly]:
+    """What a definition, a column or a rate may have wrong."""
+    if len(lines) > 1:
+        return said_of_column(truth, tuple(lines))
+    return said_of_rate(truth, lines[0]) if lines[0].kind == "identity" else said_of(truth, lines[0])
 
 
 def _first_of(said: Sequence[SaidWrongly]) -> SaidWrongly:

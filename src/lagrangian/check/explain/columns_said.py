@@ -79,7 +79,7 @@ def _meanings(
         values = s.velocity(b) if moving else s.position(b)
         if not any(s.moves(x) or x.has(*s.v) for x in values):
             continue
-        signs = [turned_to(s, x, y) for x, y in zip(values, said, strict=True)]
+        signs = [turned_to(truth, x, y) for x, y in zip(values, said, strict=True)]
         kind, words = ("velocity", "velocity") if moving else ("place", "position")
         right = [sign * x for sign, x in zip(signs, values, strict=True)]
         own = [sign * x for sign, x in zip(signs, said, strict=True)]

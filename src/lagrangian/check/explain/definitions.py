@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from lagrangian.check.explain.bodies_said import Blamed
@@ -11,6 +11,7 @@ from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.page.formula import text
+from lagrangian.read.letters import key
 
 
 def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -> tuple[Finding, ...]:
@@ -21,11 +22,23 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in below for f in findings]
     found = [replace(f, follows=f.follows or follows) for f, follows in zip(findings, wrong, strict=True)]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
+    names = {key(p.line.name or "") for p in blamed.said}
+    numbers = {number for number, _ in lines}
+    found = [f for f in found if not (_says_it_itself(f, names) and f.line.number in numbers)]
+    found = [
+        replace(f, status=Status.WRONG, note=None, follows=True) if _says_it_itself(f, names) else f for f in found
+    ]
     for line in blamed.later:
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
-    for new in lines.values():
-        found = _inserted(found, new)
+    for at, new in lines.items():
+        if at not in [(f.line.number, f.line.text) for f in found if f.status is Status.WRONG]:
+            found = _inserted(found, new)
     return tuple(found)
+
+
+def _says_it_itself(finding: Finding, names: Collection[str]) -> bool:
+    """Whether a line is only right because one of the names has the value that it has: r ω = R φ̇."""
+    return finding.status.right and finding.line.expr == 0 and bool(finding.line.names & frozenset(names))
 
 
 def with_right_definitions(

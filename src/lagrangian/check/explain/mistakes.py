@@ -103,8 +103,8 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     if not wrong or not np.isfinite(truth.W).all():
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]
-    bodies = BodiesSaid(truth, lines, (*true, *right))
-    if (blamed := bodies.of_all(wrong, lines)) is not None:
+    bodies = BodiesSaid(truth, lines, (*true, *right), _rates(truth, wrong))
+    if (blamed := bodies.of_all(findings, wrong)) is not None:
         return NamedMistakes(_once([p.mistake for p in blamed.said], ()), certain=True, blamed=blamed)
     pool = pool_of(truth)
     against = contradicted(pool, true, lines) | against_derivatives(pool, true)
@@ -157,6 +157,11 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     told, others = of_equations(told, lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
+
+
+def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The wrong rates of places of the answer's own, ẏ = …."""
+    return [x for x in wrong if x.kind == "identity" and x.name not in truth.model.symbols]
 
 
 def _with_definitions(

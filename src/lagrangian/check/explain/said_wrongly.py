@@ -216,7 +216,7 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         q = every.all[k]
         if not _alike(s, q, said):
             continue
-        for written, sign in _senses(s, q, said):
+        for written, sign in _senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
             if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
                 of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
@@ -224,6 +224,19 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
                 right = _beside(s, right, own) if q.kind == "speed" else right
                 quoted = frozenset(y for x in (right, own) for y in letters_in(x))
                 yield SaidWrongly(line, of, (right,), (own,), effect, quoted, elsewhere)
+
+
+def said_of_rate(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
+    """What a wrong rate of a place of the answer's own, ẏ = …, may say wrongly of the velocity of each body."""
+    every, rest = quantities_of(truth), truth.expand(line.expr)
+    if bounded.operations(rest) > LONGEST or rest.free_symbols - truth.names:
+        return
+    for q in (q for q in every.all if q.kind == "component"):
+        for sign in (1, -1):
+            written = bounded.expand(sign * q.right - rest)
+            effect = put(truth, q.adds(sign * written))
+            quoted = frozenset(y for x in (q.right, written) for y in letters_in(x))
+            yield SaidWrongly(line, q, (bounded.expand(sign * q.right),), (written,), effect, quoted)
 
 
 def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
@@ -262,28 +275,30 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
     return q.kind == "Xi" or any(x.is_Symbol for x in common)
 
 
-def _senses(s: Ingredients, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
+def _senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
     """What is written, and the sense in which it is counted; the sense that leaves fewer motions different first."""
     if q.kind == "speed":
         yield said**2, 1
         yield said, 1
         return
+    s = quantities_of(truth).of
     said = s.rate(said) if q.kind == "rate" and not said.has(*s.v) else said
     if q.kind not in SIGNED:
         yield said, 1
         return
-    first = turned_to(s, q.right, said)
+    first = turned_to(truth, q.right, said)
     yield said, first
     yield said, -first
 
 
-def turned_to(s: Ingredients, right: sp.Expr, said: sp.Expr) -> int:
-    """The sense in which what is written is counted: that which leaves fewer motions different."""
-    moving = [x for x in (*s.v, *s.q) if right.has(x) or said.has(x)]
+def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
+    """The sense in which what is written is counted: that which leaves fewer motions different, or less."""
+    moving = [x for c in truth.model.coordinates for x in (c.rate, c.symbol) if right.has(x) or said.has(x)]
+    values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
 
-    def different(sign: int) -> int:
+    def different(sign: int) -> tuple[int, float]:
         rest = bounded.expand(said - sign * right)
-        return sum(rest.has(x) for x in moving)
+        return sum(rest.has(x) for x in moving), float(np.abs(values[1] - sign * values[0]).sum())
 
     return -1 if different(-1) < different(1) else 1
 
@@ -292,7 +307,7 @@ def _turned(expr: sp.Expr) -> sp.Expr:
     """The negative of an expression, with the sign inside of its sum: ((R − r) φ̇ − R ψ̇)/r."""
     factors = list(sp.Mul.make_args(expr))
     for k, f in enumerate(factors):
-        if isinstance(f, sp.Add):
+        if isinstance(f, sp.Add) and sp.S.NegativeOne not in factors:
             factors[k] = sp.Add(*[-x for x in f.args])
             return cast("sp.Expr", sp.Mul(*factors))
     return -expr
