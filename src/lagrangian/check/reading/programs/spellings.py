@@ -4,7 +4,7 @@ np.sin(x)  sp.Rational(1, 2)  Math.pow(x, 2)        sin(x)  ((1)/(2))  ((x)^(2))
 x.diff(t, 2)  x(t).diff(t).diff(t)  L.diff(x')      x''  x''  diff(L, x')                SymPy
 diff(x(t), t$2)  diff(x(t), `$`(t, 2))  D(x)(t)  (D@@2)(x)(t)              diff(x(t), t, 2)  x'  x''            Maple
 Derivative[2][x][t]  (x^\\[Prime])[t]  \\[Theta]     x''  x'  θ                            Mathematica
-D2x  Dx  D²x  D^2 x                                 x''  x'                              MATLAB, operators
+D2x  DDx  Dx  D²x  D^2 x                            x''  x''  x'                         MATLAB, operators
 $ frac(1, 2) m dot.double(x) $                      ((1)/(2)) m x''                      Typst
 m*D(D(x)) ~ 1//2*F  Differential(t)(x(t))           m*x'' = (1/2)*F  x'                  Julia
 der(x) = v                                          x' = v                              Modelica
@@ -59,7 +59,9 @@ _EQUALS = re.compile(
     r"^(?:[ \t]*+[^\W\d]\w{0,23}+[ \t]*+=[ \t]*+)?(?P<left>[^=~\n]*\S)[ \t]+~[ \t]+(?=\S)(?=[^=~\n]*$)", re.MULTILINE
 )
 _RATIO = re.compile(r"(?<![\w.])(?P<above>\d{1,6})//(?P<below>\d{1,6})(?![\w.])")
-_RATE = re.compile(rf"(?<![\w\\])D(?P<two>2|[ \t]?(?:²|(?:\^|\*\*)[ \t]?2)[ \t]*)?(?P<of>(?>{_NAME}))(?!\w)")
+_RATE = re.compile(
+    rf"(?:(?<![\w\\])|(?<=/[d∂]))D(?P<two>[2D]|[ \t]?(?:²|(?:\^|\*\*)[ \t]?2)[ \t]*)?(?P<of>(?>{_NAME}))(?!\w)"
+)
 _SECOND_RATE = re.compile(rf"(?<![\w\\.])d2_?(?P<of>(?>{_NAME}))(?!\w|[ \t]?\(|[ \t]?/[ \t]?d)")
 """How programs spell second derivatives: d2x for x''."""
 _LINE_OF_CODE = re.compile(
@@ -196,7 +198,7 @@ def _called(text: str, taken: Callable[[str], bool], *, typst: bool) -> Iterator
 
 
 def _with_primes(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
-    """D2x and Dx as x'' and x', unless D is a factor: where the answer has a second derivative so, or x moves."""
+    """D2x, DDx, Dx as x'', x'', x', unless D is a factor: where the answer has a second derivative so, or x moves."""
     if not taken("d2"):
         written = written.sub(
             _SECOND_RATE, lambda m: f"{m['of']}''" if moves(m["of"]) and taken(m["of"]) else m.group()
