@@ -31,7 +31,7 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import differentiated_by, is_matrix, only_name
+from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.own_values import amounts_to
 from lagrangian.check.reading.parts import left_out, tells, without_parts
@@ -163,6 +163,7 @@ class Lines:
         self.names.given_matrices = self._matrices
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
         self.subjects.left = set(self.subjects.leading)
+        self.subjects.gives_rates = set().union(*(self.subjects.in_rates(s.sides) for s in self._statements))
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
@@ -285,7 +286,9 @@ class Lines:
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""
         assert subject.token is not None
-        if self.names.occurs(subject.token) == 1 and not subject.order and not self.names.changes(subject.token):
+        sides = [side for s in self._statements for side in s.sides]
+        used = self.names.occurs(subject.token) > 1 or key(str(subject.token)) in derived(sides)
+        if not used and not subject.order and not self.names.changes(subject.token):
             self._not_judged(reader, f"nothing else uses {subject.token}")
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:

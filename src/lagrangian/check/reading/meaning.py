@@ -11,6 +11,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.canonical import NAMES, momenta_of, slope_at_momenta
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, leaf, only_name
 from lagrangian.check.reading.placeholders import ENERGIES, is_placeholder, is_vector, slope, variation
@@ -139,6 +140,8 @@ class Meaning(ExpressionReader):
                     fix="write ∂L/∂x1', or state the energy on an earlier line",
                 )
         variable = self.value(by)
+        if energy is not None and (found := self._at_momenta(kind, energy, variable, by)) is not None:
+            return found
         if (found := self._own_slope(kind, energy, variable, by)) is not None:
             return found
         if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
@@ -149,6 +152,20 @@ class Meaning(ExpressionReader):
                 return slope(key(kind), variable)
             return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
         return self._differentiated(self.names.model.expand(energy), variable, node)
+
+    def _at_momenta(self, kind: str, energy: sp.Expr, variable: sp.Expr, by: Node) -> sp.Expr | None:
+        """The derivative of an answer's own H, in which its momenta are held or differentiated by; None of another."""
+        coordinates = [c.symbol for c in self.names.model.coordinates]
+        momenta = momenta_of(self.names.own, [q.diff(time) for q in coordinates]) if kind in NAMES else {}
+        named = only_name(by)
+        chosen = variable if variable in coordinates else key(undotted(named[0])[0]) if named and not named[1] else None
+        if chosen is None or (chosen != variable and chosen not in momenta) or not momenta:
+            return None
+        whole, held = self.names.model.expand(energy), {x: self.names.model.expand(p) for x, p in momenta.items()}
+        found = slope_at_momenta(whole, held, coordinates, chosen, lambda x, y: self._differentiated(x, y, by))
+        if found is not None:
+            self._spend(found, by)
+        return found
 
     def _own_slope(self, kind: str, energy: sp.Expr | None, variable: sp.Expr, by: Node) -> sp.Expr | None:
         """The derivative in an answer with coordinates of its own; where nothing says which ones these replace, or the

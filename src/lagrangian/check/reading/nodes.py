@@ -122,6 +122,11 @@ def only_name(tree: Node) -> tuple[Token, int] | None:
     return token, len(primes or "")  # type: ignore[return-value]
 
 
+def derived(trees: Sequence[Tree]) -> set[str]:
+    """The letters of which partial derivatives stand in the trees: H of ∂H/∂x."""
+    return {str(part.children[0]) for tree in trees for part in tree.iter_subtrees() if part.data == "partial"}
+
+
 def differentiated_by(trees: Sequence[Tree]) -> tuple[str, ...]:
     """The names by which energies are differentiated somewhere, each once."""
     partial = (part for tree in trees for part in tree.iter_subtrees() if part.data == "partial")

@@ -53,6 +53,8 @@ class Subjects:
     def __init__(self, model: Model, names: Names) -> None:
         self.model, self.names = model, names
         self.defined: set[str] = set()
+        self.gives_rates: set[str] = set()
+        """The keys of the names of which the rates of coordinates are functions."""
         self.left: set[str] = set()
         """The names that a statement defines on its left side."""
         self.leading: Counter[str] = Counter()
@@ -123,6 +125,13 @@ class Subjects:
         """Whether a statement is the first to say what a name is."""
         return subject.kind == "definition" and not subject.order and not self.names.is_own(str(subject.token))
 
+    def in_rates(self, sides: Sequence[Tree]) -> set[str]:
+        """The keys of the names in what a statement equates with the rate of a coordinate of the system: x' = p/m."""
+        found = [x for side in sides if (x := only_name(side)) is not None and self._taken(x[0])]
+        rates = [x for x in found if x[1] + undotted(x[0])[1] == 1]
+        listed = (x for side in sides for x in names_in(side)) if rates else ()
+        return {key(undotted(token)[0]) for token, changing in listed if not changing and not self._taken(token)}
+
     def of(self, side: Tree, *, moving: bool = False, balanced: bool = False) -> Subject | None:
         """The subject of a statement with this left-hand side; None if it is an equation.
 
@@ -174,6 +183,8 @@ class Subjects:
         if subject.order:
             if self.names.occurs(subject.token) > 1 and not value.atoms(AppliedUndef):
                 return False  # a motion that is prescribed: y_p'' = -a w^2 cos(w t)
+            if subject.order == 1 and key(str(subject.token)) in self.gives_rates - self.defined:
+                return True  # p' = F, where x' = p/m says what p is
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
             return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
         if subject.square or not accelerates(value):
