@@ -150,3 +150,19 @@ def test_a_letter_of_the_answer_is_given_names_before_units() -> None:
     rows = "K theta' + L q'' + R q' - u = 0\ng l M/2 sin theta - K q' + b theta' + (J + m l^2) theta'' = 0"
     assert arm.check(f"M = 2 m\n{rows}").right
     assert not arm.check(f"M = 2 l\n{rows}").right
+
+
+@pytest.mark.parametrize(
+    "said", ["tan β = b/(m g L)", "with sin(β) = b/√(b² + m² g² L²) and so on", r"$\tan\beta = \frac{b}{mgL}$"]
+)
+def test_an_angle_is_what_its_tangent_or_its_sine_says(said: str) -> None:
+    row = "(m L² θ'' + m g L sin θ) cos β + m g L θ' sin β = 0"
+    if "$" in said:
+        row = r"$(m L^2 \ddot\theta + m g L \sin\theta)\cos\beta + m g L \dot\theta \sin\beta = 0$"
+    assert derivation("pendulum").check(f"{row}\n{said}").right
+    assert not derivation("pendulum").check(f"{row}\n{said.replace('b/', '2 b/').replace('{b}', '{2b}')}").right
+
+
+def test_a_condition_says_nothing_of_a_letter() -> None:
+    with pytest.raises(ParseError, match="what is 'N'"):
+        derivation("pendulum").check("Let N be the push on it (for θ > 0).\nm L² θ'' + b θ' + m g L sin N = 0")

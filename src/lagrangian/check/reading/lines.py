@@ -281,7 +281,7 @@ class Lines:
         if subject.order:
             self.names.rates[key(undotted(subject.token)[0]), subject.order] = value
         else:
-            self.names.define(subject.token, sp.sqrt(value) if subject.square else value)
+            self.names.define(subject.token, getattr(sp, subject.inverse)(value) if subject.inverse else value)
 
     def _used_nowhere(self, subject: Subject, reader: Meaning) -> None:
         """Tell that a definition is not judged if nothing else uses the name."""

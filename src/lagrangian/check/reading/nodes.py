@@ -113,6 +113,15 @@ def squared_name(tree: Node) -> Token | None:
     return found[0] if found is not None and not found[1] and exponent in ("2", "²") and len(rest) <= 2 else None
 
 
+def called_name(tree: Node) -> tuple[str, Token] | None:
+    """Return the function and the name if a tree is the sine or the tangent of a name: tan α."""
+    tree = inside(tree)
+    if not isinstance(tree, Tree) or tree.data != "call" or len(tree.children) != 2:
+        return None
+    found, function = only_name(tree.children[1]), str(tree.children[0])
+    return (function, found[0]) if function in ("sin", "tan") and found is not None and not found[1] else None
+
+
 def only_name(tree: Node) -> tuple[Token, int] | None:
     """Return the name and its primes if a tree is only a name, however it is wrapped."""
     tree = inside(tree)

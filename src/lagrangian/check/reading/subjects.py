@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, names_in, spelled_rates
-from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
+from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
 from lagrangian.model.names import time
@@ -31,14 +31,14 @@ MULTIPLIERS = ("lambda", "lam", "lmbda")
 
 @dataclass(frozen=True)
 class Subject:
-    """The subject of a statement: its kind, its name, the token, the order of a rate, whether it is squared, and
-    whether it is on the right."""
+    """The subject of a statement: its kind, its name, the token, the order of a rate, the inverse of the function that
+    the name stands in, and whether it is on the right."""
 
     kind: Kind
     name: str | None = None
     token: Token | None = None
     order: int = 0
-    square: bool = False
+    inverse: str = ""
     right: bool = False
 
 
@@ -141,15 +141,21 @@ class Subjects:
         if (found := only_name(side)) is not None:
             return self._named(*found, moving, balanced)
         if (token := squared_name(side)) is not None and not self._taken(token):
-            return Subject("definition", str(token), token, square=True)
+            return Subject("definition", str(token), token, inverse="sqrt")
+        if (called := called_name(side)) is not None and self._is_own_angle(called[1]):
+            return Subject("definition", str(called[1]), called[1], inverse=f"a{called[0]}")  # tan α = 2 a x
         return self._derivative_of_energy(inside(side))
+
+    def _is_own_angle(self, token: Token) -> bool:
+        """Whether a name in a sine or a tangent is no name of the system, and nothing above says what it is."""
+        return not self._taken(token) and not self.names.is_own(str(token)) and self.names.occurs(token) > 1
 
     def sharing(self, subject: Subject, sides: list[Tree]) -> tuple[list[Tree], list[Token]]:
         """The sides of a definition without those that are new names alone, and these: a_12 = a_21 = m l."""
-        if subject.kind != "definition" or subject.order or subject.square or len(sides) < 3:
+        if subject.kind != "definition" or subject.order or subject.inverse or len(sides) < 3:
             return sides, []
         alone = [(side, self.of(side)) for side in sides[1:-1]]
-        new = [s for _, s in alone if s is not None and s.kind == "definition" and not s.order and not s.square]
+        new = [s for _, s in alone if s is not None and s.kind == "definition" and not s.order and not s.inverse]
         same = [s.token for s in new if s.token is not None and s.token != subject.token]
         kept = [side for side, s in alone if s is None or s.token not in same]
         return [sides[0], *kept, sides[-1]], same
@@ -167,7 +173,7 @@ class Subjects:
     def names_sides(self, subject: Subject, sides: list[Tree]) -> bool:
         """Whether a name in front of an equation of motion only says what its sides are: F_x = m x'' = F - b x'."""
         token = subject.token
-        if subject.kind != "definition" or subject.order or subject.square or token is None or len(sides) < 3:
+        if subject.kind != "definition" or subject.order or subject.inverse or token is None or len(sides) < 3:
             return False
         alone = self.names.occurs(token) == self.leading[key(undotted(token)[0])]
         return alone and any(map(self.accelerates, sides[1:]))
@@ -187,7 +193,7 @@ class Subjects:
                 return True  # p' = F, where x' = p/m says what p is
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
             return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
-        if subject.square or not accelerates(value):
+        if subject.inverse or not accelerates(value):
             return False
         others = equal - subject.right
         return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)

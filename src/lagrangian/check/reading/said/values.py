@@ -65,6 +65,8 @@ _RATES = re.compile(r"(?:velocit|speed|rates?\b|geschwindigkeit|drehzahl|vitesse
 _ACCELERATIONS = re.compile(r"acceler|beschleunig|accélér", re.IGNORECASE)
 _NAMED_IN = re.compile(r"[^\W\d_]\w*")
 _ENDS = re.compile(r"(?<=[\w)\]}$'’′″²³])[.;](?=\s|\Z)|\n[ \t]*\n|\n(?=[ \t]*(?:\\|[A-Z(]|[^\n=]{0,200}=))")
+_COMPARED = re.compile(r"[ \t$]*+(?:[<>≤≥≪≫]|\\(?:ll|gg|leq?|geq?)(?![a-z]))")
+"""What stands behind a name in a condition: (for x > 0)."""
 _MATH = re.compile(r"(?<!\\)\$(?P<dollar>[^$\n]{1,300})\$|\\\((?P<round>[^\n]{1,300}?)\\\)")
 _DELIMITED = re.compile(r"\$|\\\(|\\\[|\\begin\{(?:equation|align|gather|eqnarray|multline|flalign)")
 _STATES = re.compile(r"[=<>≈≡]|\\(?:approx|equiv|ll|gg|leq?|geq?|to|neq|begin|quad|qquad)(?![A-Za-z])")
@@ -162,7 +164,7 @@ def _items(sentence: str, names: dict[str, str], words: Words, *, latex: bool) -
         written = sentence[start:end].strip()
         at = end
         bare = key(re.sub(r"[\\{}\s]", "", written)) if latex else key(written)
-        if stated:
+        if stated or _COMPARED.match(sentence, end):
             yield _Item("other", written, before)
         elif bare in names:
             yield _Item("name", bare, before)
