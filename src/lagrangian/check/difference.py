@@ -170,7 +170,9 @@ def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
 
 def voted(truth: Reference, expr: sp.Expr, right: Form | None, like: Likeness) -> Likeness:
     """A likeness with the factor for which most terms of ``expr`` speak, one by one."""
-    found = scales(truth, expr, [t.expr for t in right.terms()]) if right is not None else []
+    if right is None or (abs(like.factor) == 1 and like.score >= NEAR):
+        return like
+    found = scales(truth, expr, [t.expr for t in right.terms()])
     return replace(like, factor=found[0].factor) if found and found[0].votes > 1 else like
 
 

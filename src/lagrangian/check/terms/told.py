@@ -192,7 +192,10 @@ class _Sums:
 
     def _product_like(self, term: WrittenTerm, lacking: Sequence[TermItem]) -> sp.Expr | None:
         """A product with a sum, with what it lacks, if that is a product as short as it is; None if not."""
+        outside = [f for f in sp.Mul.make_args(term.expr) if not f.is_number and not f.has(sp.Add)]
         if not any(isinstance(f.as_base_exp()[0], sp.Add) for f in sp.Mul.make_args(term.expr)):
+            return None
+        if any(denominator([x.piece.expr / sp.Mul(*outside)]) != denominator([x.piece.expr]) for x in lacking):
             return None
         if not {motion(x.piece.expr) for x in lacking} <= {motion(p.expr) for p in term.pieces}:
             return None
