@@ -163,3 +163,17 @@ def test_declarations_of_functions_behind_another_on_one_line(named: str) -> Non
     sheet += f"{CART.replace('theta', f'{named}').replace('= F', '- F = 0')}\n{POLE.replace('theta', named)}"
     assert right(sheet)
     assert not right(sheet.replace("- m g", "+ m g"))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "(track begins at x = 0)",
+        "(rest position: theta = pi/2)",
+        "V = 0 at theta = pi/2",
+        "[x = 0, the spring relaxed]",
+    ],
+)
+def test_where_a_coordinate_or_an_energy_is_zero_is_a_remark(said: str) -> None:
+    assert right(f"V = m g l cos theta\n   {said}\n{CART}\n{POLE}")
+    assert not right(f"V = m g l sin theta\n   {said}\n{CART}\n{POLE}")

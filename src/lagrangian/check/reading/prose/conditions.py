@@ -13,16 +13,24 @@ from lagrangian.check.reading.prose.words import Words
 _NAME = r"[^\W\d]\w{0,15}+['’′]{0,2}"
 _RELATION = (
     rf"{_NAME}[ \t]*(?:=|≈|≪|≫|<<|>>|<|>|≤|≥|→|≡|≠|!=|->)[ \t]*"
-    rf"[-−]?(?:\d[\w./]{{0,8}}|{_NAME}|π(?:/2)?|∞)(?![\w(*/^+²])"
+    rf"[-−]?(?:\d[\w./]{{0,8}}|(?:π|pi)(?:/\d)?|{_NAME}|∞)(?![\w(*/^+²])"
 )
 _LINK = r"[ \t]*(?:,|and|or|und|oder|et)[ \t]+"
 CONDITION = re.compile(
-    r"(?<!\w)(?:if|when|whenever|for|unless|(?:provided|assuming)(?:[ \t]that)?|wenn|falls|für|bei|sofern|si|pour)"
+    r"(?<!\w)(?:(?:V|U|PE|E_?pot)[ \t]*=[ \t]*0[ \t]+)?"
+    r"(?:at(?![ \t]+[^\s=]{1,20}['’′]{2})|if|when|whenever|for|unless|"
+    r"(?:provided|assuming)(?:[ \t]that)?|wenn|falls|für|bei|sofern|si|pour)"
     rf"[ \t]+(?:[^\W\d_]{{2,12}}[ \t]+){{0,2}}?(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
     r"(?=[ \t]*(?:$|[,.;:)]|[^\W\d_]{2}))",
     re.IGNORECASE | re.MULTILINE,
 )
-"""A condition, whose values are numbers or names."""
+"""A condition, whose values are numbers or names, and the zero of V that it is."""
+_REFERENCE = re.compile(
+    rf"(?<![\w)\]])[(\[](?P<words>[^()\[\]=\n]{{0,60}}?)(?P<name>{_NAME})[ \t]*=[ \t]*[-−]?(?:\d[\d.,/π]{{0,8}}|π|pi)"
+    r"(?:[ \t]?/[ \t]?\d)?(?P<more>[^()\[\]=\n+*^]{0,60})[)\]]"
+)
+"""Where a coordinate is zero, or V, in brackets and in words: (spring relaxed, x = 0)."""
+_WORD = re.compile(r"[^\W\d_]{3,}")
 _CASE = re.compile(
     rf"^(?:[ \t]*[^\W\d_][\w \t-]{{2,30}}:)?[ \t]*(?P<said>{_RELATION}(?:{_LINK}{_RELATION}){{0,4}})"
     r"[ \t]*(?:⇒|⟹|=+>|→|-+>)",
@@ -40,6 +48,10 @@ def without_conditions(text: str, words: Words) -> str:
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     for match in found:
         text = blank(text, *match.span())
+    for match in _REFERENCE.finditer(text):
+        spoken = [x for x in _WORD.findall(f"{match['words']} {match['more']}") if not words.readable(x)]
+        if spoken and words.names.changes(match["name"]):
+            text = blank(text, *match.span())
     return text
 
 
