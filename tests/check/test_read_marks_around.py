@@ -105,3 +105,10 @@ def test_numbers_that_are_equated_name_steps(said: str) -> None:
     assert right(f"{KINETIC}\n{said}\n{CART}\n{POLE}")
     assert not right(f"{said}\n{CART}")
     assert not right(f"{said.replace('5', '0')}\n{CART}\n{POLE}")
+
+
+@pytest.mark.parametrize("label", ["(I)+(II):", "(a) - r·(b): ", "Gl. (I) + Gl. (II):", "(1)+(2):"])
+def test_a_sum_of_labels_in_front_of_an_equation_says_which_were_added(label: str) -> None:
+    total = f"{CART.partition('=')[0]} + {POLE.partition('=')[0]} = F"
+    assert right(f"{label} {total}\n(II): {POLE}")
+    assert not right(f"{label} {total} + b\n(II): {POLE}")
