@@ -201,3 +201,14 @@ def test_what_is_called_like_a_momentum_and_balances_forces_is_a_left_hand_side(
     twins(session, "cart-pole")
     momentum = "p1 = (M + m)*x' + m*l*cos(theta)*theta'"
     twins(f"{momentum}\n{X} = 0\n{ANGLE} = 0", "cart-pole", momentum, momentum.replace("cos", "sin"))
+
+
+def test_what_is_derived_by_a_rate_that_a_program_spells_and_expanded_is_judged() -> None:
+    kinetic = "1/2*(M+m)*diff(x,t)^2 + m*l*cos(theta)*diff(x,t)*diff(theta,t) + 1/2*(J+m*l^2)*diff(theta,t)^2"
+    session = f"(%i2) T: {kinetic}$\n(%i3) V: m*g*l*cos(theta)$\n(%i4) L: T-V$\n"
+    session += "(%i5) expand(diff(diff(L,diff(x,t)),t)-diff(L,x)) = F-b*diff(x,t);\n"
+    session += "(%i6) simplify(diff(diff(L,diff(theta,t)),t)-diff(L,theta)) = 0;"
+    twins(session, "cart-pole", "F-b*", "F+b*")
+    twins(session, "cart-pole", "$\n(%i3)", "*2$\n(%i3)")
+    lines = derivation("cart-pole").check(session).findings
+    assert [x.line.kind for x in lines] == ["T", "V", "L", "equation", "equation"]

@@ -161,9 +161,15 @@ class Subjects:
         return [sides[0], *kept, sides[-1]], same
 
     def each(self, subject: Subject | None, sides: list[Tree]) -> list[tuple[Subject, list[Tree]]]:
-        """The subjects of a statement, each with its sides: two of Ξ_x = Ξ_z = 0, none of an equation."""
+        """The subjects of a statement, each with its sides: two of Ξ_x = Ξ_z = 0 and of p = ∂L/∂x' = m x', none of an
+        equation."""
         if subject is None:
             return []
+        if subject.kind == "definition" and not subject.order and len(sides) > 2:
+            derived = [(side, x) for side in sides[1:] if (x := self._derivative_of_energy(inside(side))) is not None]
+            rest = [side for side in sides[1:] if all(side is not x for x, _ in derived)]
+            if derived and rest:
+                return [(subject, [sides[0], *rest]), *((own, [side, *rest]) for side, own in derived)]
         forces = [(side, x) for side in sides if (x := self.of(side)) is not None and x.kind == "Xi"]
         rest = [side for side in sides if all(side is not x for x, _ in forces)]
         if subject.kind != "Xi" or not rest:

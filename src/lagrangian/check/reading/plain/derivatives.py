@@ -90,7 +90,7 @@ class PlainDerivatives(PlainConditions):
                 order = self._order()
                 continue
             tuple_open = self.accept("(", "{")
-            by = self.sum()
+            by = _named_rate(self.sum())
             which = only_name(by)
             if which == ("t", 0):
                 order += 1
@@ -137,3 +137,10 @@ class PlainDerivatives(PlainConditions):
                 fix="write ∂L/∂x1' or diff(L, x1')",
             )
         return which[0]
+
+
+def _named_rate(by: Tree) -> Tree:
+    """By what is differentiated: x' of diff(L, diff(x, t))."""
+    rate = inside(by)
+    of = only_name(rate.children[0]) if rate.data == "rate" else None
+    return by if of is None else name(of[0], rate.meta.start_pos, of[1] + rate.children[1])
