@@ -188,3 +188,12 @@ def test_matrices_labels_and_words_of_other_hands(written: str) -> None:
     twin = twin.replace(r"{pmatrix}F", r"{pmatrix}2F").replace("= F", "= 2 F").replace("u = 2 F", "u = F")
     assert twin != written
     assert not accepted(carts(), twin)
+
+
+@pytest.mark.parametrize("energy", ["L", "T"])
+def test_a_momentum_that_is_also_a_derivative_is_judged(energy: str) -> None:
+    written = f"p = ∂{energy}/∂phi' = (J + m R^2) phi'\np' = tau - d phi' - k R^2 phi + m g R"
+    verdict = drum().check(written)
+    assert verdict.right and [x.line.kind for x in verdict.findings] == ["p", "equation"]
+    wrong = drum().check(f"p = ∂{energy}/∂phi' = J phi'\n{RIGHT}")
+    assert [x.status.right for x in wrong.findings] == [False, True]
