@@ -197,3 +197,9 @@ def test_a_momentum_that_is_also_a_derivative_is_judged(energy: str) -> None:
     assert verdict.right and [x.line.kind for x in verdict.findings] == ["p", "equation"]
     wrong = drum().check(f"p = ∂{energy}/∂phi' = J phi'\n{RIGHT}")
     assert [x.status.right for x in wrong.findings] == [False, True]
+
+
+@pytest.mark.parametrize("called", ["ξ₁ = φ", "xi1 = phi", "q = [phi]", "x = [phi, phi']"])
+def test_what_coordinates_are_called_needs_no_note(called: str) -> None:
+    assert not drum().check(f"{called}\n{RIGHT}").notes
+    assert "nothing else uses" in drum().check(f"{called} + 2 phi\n{RIGHT}".replace("] + 2 phi", " + 2 phi]")).to_text()

@@ -288,7 +288,7 @@ class Lines:
         assert subject.token is not None
         sides = [side for s in self._statements for side in s.sides]
         used = self.names.occurs(subject.token) > 1 or key(str(subject.token)) in derived(sides)
-        if not used and not subject.order and not self.names.changes(subject.token):
+        if not used and not subject.order and not self.subjects.only_calls(subject.token):
             self._not_judged(reader, f"nothing else uses {subject.token}")
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:

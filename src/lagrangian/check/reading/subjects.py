@@ -11,6 +11,7 @@ from typing import cast
 import sympy as sp
 from lark import Token, Tree
 from sympy.core.function import AppliedUndef
+from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
@@ -239,6 +240,14 @@ class Subjects:
             return False
         new = {u.symbol for u in self.names.unknown.values() if isinstance(u.symbol, AppliedUndef)}
         return bool(value.atoms(AppliedUndef) & new) and not value.has(sp.Derivative)
+
+    def only_calls(self, token: Token) -> bool:
+        """Whether a name of the answer's own only calls coordinates or rates: ξ₁ = θ, q = [θ, φ], or has one."""
+        _, value = self.names.own.get(key(str(token)), ("", None))
+        symbols = {c.symbol for c in self.model.coordinates}
+        listed = [] if value is None else value.flat() if isinstance(value, MatrixBase) else [value]
+        bare = {x.expr if isinstance(x, sp.Derivative) else x for x in listed}
+        return self.names.changes(token) or (bool(listed) and bare <= symbols)
 
     def _taken(self, token: Token) -> bool:
         """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
