@@ -49,3 +49,13 @@ def test_rolling_says_what_the_angle_is(rolls: str) -> None:
     assert roller().check(f"{rows}3/2 m x'' + k x = F").right
     wrong = roller().check(f"{rows.replace('1/2 m', 'm')}3/2 m x'' + k x = F")
     assert not wrong.right
+
+
+@pytest.mark.parametrize("p", ["p_x", "P", "pi_x"])
+@pytest.mark.parametrize("rate", ["%s' =", "d%s/dt ="])
+def test_hamiltons_equations_alone_say_what_the_momentum_is(p: str, rate: str) -> None:
+    rows = f"x' = 2 {p}/(3 m)\n{rate % p} F - k x\n"
+    for written in (rows, f"H = {p}^2/(3 m) + k x^2/2 - F x\n{rows}"):
+        assert roller().check(written).right, written
+        assert not roller().check(written.replace("2 p", "p").replace("2 P", "P").replace("F - k x", "F + k x")).right
+    assert not roller().check(rows.replace("(3 m)", "(5 m)")).right

@@ -9,9 +9,11 @@ The line is then a definition, and the others are judged with the name written o
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, cast
+from unicodedata import normalize
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -21,9 +23,13 @@ from lagrangian.check.reading import is_placeholder
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
+from lagrangian.read.letters import key
 
 MOST, LONGEST = 8, 80
 """The largest number of such names, and of operations of a line that determines one."""
+_RATE = re.compile(r"(.{1,24})['’′]|([^\u0307]\u0307.{0,24})|\\dot(?![a-z])(.{1,24})|d(.{1,24})/ ?dt|(.{1,24}?)_?dot")
+"""The left side of a line that is the rate of a name."""
+_SET = re.compile(r"[\s\\{}$\u0307]")
 
 
 def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
@@ -43,12 +49,22 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
             break
         k, name, value = solved
         unknown -= {name}
+        rate = sp.Derivative(name, time)
+        out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
         out[k] = replace(out[k], kind="definition", name=str(name.func), expr=value)
         out = [
             x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
             for j, x in enumerate(out)
         ]
     return tuple(out)
+
+
+def _rated(line: AnsweredLine, name: AppliedUndef) -> bool:
+    """Whether a line states the rate of a name, which was not known when it was read: p' = -k x."""
+    if line.kind != "definition" or line.name != str(name.func):
+        return False
+    rate = _RATE.fullmatch(normalize("NFD", line.text.partition("=")[0]).strip())
+    return rate is not None and key(_SET.sub("", next(filter(None, rate.groups())))) == key(str(line.name))
 
 
 def _put(expr: sp.Expr, name: AppliedUndef, value: sp.Expr) -> sp.Expr:
@@ -66,7 +82,8 @@ def _determined(
         return None
     name: Any = inside.pop()
     others = [x.expr for j, x in enumerate(lines) if j != k]
-    if any(d.derivative_count > 1 for d in rates) or not any(x.has(name) for x in others):
+    used = any(x.has(name) for x in others) or any(_rated(x, name) for x in lines)
+    if any(d.derivative_count > 1 for d in rates) or not used:
         return None
     rate = sp.Derivative(name, time)
     if rate not in rates:
