@@ -231,3 +231,21 @@ def test_the_sense_is_that_of_the_answer(drum: lg.Derivation) -> None:
     """ω of the roll is counted against φ: what is right is told with the sign of what is written."""
     said = STANDING.replace("omega = (R - r) phi'/r", "omega = -(R - r) phi'/r")
     assert "is (R*psi' - (R - r)*phi')/r, not -(R - r)*phi'/r" in str(drum.check(said).mistakes[0].what)
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("m_t = M + m", "the factor of x'' in the equation of x"),
+        ("H = (J + m l^2/4) phi' + m l/2 x' cos(phi)", "the generalized momentum of phi"),
+        ("m_t = M + 2 m", None),
+    ],
+)
+def test_what_multiplies_an_acceleration_has_its_verdict(crane: lg.Derivation, said: str, told: str | None) -> None:
+    row = "m_t x'' + m l/2 phi'' cos(phi) - m l/2 phi'^2 sin(phi) = 0" if "m_t" in said else "V = -m g l/2 cos(phi)"
+    verdict = crane.check(f"{said}\n{row}")
+    if told is not None:
+        assert str(verdict.findings[0].note) == told and verdict.findings[1].status.right
+        return
+    assert found(verdict) == [(1, False, False), (2, False, True)]
+    assert "the factor of x'' in the equation of x is M + m, not M + 2*m" in str(verdict.mistakes[0].what)

@@ -23,9 +23,9 @@ STEMS = {
     "U": ("potential",),
     "Ep": ("potential",),
     "Epot": ("potential",),
-    "J": ("inertia", "axis"),
-    "I": ("inertia", "axis"),
-    "Theta": ("inertia", "axis"),
+    "J": ("inertia", "axis", "mass"),
+    "I": ("inertia", "axis", "mass"),
+    "Theta": ("inertia", "axis", "mass"),
     "Q": ("Xi",),
     "Xi": ("Xi",),
 }

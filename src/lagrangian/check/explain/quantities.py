@@ -176,8 +176,12 @@ def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
         yield Sayable("force", d, (f"force of {d.title}",), b * rate, _force(b * rate, slopes))
 
 
-def _force(right: sp.Expr, slopes: Sequence[sp.Expr]) -> Adds:
-    return lambda said: _pushing(said - right, slopes)
+def _force(right: sp.Expr, slopes: Sequence[sp.Expr], by: sp.Expr = sp.S.One) -> Adds:
+    return lambda said: _pushing(said * by - right, slopes)
+
+
+def _half_square(right: sp.Expr, rate: sp.Expr) -> Adds:
+    return lambda said: Effect(T=(said - right) * rate**2 / 2)
 
 
 def _pulling(right: sp.Expr, only: Sequence[sp.Expr]) -> Adds:
@@ -214,11 +218,16 @@ def _of_energies(s: Ingredients) -> Iterator[Sayable]:
 
 
 def _of_coordinates(s: Ingredients) -> Iterator[Sayable]:
-    """Generalized forces, and what the dampers, and the springs and weights add to each equation."""
+    """Generalized forces and momenta, what multiplies each acceleration, and what dampers, springs and weights add."""
     for i, c in enumerate(s.coordinates):
+        mass, only = s.expand(s.derivation.mass_matrix[i, i]), [sp.Integer(int(j == i)) for j in range(s.n)]
+        words = ("factor of ", c.acceleration, " in the equation of ", c.symbol)
+        for adds in (_half_square(mass, c.rate), _force(mass * c.acceleration, only, c.acceleration)):
+            yield Sayable("mass", None, words, mass, adds, c.name)
+        words = ("generalized momentum of ", c.symbol)
+        yield Sayable("momentum", None, words, bounded.diff(s.T, c.rate), lambda _: Effect(), c.name)
         damping = -sp.Add(*[s.shares(d).get(i, sp.S.Zero) for d in s.acting if isinstance(d, Damper)])
         restoring = bounded.diff(s.V, c.symbol)
-        only = [sp.Integer(int(j == i)) for j in range(s.n)]
         words = ("generalized force of ", c.symbol)
         for Xi in dict.fromkeys((s.Xi[i], s.Xi[i] + damping)):
             yield Sayable("Xi", None, words, Xi, _pulling(Xi, only), c.name)

@@ -49,6 +49,7 @@ WHY = {
     "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
     "damping": text(_DAMPER),
     "restoring": text(_DEFLECTION),
+    "mass": text("Every body that moves with this coordinate adds to it, by its mass and by its moment of inertia."),
 }
 CALLED = {
     "component": "velocity",
@@ -106,7 +107,8 @@ class SaidWrongly:
     def mistake(self) -> Mistake:
         """The mistake in words."""
         kind, owner = self.of.kind, self.of.owner
-        own = f"{NAMES.get(kind, kind)}_{'of_body' if isinstance(owner, Body) or self.T != 0 else 'said'}"
+        of_body = isinstance(owner, Body) or (owner is not None and self.T != 0)
+        own = f"{NAMES.get(kind, kind)}_{'of_body' if of_body else 'said'}"
         begins = f"Line {self.number} is not right: the "
         what = text(begins, *self.of.words, " is ", *self.right, ", not ", *self.written, ".")
         title = owner.title if owner is not None else None
