@@ -199,3 +199,11 @@ def test_letters_in_a_group_are_read_though_one_ends_a_side() -> None:
 def test_a_line_that_says_how_equations_are_combined_stops_nothing(combined: str) -> None:
     assert right(f"{CART}\n{combined}\n   {POLE}")
     assert not right(f"{CART}\n{combined}\n   2 {POLE}")
+
+
+def test_equations_that_are_added_may_be_the_label_of_their_sum() -> None:
+    added = (
+        "(M + m + m l cos theta) x'' + (J + m l^2 + m l cos theta) theta'' - m l theta'^2 sin theta - m g l sin theta"
+    )
+    rows = f"(I) + (II):  {added} + b x' = F\n(II):        {POLE}"
+    assert right(rows) and not right(rows.replace("+ b x'", "- b x'"))

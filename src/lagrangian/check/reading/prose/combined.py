@@ -2,6 +2,7 @@
 
 cos * (horizontal) + sin * (vertical):          m x'' cos(theta) + … = …  below it
 cos(theta)·(1) - sin(theta)·(2):
+(I) + (II):  m1 x1'' + m2 x2'' = F              its label is taken off, where it stands on the line
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose.words import Words, function_of
 
 _LINE = re.compile(r"^[^=\n]{3,120}$", re.MULTILINE)
+_LABEL = re.compile(r"^[^=:\n]{3,60}:(?=[ \t][^\n]*=)", re.MULTILINE)
 _NAMED = re.compile(r"(?<![^\s*·×+−(-])\((?P<said>[^()=+*/^\n]{1,40})\)")
 _NUMBER = re.compile(r"[ \t]?(?:\d{1,2}[a-z]?|[IVX]{1,4}|[A-Z]|\*{1,3})[ \t]?")
 _TIMES = re.compile(r"[*·×]")
@@ -29,6 +31,8 @@ def without_combinations(text: str, words: Words) -> str:
         if _TIMES.search(line) and _combines(line, words):
             words.names.notes.setdefault(f"'{' '.join(line.split())}' was not judged: it says what is combined.")
             text = blank(text, *match.span())
+    for match in [m for m in _LABEL.finditer(text) if _combines(m.group(), words)]:
+        text = blank(text, *match.span())
     return text
 
 
