@@ -201,6 +201,13 @@ def test_a_line_that_says_how_equations_are_combined_stops_nothing(combined: str
     assert not right(f"{CART}\n{combined}\n   2 {POLE}")
 
 
+def test_names_that_only_call_equations_are_told_from_forces() -> None:
+    named = f"g1 = {CART.removesuffix(' = F')} - F\ng2 = {POLE.removesuffix(' = 0')}"
+    assert right(named) and not right(f"{named}\ng1 = 2 F")
+    for wrong in ("- b x'", "+ 2 b x'"):
+        assert not right(named.replace("+ b x'", wrong))
+
+
 def test_equations_that_are_added_may_be_the_label_of_their_sum() -> None:
     added = (
         "(M + m + m l cos theta) x'' + (J + m l^2 + m l cos theta) theta'' - m l theta'^2 sin theta - m g l sin theta"

@@ -12,6 +12,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
 from lagrangian.check.names.needless import Needed, accelerates, needed, unused_in_motion
+from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.reference import truth_of
@@ -131,7 +132,10 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
     if asked := unexplained(derivation, answer, verdict):
-        raise question(asked)
+        lines = without_names_of_equations(decides.lines, asked)
+        verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
+        if not verdict.right:
+            raise question(asked)
     return _told(verdict, answer, decides.notes)
 
 
