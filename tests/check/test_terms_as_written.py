@@ -103,6 +103,11 @@ def test_of_several_terms_with_the_same_letters_the_odd_one_is_told() -> None:
     assert told(sleeve(), arm.replace("m (x'^2 +", "m (x'^2/2 +")) == ["1 (T*): ⅛ m ẋ² should be ¼ m ẋ²"]
 
 
+def test_a_part_of_a_product_is_told_alone() -> None:
+    row = "m (R - r) (3 (R - r) phi''/2 - R psi''/2 + g sin(phi) + R psi' phi') = 0"
+    assert told(drum(), f"{DRUM}\n{row}") == ["2: the term m R (R − r) ψ̇ φ̇ does not belong there"]
+
+
 def test_an_energy_in_two_forms_is_told_once() -> None:
     square = "m (R psi' - (R - r) phi')^2/4"
     forms = f"T = J psi'^2/2 + m (R - r)^2 phi'^2 + {square} = (J + m R^2/2) psi'^2/2 + 5 m (R - r)^2 phi'^2/4"

@@ -103,10 +103,16 @@ class _Sums:
         found: list[tuple[int, Pair]] = []
         for k, j in self._alone_with(groups):
             inside = [x for x in wrong if x.piece.of == (k if x.mine else j)]
-            if len(matched(inside)) > 1:
+            if len(self._listed(matched(inside))) > 1:
                 found.append((k, self._by_whole(self.own[k].expr, [j])))
                 wrong = [x for x in wrong if x not in inside]
-        left = matched(wrong)
+        found += self._listed(matched(wrong))
+        return self._joined([pair for _, pair in sorted(found, key=lambda x: x[0])])
+
+    def _listed(self, matches: Sequence[PieceMatch]) -> list[tuple[int, Pair]]:
+        """The matches as pairs in whole terms where they can be, with the places of the terms."""
+        left = list(matches)
+        found: list[tuple[int, Pair]] = []
         for k, term in enumerate(self.own):
             for pair, part in self._of_term(term, left):
                 found.append((k, pair))
@@ -117,7 +123,7 @@ class _Sums:
                 found.append((len(self.own), Pair(sp.S.Zero, right.expr, self.right[j])))
                 left = [m for m in left if not any(m is x for x in part)]
         found += [(min((x.piece.of for x in m.written), default=len(self.own)), self._of_pieces(m)) for m in left]
-        return self._joined([pair for _, pair in sorted(found, key=lambda x: x[0])])
+        return found
 
     def _joined(self, found: Sequence[Pair]) -> list[Pair]:
         """The pairs, with a term too much and the only missing one that has the same letters as one."""
