@@ -240,6 +240,11 @@ def test_words_may_be_joined_by_signs(letters: str) -> None:
     assert right(letters + rows) and not right(letters.replace("m l²", "m l") + rows)
 
 
+def test_letters_with_small_digits_in_brackets_are_no_words() -> None:
+    energy = "T = m l ẋ θ' cos θ + ½ (J + m l²) θ'² + ½ (Mẋ² + mẋ²)"
+    assert right(f"{energy}\n{CART}\n{POLE}") and not right(f"{energy.replace('mẋ²', 'lẋ²')}\n{CART}\n{POLE}")
+
+
 def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus() -> None:
     bold = f"**{CART.replace('m l theta', 'm*l*theta')}**\n**{POLE.replace('m g l', 'm*g*l')}**"
     assert right(bold) and not right(bold.replace("m*g*l", "2*m*g*l"))

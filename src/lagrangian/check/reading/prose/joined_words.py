@@ -25,7 +25,7 @@ def with_words_joined(text: str, words: Words) -> str:
 
     def joined(match: re.Match[str]) -> str:
         listed = _PARTS.findall(match.group())
-        if any(words.readable(x) or words.is_product(x) for x in listed):
+        if any(not x.isalpha() or words.readable(x) or words.is_product(x) for x in listed):  # m₁ẋ₁² is no word
             return match.group()
         return re.sub("[+&]", " ", match.group())
 
