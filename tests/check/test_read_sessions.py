@@ -212,3 +212,13 @@ def test_what_is_derived_by_a_rate_that_a_program_spells_and_expanded_is_judged(
     twins(session, "cart-pole", "$\n(%i3)", "*2$\n(%i3)")
     lines = derivation("cart-pole").check(session).findings
     assert [x.line.kind for x in lines] == ["T", "V", "L", "equation", "equation"]
+
+
+@pytest.mark.parametrize("gap", ["\n", "\n \n"])
+def test_a_function_of_time_that_matlab_shows_calls_an_equation(gap: str) -> None:
+    shown = PENDULUM.replace("Derivative(theta(t), (t, 2))", "diff(theta(t), t, t)").replace("Derivative", "diff")
+    shown = shown.replace("**", "^")
+    session = f">> eq1 = simplify(diff(diff(L,dth),t) - diff(L,theta)) == -b*dth\n\neq1(t) ={gap}{shown} == 0"
+    verdict = derivation("pendulum").check(session)
+    assert verdict.right and "eq1" not in verdict.to_text() and "not read" not in verdict.to_text()
+    assert not right(session.replace("+ L*g", "- L*g"), "pendulum")

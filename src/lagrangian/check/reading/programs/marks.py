@@ -2,6 +2,7 @@
 
 (* ks is k_s *)  /* ks is k_s */  # ks is k_s                 a comment of Mathematica, Maple or C
 (%o7) m*x'' = F                 m*x'' = F                     a line of Maxima
+eq1(t) =⏎ a == b                a == b                        a function of time that MATLAB shows
 >> EL = simplify(…)             EL = m*x'' + …                a command of MATLAB and the result that it shows
 EL =⏎⏎ m*x'' + …
 sys = {a == b,⏎ c == d}         {a == b,⏎ c == d}             a list of equations
@@ -39,6 +40,11 @@ _COMMAND = re.compile(rf"^[ \t]*+>>>?[ \t]*+(?:(?P<name>{_NAME})[ \t]*+=(?!=)[^\
 _SHOWN = re.compile(
     rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=(?P<gap>[ \t]*+\n(?:[ \t]*+\n){{1,3}})(?=[^\n=]+$)", re.MULTILINE
 )
+_SHOWN_OF_TIME = re.compile(
+    rf"^[ \t]*+(?P<name>{_NAME})\(t\)[ \t]*+=[ \t]*+\n(?:[ \t]*+\n){{0,3}}(?=(?P<states>[^\n=]*+=)?[^\n]*\S)",
+    re.MULTILINE,
+)
+"""What MATLAB shows of a function of time: eq1(t) = ⏎ a == b."""
 _SOLUTION = re.compile(rf"^[ \t]*+[A-Za-z]\w{{0,11}}\.(?={_NAME}[ \t]*+=(?!=))", re.MULTILINE)
 """The structure of a solution: S.dds = …"""
 _NUMBERED = re.compile(
@@ -64,13 +70,22 @@ def without_program_marks(written: TracedText, taken: Callable[[str], bool]) -> 
     written = written.sub(_SOLUTION, lambda m: "").sub(_TRANSPOSED, lambda m: "^T")
     written = with_shown_matrices(written)
     shown = {m["name"] for m in _SHOWN.finditer(written.text)}
+    shown |= {m["name"] for m in _SHOWN_OF_TIME.finditer(written.text) if not taken(m["name"])}
     if shown and ">>" in written.text:
         written = written.sub(_COMMAND, lambda m: "" if m["name"] in (None, *shown) else m.group())
     written = written.edited([(*m.span("gap"), " ") for m in _SHOWN.finditer(written.text)])
+    written = written.sub(_SHOWN_OF_TIME, lambda m: _shown_of_time(m, taken))
     written = written.edited(_list_names(written.text))
     written = written.edited(_diagonals(written.text))
     written = with_equations_in_comments(written, taken)
     return written.edited(_fields(written.text, taken))
+
+
+def _shown_of_time(match: re.Match[str], taken: Callable[[str], bool]) -> str:
+    """Nothing in the place of the name of an equation, and an equals sign behind that of an expression."""
+    if taken(match["name"]):
+        return match.group()
+    return "" if match["states"] else f"{match['name']} = "
 
 
 def told_comments(text: str) -> Iterator[str]:
