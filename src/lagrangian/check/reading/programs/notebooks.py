@@ -28,7 +28,7 @@ _TYPED = r"(?:^|[;\n]|>>>|julia>|sage:|(?:In[ \t]?)?\[\d{1,4}\]:)[ \t]*+"
 _ABOVE = re.compile(rf"{_TYPED}(?P<name>{_NAME})[ \t]*+(?:\n[ \t]*+(?:```[^\n]*+)?)*+\Z")
 _MATRIX = re.compile(
     r"^[^\S\n]*+(?:>>>|julia>|sage:|(?:In[ \t]?)?\[\d{1,4}\]:)?[ \t]*+"
-    rf"(?P<typed>(?:\w{{1,10}}\()?(?:{_NAME}\.)?(?P<name>{_NAME})\)?;?)[ \t]*+\n"
+    rf"(?P<typed>(?:\w{{1,10}}\(){{0,3}}(?:{_NAME}\.)?(?P<name>{_NAME})\){{0,3}};?)[ \t]*+\n"
     r"\s{0,20}(?:(?:Out[ \t]?)?\[\d{1,4}\]:?=?)?\s{0,20}?"
     r"(?:(?P<call>(?=(?:\w{1,8}\.)?(?:Immutable|Mutable)?(?:Dense)?Matrix\())|(?P<drawn>^(?:[ \t]*+[⎡⎢⎣][^\n]*+\n?)+))",
     re.MULTILINE,
@@ -43,6 +43,9 @@ _COLUMN = re.compile(
     rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<call>(?:\w{{1,6}}\.)?(?:Matrix|array)\()(?=\[)", re.MULTILINE
 )
 _SQUARE = re.compile(rf"(?<![\w.])(?P<of>{_NAME})\.dot\((?P=of)\)")
+_SPEED = re.compile(rf"({_NAME}) - ({_NAME}'|Derivative\({_NAME}\(t\), t\))")
+_SPEEDS = re.compile(rf"^[ \t]*+(?P<list>\[{_SPEED.pattern}(?:, {_SPEED.pattern}){{0,9}}\])[ \t]*+$", re.MULTILINE)
+"""Kane's kinematic equations, which are zero: [u1 - x', u2 - theta']."""
 LONGEST = 400
 """The most characters of an entry that is put in the place of its index."""
 
@@ -83,6 +86,9 @@ def with_named_matrices(written: TracedText) -> TracedText:
         edits += [(at, at, name if k == middle else " " * len(name)) for k, at in enumerate(starts)]
     if {m["name"] for m in found}.issuperset(_OF_SYMPY):
         end = len(text)
+        for listed in _SPEEDS.finditer(text):
+            said = ", ".join(f"{a} = {b}" for a, b in _SPEED.findall(listed["list"]))
+            edits.append((*listed.span("list"), said))
         edits.append((end, end, "\n\n{}*q'' = {}".format(*_OF_SYMPY)))
     return written.edited(apart(edits))
 
