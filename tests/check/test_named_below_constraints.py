@@ -46,3 +46,8 @@ def test_a_multiplier_that_is_eliminated_follows_from_the_constraint(bead: lg.De
 def test_a_multiplier_takes_up_no_mistake_of_the_line_that_comes_first(bead: lg.Derivation) -> None:
     verdict = bead.check(f"{CART}\nm x'' = -2 a λ\nm y'' + m g = λ\ny = a x^2")
     assert [f.status.right for f in verdict.findings] == [True, False, True, True]
+    told = [str(m.what) for m in verdict.mistakes]
+    assert told == [
+        "X'' is missing in the equation of x.",
+        "The multiplier lambda stands with the factor 2*a in the equation of x; beside the others, 2*a*x belongs there.",
+    ]

@@ -173,8 +173,10 @@ def agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, flo
     return sorted(found, key=lambda x: -x[1])[:MOST_FACTORS]
 
 
-def agreeing(mine: Array, right: Array) -> tuple[float, int | None]:
-    """How many slopes (m, S) are the same multiple of the right ones, and the place of one; ±1 counts a bit more."""
+def agreeing(mine: Array, right: Array, first: int = 0) -> tuple[float, int | None]:
+    """How many slopes (m, S) are the same multiple of the right ones, and the place of one; ±1 counts a bit more.
+
+    The ``first`` slopes count twice."""
     held = (np.abs(right).max(axis=1) > 1e-9) & (np.abs(mine).max(axis=1) > 1e-9)
     places = np.flatnonzero(held)
     with np.errstate(all="ignore"):
@@ -184,7 +186,9 @@ def agreeing(mine: Array, right: Array) -> tuple[float, int | None]:
         if not np.isfinite(own).all():
             continue
         same = (np.abs(ratios - own) <= 1e-8 * np.abs(own)).all(axis=1)
-        count = float(same.sum()) + (0.5 if np.ptp(np.abs(own)) == 0 and abs(own[0]) == 1 else 0.0)
+        count = float(same.sum() + same[places < first].sum()) + (
+            0.5 if np.ptp(np.abs(own)) == 0 and abs(own[0]) == 1 else 0.0
+        )
         if count > best[0]:
             best = count, int(k)
     return best

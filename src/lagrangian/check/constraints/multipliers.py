@@ -257,16 +257,22 @@ def _matched(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, own:
     found: dict[int, _Match] = {}
     for count, j, i, k in cells:
         if -j not in found and all(m.row != -i for m in found.values()):
-            factor: sp.Expr | None = None
-            if k is not None:
-                factor = cast("sp.Expr", bounded.cancel(read[-j].diff(by[k]) / truth.rows[-i].diff(by[k])))
+            factor = None if k is None else _quotient(read[-j], truth.rows[-i], by[k])
+            if factor is not None and factor.has(*truth.derivation.coordinates):  # rather that of an inertia
+                k = agreeing(mine[-j], right[-i], truth.n)[1]
+                factor = factor if k is None else _quotient(read[-j], truth.rows[-i], by[k])
             found[-j] = _Match(-i, factor, count)
     return [found.get(j, _Match(0, None, 0.0)) for j in range(len(exprs))]
 
 
+def _quotient(expr: sp.Expr, row: sp.Expr, by: Any) -> sp.Expr:
+    """What a slope of an equation is of that of a right one."""
+    return cast("sp.Expr", bounded.cancel(expr.diff(by) / row.diff(by)))
+
+
 def _by(truth: Reference, own: Sequence[Any]) -> list[Any]:
     model = truth.model
-    by = [x for c in model.coordinates for x in (c.acceleration, c.rate)]
+    by = [c.acceleration for c in model.coordinates] + [c.rate for c in model.coordinates]
     return [*by, *(x.symbol for x in (*model.inputs, *model.parameters)), *own]
 
 
