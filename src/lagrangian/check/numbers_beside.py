@@ -29,7 +29,14 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     whole, moved = (sum(lines[k].kind == "equation" for k in x) >= truth.n for x in (lettered, numeric))
     numbers = [lines[k] for k in numeric]
     values = values_of(truth, numbers)
-    if not numeric or not (whole or moved) or not values or any(x.expr.free_symbols - {time} for x in numbers):
+    beside = any(said[k] for k in lettered)
+    if (
+        not numeric
+        or not beside
+        or not (whole or moved)
+        or not values
+        or any(x.expr.free_symbols - {time} for x in numbers)
+    ):
         return None
     first = judge(truth, [lines[k] for k in lettered])
     if first.status is Status.INCOMPLETE and whole:
