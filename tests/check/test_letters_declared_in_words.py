@@ -163,6 +163,11 @@ def test_an_angle_is_what_its_tangent_or_its_sine_says(said: str) -> None:
     assert not derivation("pendulum").check(f"{row}\n{said.replace('b/', '2 b/').replace('{b}', '{2b}')}").right
 
 
+def test_a_tangent_between_two_slopes_does_not_say_what_the_angle_is() -> None:
+    said = "tan β = db/dm = b/(m g L), sin β = b/√(b² + m² g² L²)"
+    assert derivation("pendulum").check(f"(m L² θ'' + m g L sin θ) cos β + m g L θ' sin β = 0\n{said}").right
+
+
 def test_a_condition_says_nothing_of_a_letter() -> None:
     with pytest.raises(ParseError, match="what is 'N'"):
         derivation("pendulum").check("Let N be the push on it (for θ > 0).\nm L² θ'' + b θ' + m g L sin N = 0")

@@ -82,6 +82,8 @@ class Subjects:
                 continue  # … = f, where another line says f = …
             if i and subject is not None and subject.token is not None and self._taken(subject.token):
                 continue  # r = R, where R is a radius of the system
+            if subject is not None and subject.inverse[:1] == "a" and len(sides) > 2:
+                continue  # tan α = dy/dx = 2 a x
             if subject is not None:
                 return replace(subject, right=i > 0), [sides[i], *sides[:i], *sides[i + 1 :]]
         return None, sides
