@@ -252,6 +252,11 @@ def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus()
     assert right(broken) and not right(broken.replace("+ m l theta''", "+ 2 m l theta''"))
 
 
+def test_a_tangent_with_two_values_says_that_these_are_equal() -> None:
+    rows = "tan α = {} = -x/y\nm x'' = -N sin α\nm y'' = N cos α - m g\nx^2 + y^2 = l^2"
+    assert right(rows.format("dy/dx"), "rod-pendulum") and not right(rows.format("-dx/dy"), "rod-pendulum")
+
+
 def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
     rows = (
         r"\begin{bmatrix} M+m & m l c\\ m l c & J+m l^2\end{bmatrix}\begin{bmatrix}\ddot x\\ \ddot\theta\end{bmatrix}"
