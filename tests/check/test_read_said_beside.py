@@ -253,7 +253,7 @@ def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus()
 
 
 def test_a_tangent_with_two_values_says_that_these_are_equal() -> None:
-    rows = "tan α = {} = -x/y\nm x'' = -N sin α\nm y'' = N cos α - m g\nx^2 + y^2 = l^2"
+    rows = "α: slope of the path\ntan α = {} = -x/y\nm x'' = -N x/l\nm y'' = -N y/l - m g\nx^2 + y^2 = l^2"
     assert right(rows.format("dy/dx"), "rod-pendulum") and not right(rows.format("-dx/dy"), "rod-pendulum")
 
 
