@@ -112,3 +112,9 @@ def test_a_sum_of_labels_in_front_of_an_equation_says_which_were_added(label: st
     total = f"{CART.partition('=')[0]} + {POLE.partition('=')[0]} = F"
     assert right(f"{label} {total}\n(II): {POLE}")
     assert not right(f"{label} {total} + b\n(II): {POLE}")
+
+
+def test_a_dash_of_print_joins_the_words_of_a_label() -> None:
+    answer = f"E–L for x: {CART}\nE–L for θ: {POLE}"
+    assert right(answer)
+    assert not right(answer.replace("+ b x'", "- b x'"))

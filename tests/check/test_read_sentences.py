@@ -96,6 +96,7 @@ def test_what_may_belong_to_an_equation_is_not_left_out(row: str) -> None:
         "From d/dt(...) we see that x is cyclic if F = 0 and b = 0.",
         "Check: for theta = 0 the first gives (M + m) x'' + b x' = F.",
         "If J = 0, the second becomes l theta'' + x'' cos theta = g sin theta, as for a point mass.",
+        "For θ̇ = 0 this is a cart that carries a load.",
     ],
 )
 def test_what_holds_under_a_condition_is_not_judged(said: str) -> None:

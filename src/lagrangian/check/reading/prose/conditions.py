@@ -10,7 +10,7 @@ import re
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose.words import Words
 
-_NAME = r"[^\W\d]\w{0,15}+['’′]{0,2}"
+_NAME = r"[^\W\d][\w\u0307\u0308]{0,15}+['’′]{0,2}"
 _RELATION = (
     rf"{_NAME}[ \t]*(?:=|≈|≪|≫|<<|>>|<|>|≤|≥|→|≡|≠|!=|->)[ \t]*"
     rf"[-−]?(?:\d[\w./]{{0,8}}|(?:π|pi)(?:/\d)?|{_NAME}|∞)(?![\w(*/^+²])"
