@@ -11,6 +11,7 @@ import re
 from functools import cache
 
 import pytest
+import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, ParseError, System
@@ -171,3 +172,14 @@ def test_a_tangent_between_two_slopes_does_not_say_what_the_angle_is() -> None:
 def test_a_condition_says_nothing_of_a_letter() -> None:
     with pytest.raises(ParseError, match="what is 'N'"):
         derivation("pendulum").check("Let N be the push on it (for θ > 0).\nm L² θ'' + b θ' + m g L sin N = 0")
+
+
+def test_a_greek_letter_in_a_formula_is_not_split_at_a_word_of_the_sentence() -> None:
+    """theta is no the·t·a, where the system has an a and a sentence says the."""
+    sys = System("pendulum")
+    phi, m, a = sys.coordinate("phi"), sys.parameter("m"), sys.parameter("a")
+    sys.particle(m, at=sys.point("bob", (a * sp.sin(phi), -a * sp.cos(phi))))
+    sys.gravity((0, -1))
+    swing, row = sys.derive(), "m*a^2*theta'' + m*g*a*sin(theta) = 0"
+    assert swing.check(f"I call the angle of the rod theta.\n{row}").right
+    assert not swing.check(f"I call the angle of the rod theta.\n{row.replace('g', '2*g')}").right

@@ -193,6 +193,7 @@ class Words:
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
         whole = key(word) in self._led or (self._is_component(word) and not self.is_name(word[1]))
+        whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
         for extra in (False,) if whole else (False, True):
             found = self._splits(word, called, extra)
             if len(found) > 1:
