@@ -230,9 +230,6 @@ class Lines:
                 continue
             elif above is not None and subject.kind == "definition" and sp.S.Zero == value and not subject.order:
                 lines += self._equation(above, sp.S.Zero, side, side, reader)  # f = r - R = 0
-            elif above is not None and subject.inverse in ("asin", "atan"):
-                lines += self._equation(above, value, side, side, reader)  # tan α = dz/dr = r/p
-                self._define(subject, value)
             elif above is not None and subject.kind == "p-rate" and accelerates(above) and not accelerates(value):
                 lines.append(made_line("equation", above, value, None, side, side, reader))  # d/dt ∂L/∂x' = m x'' = F
             else:
