@@ -267,7 +267,9 @@ def test_a_cause_in_the_energy_and_a_rate_too_much_are_told_of_derivatives(
 def test_a_wrong_moment_of_inertia_about_a_pivot_is_told_as_it_is_written() -> None:
     energy = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 JA theta'^2"
     said = first("cart-pole", f"JA = J + m (l/2)^2\n{energy}\n{CART}\n{POLE.replace('m*l^2', 'm*l^2/4')}")
-    assert said.startswith("The moment of inertia of rigid body 'pole' about its pivot is J + "), said
+    assert said.startswith("Line 1 is not right: the moment of inertia of rigid body 'pole' about its pivot is J + "), (
+        said
+    )
 
 
 def test_a_wrong_velocity_is_told_by_rates() -> None:

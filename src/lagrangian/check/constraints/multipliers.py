@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import islice, permutations, product
 from typing import Any, cast
 
@@ -249,7 +250,7 @@ def _matched(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, own:
     table = {s: c * x for s, (x, c) in reading.items()}
     read = [cast("sp.Expr", e.xreplace(table)) for e in exprs]
     by = _by(truth, own)
-    mine, right = _slopes(truth, read, by), _slopes(truth, truth.rows, by)
+    mine, right = _slopes(truth, read, by), _right_slopes(truth, tuple(by))
     cells = sorted(
         ((count, -j, -i, k) for j, m in enumerate(mine) for i, r in enumerate(right) for count, k in [agreeing(m, r)]),
         reverse=True,
@@ -265,6 +266,7 @@ def _matched(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, own:
     return [found.get(j, _Match(0, None, 0.0)) for j in range(len(exprs))]
 
 
+@lru_cache(maxsize=1024)
 def _quotient(expr: sp.Expr, row: sp.Expr, by: Any) -> sp.Expr:
     """What a slope of an equation is of that of a right one."""
     return cast("sp.Expr", bounded.cancel(expr.diff(by) / row.diff(by)))
@@ -274,6 +276,11 @@ def _by(truth: Reference, own: Sequence[Any]) -> list[Any]:
     model = truth.model
     by = [c.acceleration for c in model.coordinates] + [c.rate for c in model.coordinates]
     return [*by, *(x.symbol for x in (*model.inputs, *model.parameters)), *own]
+
+
+@lru_cache(maxsize=64)
+def _right_slopes(truth: Reference, by: tuple[Any, ...]) -> Array:
+    return _slopes(truth, truth.rows, by)
 
 
 def _slopes(truth: Reference, exprs: Sequence[sp.Expr], by: Sequence[Any]) -> Array:

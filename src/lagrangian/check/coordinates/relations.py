@@ -13,6 +13,9 @@ from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 
+FAR = 1e-6
+"""What is farther from 0 than this at one place is not 0."""
+
 
 def solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
     """Return the value of the unknown at which an expression is 0, if the expression is linear in it."""
@@ -45,8 +48,15 @@ def without_relations(
 
     Any other relation stays an equation, which is judged.
     """
-    holding = {id(line) for line in found if bounded.cancel(put(line.expr)) == 0}
+    holding = {id(line) for line in found if _is_zero(put(line.expr))}
     return tuple(replace(line, kind="definition") if id(line) in holding else line for line in lines)
+
+
+def _is_zero(expr: sp.Expr) -> bool:
+    """Whether an expression of positions is 0, as it may be only if it is at some place."""
+    letters = sorted(expr.free_symbols | expr.atoms(AppliedUndef), key=sp.default_sort_key)
+    value = cast("sp.Expr", expr.xreplace({x: sp.Float((7 * k + 5) / 11) for k, x in enumerate(letters)}))
+    return not (value.is_Float and abs(value) > FAR) and bounded.cancel(expr) == 0
 
 
 def _relates(line: AnsweredLine, new: sp.Expr) -> bool:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import cast
 
 import sympy as sp
@@ -21,11 +22,23 @@ LONGEST = 60
 def groupings(truth: Reference, right: Form, index: int | None) -> Iterator[list[sp.Expr]]:
     """The terms of a right line, whose sum is ``right``, in every grouping; ``index`` is the coordinate of a row."""
     yield [t.expr for t in right.terms()]
-    for terms in _by_elements(truth, index):
-        form = truth.form(cast("sp.Expr", sp.Add(*terms))) if len(terms) > 1 else None
-        if form is not None and (form - right).is_zero:
-            yield [x for t in terms for x in _products(truth, t)]
+    for whole, terms in _of_elements(truth, index):
+        if (whole - right).is_zero:
+            yield list(_as_products(truth, terms))
             return
+
+
+@lru_cache(maxsize=64)
+def _of_elements(truth: Reference, index: int | None) -> tuple[tuple[Form, tuple[sp.Expr, ...]], ...]:
+    """What the elements add, in every sum of several, with that sum."""
+    sums = [tuple(terms) for terms in _by_elements(truth, index) if len(terms) > 1]
+    forms = [truth.form(cast("sp.Expr", sp.Add(*terms))) for terms in sums]
+    return tuple((form, terms) for form, terms in zip(forms, sums, strict=True) if form is not None)
+
+
+@lru_cache(maxsize=64)
+def _as_products(truth: Reference, terms: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
+    return tuple(x for t in terms for x in _products(truth, t))
 
 
 def _by_elements(truth: Reference, index: int | None) -> Iterator[Sequence[sp.Expr]]:
