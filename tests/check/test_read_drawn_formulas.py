@@ -178,6 +178,7 @@ e2 = L.diff(theta.diff(t)).diff(t) - L.diff(theta)
         ("print(pprint(Eq(e1, 0)))", "\n"),
         ("In [4]: pprint(Eq(simplify(e1), 0))", "\n\n"),
         ("pprint(e1 == 0)\n\n--- output ---", "\n"),
+        (">>> eqs = LM.form_lagranges_equations()\n>>> for e in eqs: pprint(e, use_unicode=True); print()", "\n\n"),
     ],
 )
 @pytest.mark.parametrize("sign", [1, -1])

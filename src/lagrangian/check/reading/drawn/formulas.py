@@ -115,7 +115,7 @@ def _drawings(text: str) -> Iterator[_Drawing]:
         if lines and lines[-1].startswith(_ARROW) and not line.startswith(_ARROW):  # the last piece ends
             yield from _drawing(start, at - 1, lines)
             lines = []
-        if line.strip() and not _SAID.search(line):
+        if line.strip(" \t;") and not _SAID.search(line):
             start = start if lines else at
             lines.append(line)
         elif lines:
