@@ -227,3 +227,13 @@ def test_derivatives_of_an_energy_with_the_constraint_put_in_beside_right_equati
         "(M + m) x'' + m R phi'' + k (x + R phi) = 0\nm R x'' + (J + m R^2) phi'' + k R (x + R phi) = 0"
     )
     assert (found.right or found.motion) and not found.mistakes
+
+
+@pytest.mark.parametrize("force", ["J^T lambda", "Jᵀ λ", "J^T*lambda, J q' = 0"])
+def test_the_transpose_of_a_matrix_that_is_given_below(pendulum: lg.Derivation, force: str) -> None:
+    """J is a list, which is a column; in front of a column it is a row."""
+    answer = f"M q'' = F + {force}, q = [x; y]\nM = [m, 0; 0, m]\nF = [0; -m g]\nJ = [2 x, 2 y]"
+    assert pendulum.check(answer).right
+    assert not pendulum.check(answer.replace("-m g", "m g")).right
+    assert not pendulum.check(answer.replace("2 y", "-2 y")).right
+    assert "J q'" not in force or not pendulum.check(answer.replace("J q'", "F q'")).right

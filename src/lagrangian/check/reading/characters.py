@@ -38,7 +38,7 @@ _SAME = {
 _TABLE = str.maketrans(_SAME)
 _NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad\u200e\u200f\ufe00-\ufe0f]")
 _GAP = re.compile("[\u2061\u2062]")  # the signs of a function and of a product, which are not shown
-_TRANSPOSED = re.compile(r"(?<=[)\]⎦⎤⎥])ᵀ")
+_TRANSPOSED = re.compile(r"(?<=[\w)\]⎦⎤⎥])ᵀ")
 _SMALL = re.compile(r"(?<![\w)\]}⁰-⁹¹²³₀-₉])(?P<above>[⁰¹²³⁴-⁹]{1,3})[⁄/](?P<below>[₀-₉]{1,3})(?P<glued>(?=\w))?")
 """A fraction of small digits: ³⁄₂, also in front of a letter."""
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉", "01234567890123456789")

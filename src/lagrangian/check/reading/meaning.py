@@ -229,6 +229,8 @@ class Meaning(ExpressionReader):
             if value == 0 or (total is not None and total == 0):
                 total = value if total is None or total == 0 else total
                 continue
+            if _is_transposed(value, total):
+                total, value = (x if x.shape[1] == 1 else x.T for x in (total, value))  # lists of as many entries
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
             if total is not None and shapes[0] != shapes[1]:
                 a, b = (_shape(x) for x in shapes)
@@ -251,6 +253,8 @@ class Meaning(ExpressionReader):
                     self.fail("a matrix can be divided only by a number that is not 0", child)
                 value = 1 / value
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
+            if both and total.shape == value.shape and value.shape[1] == 1:
+                total = total.T  # a list in front of a column is a row
             if both and total.shape[1] != value.shape[0]:
                 a, b = _shape(total.shape), _shape(value.shape)
                 self.fail(
@@ -261,6 +265,13 @@ class Meaning(ExpressionReader):
             total = total * value
             self._spend(total, child)
         return total
+
+    def _power(self, node: Node) -> Value:
+        base, *raised = node.children
+        transposed = len(raised) == 3 and raised[1] is None and only_name(raised[2]) == ("T", 0)
+        if transposed and isinstance(value := self.value(base), MatrixBase):
+            return value.T  # J^T of a matrix that is given by its entries
+        return super()._power(node)
 
     def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
         if isinstance(base, MatrixBase) and base.shape[1] == 1 and exponent == 2:
@@ -285,6 +296,12 @@ class Meaning(ExpressionReader):
                 return sp.sqrt(self._square(found))
             self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
+
+
+def _is_transposed(one: Value, other: Value) -> bool:
+    """Whether one is a row and the other a column, of as many entries."""
+    shapes = [x.shape for x in (one, other) if isinstance(x, MatrixBase)]
+    return len(shapes) == 2 and 1 in shapes[0] and shapes[0] == shapes[1][::-1] != shapes[1]
 
 
 class ReadingBudget:
