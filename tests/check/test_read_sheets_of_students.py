@@ -214,3 +214,10 @@ def test_equations_that_are_added_may_be_the_label_of_their_sum() -> None:
     )
     rows = f"(I) + (II):  {added} + b x' = F\n(II):        {POLE}"
     assert right(rows) and not right(rows.replace("+ b x'", "- b x'"))
+
+
+def test_a_bare_force_in_the_row_of_a_coordinate_is_that_of_it() -> None:
+    sheet = f"x: ∂V/∂x = 0, Q = F - b x'\ntheta: ∂V/∂theta = -m g l sin theta, Q = 0\n{CART}\n{POLE}"
+    assert right(f"V = m g l cos theta\n{sheet}")
+    told = derivation("cart-pole").check(f"V = m g l cos theta\n{sheet.replace('F - b', 'F + b')}")
+    assert any(x.startswith("line 2 (Ξ of x)") and x.endswith(" not right") for x in told.to_text().splitlines())

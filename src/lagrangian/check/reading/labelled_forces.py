@@ -4,6 +4,8 @@ x: m x'' + k x          x: m x'' + k x
 y: m y''                y: m y''
 x: F - b x'             Xi_x = F - b x'
 y: 0                    Xi_y = 0
+
+A bare Q in such a row is that of its coordinate:   y: dV/dy = k y, Q = F
 """
 
 from __future__ import annotations
@@ -22,6 +24,8 @@ _LABELLED = re.compile(
 )
 _TWICE = re.compile(r"['’′]{2}|″|[\u0308ẍÿẅ¨]|ddot|dd\b")
 _WORD = re.compile(_NAME)
+_OF_ROW = re.compile(rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+:[^\n]{{0,400}}?(?<![\w∂/])(?P<force>Q)[ \t]*+=", re.MULTILINE)
+_BARE = re.compile(r"(?P<equal>=[ \t]*+)?(?<![\w\\])Q(?!\w)")
 
 
 def with_labelled_forces(
@@ -37,6 +41,7 @@ def with_labelled_forces(
         stems = [undotted(word)[0], *(stem for _, stem in spelled_rates(word))]
         return function_of(word) is not None or any(map(known, stems))
 
+    written = written if known("Q") else _with_forces_of_rows(written, coordinates)
     left, right = list[str](), list[re.Match[str]]()
     for match in _LABELLED.finditer(written.text):
         if len(meant := coordinates(match["name"])) != 1:
@@ -49,3 +54,13 @@ def with_labelled_forces(
     if not len(left) == len(named) == len(set(left)) == len(set(named)) == count:
         return written
     return written.edited([(*m.span("label"), f"Xi_{name} = ") for m, name in zip(right, named, strict=True)])
+
+
+def _with_forces_of_rows(written: TracedText, coordinates: Callable[[str], Sequence[str]]) -> TracedText:
+    """Return a text in which the Q of every row is that of its coordinate, if Q is nothing else: … = Q in general."""
+    rows = {m.start("force"): m for m in _OF_ROW.finditer(written.text)}
+    of = [coordinates(m["name"]) for m in rows.values()]
+    bare = (m for m in _BARE.finditer(written.text) if m["equal"] is None and m.start() not in rows)
+    if len(of) < 2 or any(len(x) != 1 for x in of) or len({x[0] for x in of}) < len(of) or next(bare, None):
+        return written
+    return written.edited([(at, at + 1, f"Xi_{x[0]}") for at, x in zip(rows, of, strict=True)])

@@ -6,6 +6,7 @@ import re
 
 from lagrangian.check.reading.applied import with_functions_applied, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions
+from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
@@ -103,7 +104,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     said = with_stated_letters(
         with_variations(tagless, taken), names.changes, taken, latex=bool(LATEX.search(tagless.text))
     )
-    said = with_values_above(said)
+    said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
     if LATEX.search(said.text):
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")

@@ -11,7 +11,6 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
-from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.indexed import counted_names, without_indices
@@ -164,7 +163,6 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     text = remarks.text if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
-    plain = with_called_dissipation(plain, lambda name: bool(lines.names.scope.meanings(name)[0]))
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
