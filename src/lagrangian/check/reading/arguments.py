@@ -22,6 +22,9 @@ _BEFORE = re.compile(r"(?:([^\W\d_]+)|[\w*/+^·×=)\]}'−-])[ \t]*\Z")
 
 _MATRIX = re.compile(r"\s*(?:\[|\\begin|\\left)")
 
+_RATES = frozenset(["dot", "ddot", "der"])
+"""What is written as a function and is a rate: ddot(x) = …"""
+
 _MAX = 100
 """The largest number of such quantities."""
 
@@ -34,7 +37,7 @@ def dependents(text: str, taken: Callable[[str], bool]) -> frozenset[str]:
         name, of = written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right")
         before = _BEFORE.search(text, max(0, match.start() - 40), match.start())
         first = before is None or (before[1] is not None and len(before[1]) > 1 and not taken(before[1]))
-        free = not taken(name) or _MATRIX.match(text, match.end()) is not None
+        free = (not taken(name) and name not in _RATES) or _MATRIX.match(text, match.end()) is not None
         if len(found) < _MAX and first and free and all(_QUANTITY.match(x) for x in re.split("[,;]", of)):
             found.add(f"{name}({written(of)})")
     return frozenset(found)
