@@ -82,6 +82,7 @@ def test_the_letter_of_an_energy_alone_is_the_function_that_is_stated(letter: st
     rest = "(m·l² + m·R·l·cos ψ)·φ̇·ψ̇ + ½·m·l²·ψ̇²"
     answer = f"{letter}(ψ) = J + m·R² + m·l² + 2·m·R·l·cos ψ\nT = {last} + {rest}"
     verdict = arm().check(answer)
-    assert [f.status.right for f in verdict.findings] == ([True] if letter == "K" else [False])
+    judged = [f.status.right for f in verdict.findings if f.line.kind != "definition"]
+    assert judged == ([True] if letter == "K" else [False])
     if letter == "K":
         assert not arm().check(answer.replace("2·m·R·l", "m·R·l")).right
