@@ -4,6 +4,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from student_answers import CART, POLE, right
 
 
 @pytest.fixture(scope="module")
@@ -249,3 +250,10 @@ def test_what_multiplies_an_acceleration_has_its_verdict(crane: lg.Derivation, s
         return
     assert found(verdict) == [(1, False, False), (2, False, True)]
     assert "the factor of x'' in the equation of x is M + m, not M + 2*m" in str(verdict.mistakes[0].what)
+
+
+@pytest.mark.parametrize("velocity", ["", "Ṗ = (ẋ + l θ̇ cos(θ), -l θ̇ sin(θ))\n"])
+@pytest.mark.parametrize(("sign", "is_right"), [("+", True), ("-", False)])
+def test_the_square_of_a_dotted_column_is_that_of_its_length(velocity: str, sign: str, is_right: bool) -> None:
+    answer = f"P = (x + l sin(θ), l cos(θ))\n{velocity}Ṗ² = ẋ² {sign} 2 l ẋ θ̇ cos(θ) + l² θ̇²"
+    assert right(f"{answer}\n{CART}\n{POLE}") == is_right

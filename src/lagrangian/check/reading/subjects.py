@@ -144,6 +144,9 @@ class Subjects:
         if (found := only_name(side)) is not None:
             return self._named(*found, moving, balanced)
         if (token := squared_name(side)) is not None and not self._taken(token):
+            base, dots = undotted(token)
+            if dots and self.names.is_own(base):
+                return None  # Ḃ² of a column of positions B is |Ḃ|²
             return Subject("definition", str(token), token, inverse="sqrt")
         if (called := called_name(side)) is not None and self._is_own_angle(called[1]):
             return Subject("definition", str(called[1]), called[1], inverse=f"a{called[0]}")  # tan α = 2 a x
