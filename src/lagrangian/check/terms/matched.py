@@ -165,7 +165,7 @@ def _odd_one(own: Sequence[TermItem], right: Sequence[TermItem]) -> PieceMatch:
     """Of several multiples of the same that should add up to ``right``, the one with the simplest number too much or
     too little: of 1/8 + 1/48 in place of 1/6 it is 1/48, which should be 1/24."""
     total = sp.Add(*[x.piece.expr for x in right], *[-x.piece.expr for x in own])
-    numbers = [cast("sp.Rational", sp.cancel(total / x.piece.expr)) + 1 for x in own]
+    numbers = [cast("sp.Rational", sp.cancel(total / x.piece.expr) + 1) for x in own]
     k = min(range(len(own)), key=lambda j: abs(numbers[j].p) + numbers[j].q)
     one = own[k]
     if numbers[k] == 0:
