@@ -47,7 +47,7 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
         solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
         if solved is None:
             break
-        k, name, value = solved
+        k, name, value = cast("tuple[int, AppliedUndef, sp.Expr]", solved)
         unknown -= {name}
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
@@ -105,4 +105,5 @@ def _solved(expr: sp.Expr, name: sp.Expr) -> sp.Expr | None:
     slope = bounded.diff(put, mark)
     if slope == 0 or slope.has(mark):
         return None
-    return cast("sp.Expr", -put.xreplace({mark: sp.S.Zero}) / slope)
+    rest: Any = put.xreplace({mark: sp.S.Zero})
+    return cast("sp.Expr", -rest / slope)

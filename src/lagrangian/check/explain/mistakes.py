@@ -139,8 +139,8 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
     below = below_right_equations(truth, findings)
     for sheet in sheets(truth, [f for f in of_equation if id(f.line) not in below]):
-        right = [rows[id(line)] for line in sheet if id(line) in rows]
-        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, right, left, groups)
+        held = [rows[id(line)] for line in sheet if id(line) in rows]
+        of_sheets += _of_sheet(pool, sheet, wrong, combined, against, held, left, groups)
     for found, more in _without_partial(of_sheets):
         groups.append(bodies.borne_out(pool, found))
         own += more

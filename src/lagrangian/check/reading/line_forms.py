@@ -165,7 +165,7 @@ def entries_of(token: Token, value: Value, side: Tree, reader: Meaning) -> list[
         return []
     if not any(x.has(AppliedUndef) and isinstance(x, (sp.Add, sp.Mul)) for x in value):
         return []
-    return [made_line("definition", None, x, f"{token}_{k}", side, side, reader) for k, x in enumerate(value, 1)]
+    return [made_line("definition", None, x, f"{token}_{k}", side, side, reader) for k, x in enumerate(value.flat(), 1)]
 
 
 def made_line(

@@ -230,7 +230,9 @@ class Meaning(ExpressionReader):
                 total = value if total is None or total == 0 else total
                 continue
             if _is_transposed(value, total):
-                total, value = (x if x.shape[1] == 1 else x.T for x in (total, value))  # lists of as many entries
+                total, value = (
+                    x if x.shape[1] == 1 else x.T for x in cast("tuple[Any, Any]", (total, value))
+                )  # lists of as many entries
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
             if total is not None and shapes[0] != shapes[1]:
                 a, b = (_shape(x) for x in shapes)

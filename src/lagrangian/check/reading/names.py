@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import sympy as sp
 from lark import Token, Tree
@@ -276,7 +276,11 @@ class Names:
             base = key(known or undotted(written)[0])
             if known is None and base not in self.own:
                 self.later(base)
-            value = self.own.get(base, ("", sp.S.Zero))[1] if known is None else self.model.expand(self.scope[known])
+            value = (
+                self.own.get(base, ("", sp.S.Zero))[1]
+                if known is None
+                else self.model.expand(cast("sp.Expr", self.scope[known]))
+            )
             if known is not None and value == self.scope[known]:
                 kept.add(value)
                 continue

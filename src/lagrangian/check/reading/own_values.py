@@ -20,7 +20,8 @@ def amounts_to(value: Any, number: Any, model: Model) -> bool:
         return False
     amount = value.xreplace({p: sp.Float(v) for p, v in model.values.items()})
     factor, unit = number.as_coeff_Mul()
-    letters = unit == 1 or all(x.as_base_exp()[0].is_Symbol for x in unit.args or [unit])
+    factors: Any = unit.args or [unit]
+    letters = unit == 1 or all(x.as_base_exp()[0].is_Symbol for x in factors)
     return bool(amount.is_Float and factor != 1 and letters and abs(amount - factor) <= ROUNDED * abs(factor))
 
 
