@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import get_close_matches
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 import sympy as sp
 from lark import Token, Tree
@@ -276,11 +276,8 @@ class Names:
             base = key(known or undotted(written)[0])
             if known is None and base not in self.own:
                 self.later(base)
-            value = (
-                self.own.get(base, ("", sp.S.Zero))[1]
-                if known is None
-                else self.model.expand(cast("sp.Expr", self.scope[known]))
-            )
+            of: Any = self.own.get(base, ("", sp.S.Zero))[1] if known is None else self.scope[known]
+            value = of if known is None else self.model.expand(of)
             if known is not None and value == self.scope[known]:
                 kept.add(value)
                 continue
