@@ -268,19 +268,18 @@ class Names:
 
     def coordinates(self) -> OwnCoordinates | None:
         """The coordinates of the answer's own by which it differentiates; None if those of the system do."""
-        meanings: dict[str, sp.Expr] = {}
-        kept: set[sp.Expr] = set()
+        meanings, kept = dict[str, sp.Expr](), set[sp.Expr]()
         for written in self.differentiated:
-            stems = [written, *(stem for _, stem in spelled_rates(written))]
+            stems = (written, *(stem for _, stem in spelled_rates(written)))
             known = next((names[0] for x in stems if (names := self.scope.meanings(x)[0])), None)
             base = key(known or undotted(written)[0])
             if known is None and base not in self.own:
                 self.later(base)
-            of: Any = self.own.get(base, ("", sp.S.Zero))[1] if known is None else self.scope[known]
-            value = of if known is None else self.model.expand(of)
-            if known is not None and value == self.scope[known]:
-                kept.add(value)
+            of: Any = self.scope[known] if known is not None else self.own.get(base, ("", sp.S.Zero))[1]
+            if known is not None and self.model.expand(of) == of:
+                kept.add(of)
                 continue
+            value = of if known is None else self.model.expand(of)
             if not isinstance(value, sp.Expr) or not value.has(AppliedUndef):
                 return None
             meanings[base] = value
