@@ -52,6 +52,8 @@ ANSWERS = {
     "a rule before blanks": "x1'' = 0\n-- " + BLANK + "y --",
     "rules": "x1'' = 0\n" + "-- y " * (N // 5),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
+    "virtual displacements": "δW = " + "δx" * 1500,
+    "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }
 
 

@@ -63,6 +63,8 @@ _NUMBER = re.compile(r"(?<![\w.])(?>\d+)(?:\.\d*)?(?:[eE][+-]?\d+)?")
 _BEHIND = re.compile(rf"\s*[*·⋅]?\s*(?P<name>{_NAME})")
 VARIATION = "δ"
 """The sign of virtual displacements and virtual work: δx, δW."""
+_VARIED = re.compile(rf"{VARIATION}?[^{VARIATION}]+|{VARIATION}")
+"""What stands in front of virtual displacements, and each of them."""
 MOST = 60
 """The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
@@ -131,15 +133,19 @@ def _is_times_rate(of: str, words: Words) -> bool:
 
 def _names(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
     """The tokens of a word: one, or one for each of its parts; a virtual displacement, δx in Fδx, is one."""
-    if (at := word.find(VARIATION)) >= 0 and len(word) > at + 1 and not words.is_name(VARIATION):
-        more = word.find(VARIATION, at + 1) if at == 0 else at
-        cut = len(word) if more < 0 else more
-        if at == 0:
-            yield AnswerToken("name", word[:cut], start, start + cut)
-        else:
-            yield from _names(word[:cut], source, start, words)
-        yield from _names(word[cut:], source, start + cut, words) if cut < len(word) else ()
-        return
+    if VARIATION in word and word != VARIATION and not words.is_name(VARIATION):
+        for piece in _VARIED.finditer(word):
+            at = start + piece.start()
+            if piece.group().startswith(VARIATION):
+                yield AnswerToken("name", piece.group(), at, start + piece.end())
+            else:
+                yield from _parts(piece.group(), source, at, words)
+    else:
+        yield from _parts(word, source, start, words)
+
+
+def _parts(word: str, source: Source, start: int, words: Words) -> Iterator[AnswerToken]:
+    """The tokens of a word without virtual displacements."""
     end = start + len(word)
     called = bool(re.match(r"\s*[\w(\[^²³√]|\s*\*\*", source.text[end : end + 8]))
     at = start
