@@ -29,7 +29,7 @@ from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
-from lagrangian.check.reading.prose.words import Words, led_names
+from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
@@ -56,6 +56,11 @@ _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
+_NAMED = re.compile(
+    rf"(?:^|[.:;,][ \t])[^\S\n]*+(?:(?:[^\W\d_]{{2,24}}|\d{{1,3}})[ \t]++){{1,4}}((?>{NAME}))[ \t]*+{_SQUARED}[ \t]*+=(?![=>])",
+    re.MULTILINE,
+)
+"""A name behind words or a number: 2 Ms = …, Put Js = …."""
 _FUNCTION = re.compile(r"(?:arc|a)?(?:sin|cos|tan|sqrt|exp)")
 _USED = re.compile(rf"(?<!\w)((?>{NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{NAME}))")
 _COUNTED = re.compile(rf"(?<![\w.])\d{{1,3}}[ \t]+((?>{NAME}))[ \t]*\((?=[^()=\n]{{1,80}}[-+−])")
@@ -280,6 +285,9 @@ def _words(lines: Lines, text: str) -> Words:
         long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
         if word.lower() in LINKING or (long and not system.known(word) and not system.is_product(word)):
             own.setdefault(match[2])
+    for name in (m[1] for m in _NAMED.finditer(text)):
+        if len(name) > 1 and function_of(name) is None and not system.known(name) and not system.is_product(name):
+            own.setdefault(name)
     own |= dict.fromkeys(x for name in list(own) for x in counted_names(name, alone))  # kappa_i is kappa_1, too
     own |= dict.fromkeys(x.partition("(")[0] for x in lines.names.dependents)
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
