@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from unicodedata import normalize
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
@@ -77,6 +78,37 @@ def with_own_functions(
     for whole in named.values():
         edits += _bare(text.text, whole, system, latex=latex)
     return text.edited(apart(edits))
+
+
+_DOTTED = re.compile("[\u0307\u0308]|\\\\d?dot(?![A-Za-z])|(?<=[^\\W\\d])_?d?dot(?!\\w)|(?<=[^\\W\\d])_dd?(?!\\w)")
+"""How rates are written without primes."""
+_PRIMED = re.compile(r"(?<!\w)\\?(?P<name>[^\W\d_]\w{0,24}(?:\{\w{1,20}\})?)[ }]{0,2}['’′″]")
+
+
+def with_primes_as_slopes(text: TracedText, changes: Callable[[str], bool], *, latex: bool) -> TracedText:
+    """Return an answer in which a prime behind a function of one coordinate, Θ' after Θ(r) = …, is its derivative by
+    this coordinate, if rates have dots and nothing that moves has a prime."""
+    found: dict[str, str] = {}
+    for match in _STATED.finditer(text.text):
+        found.setdefault(written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip())
+    found = {name: of for name, of in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))}
+    primed = {written(m["name"]) for m in _PRIMED.finditer(text.text)} if found else set[str]()
+    moving = any(changes(x) for x in primed) or not _DOTTED.search(normalize("NFD", text.text))
+    edits: list[Edit] = []
+    for name, of in found.items() if not moving else ():
+        if name not in primed or changes(name):
+            continue
+        form = rf"(?:(?<![\w\\])|(?<=\d)(?=\\)){_spelled(name)}\s?['’′](?!['’′])(?:\s?\(\s?{re.escape(of)}\s?\))?"
+        for match in re.finditer(form, text.text):
+            top = match["name"].strip()
+            new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
+            edits.append((*match.span(), f" {new} "))
+    return text.edited(apart(edits))
+
+
+def _spelled(name: str) -> str:
+    r"""A pattern of a name as it may be written: J_{b} and \Theta."""
+    return r"(?P<name>\\?" + r"[_{\s]{0,2}".join(map(re.escape, name)) + r"\}?)"
 
 
 def _bare(text: str, whole: str, system: Callable[[str], bool], *, latex: bool) -> Iterator[Edit]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from lagrangian.check.reading.applied import with_functions_applied, with_values_above
-from lagrangian.check.reading.arguments import with_own_functions
+from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
@@ -95,6 +95,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
+    tagless = with_primes_as_slopes(tagless, names.changes, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")

@@ -28,6 +28,7 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.prose.changing_words import changing_words
+from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
@@ -283,6 +284,8 @@ def _words(lines: Lines, text: str) -> Words:
     for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …
         word = match[1]
         long = len(word) > LONGEST_NAME and not _FUNCTION.match(word)
+        if word.lower() in IF and system.is_product(match[2]):
+            continue  # if m1r = m2(l - r)
         if word.lower() in LINKING or (long and not system.known(word) and not system.is_product(word)):
             own.setdefault(match[2])
     for name in (m[1] for m in _NAMED.finditer(text)):

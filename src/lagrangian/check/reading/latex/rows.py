@@ -11,6 +11,7 @@ from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.plain.ends import incomplete
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_words
+from lagrangian.check.reading.prose.conditions import IF
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _DISPLAYS = [
@@ -93,11 +94,22 @@ def latex_rows(text: str) -> list[AnswerRow]:
         return _statements(text, 0, lines=True)
     rows: list[AnswerRow] = []
     found = sorted([*found, *_bare(text, found)])
-    for start, inside in [x for x in found if "=" in x[1]] or found:
+    for start, inside in [x for x in found if "=" in x[1] and not _is_condition(text, *x)] or found:
         if len(rows) > MAX_STATEMENTS:
             break
         rows += _statements(inside, start, lines=False)
     return rows
+
+
+_IF = re.compile(rf"(?<!\w)(?:{'|'.join(sorted(IF))})\s{{1,3}}(?:\$|\\\()\Z", re.IGNORECASE)
+_SINGLE = re.compile(r"\s*\\?[^\W\d]\w*(?:\{\w+\})?\s*=")
+_MOVES = re.compile(r"\\d?dot|['’′]")
+
+
+def _is_condition(text: str, start: int, inside: str) -> bool:
+    """Whether a formula is a condition between products or sums without rates: if $m_1 r = m_2(l - r)$, …"""
+    said = _IF.search(text, max(0, start - 20), start)
+    return said is not None and _MOVES.search(inside) is None and _SINGLE.match(inside) is None
 
 
 def _bare(text: str, found: Sequence[tuple[int, str]]) -> Iterator[tuple[int, str]]:

@@ -25,6 +25,13 @@ CONDITION = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 """A condition, whose values are numbers or names, and the zero of V that it is."""
+IF = frozenset("if when whenever unless wenn falls si".split())
+_SIDES = re.compile(
+    rf"(?<!\w)(?:{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
+    r"(?=[ \t]*[,;][ \t]|[ \t]*\.?[ \t]*$|[ \t]+(?:[^\W\d_]{2,20}[ \t]+){2})",
+    re.IGNORECASE | re.MULTILINE,
+)
+"""A condition between products or sums of constants and positions: if m1 r = m2 (l - r) there is no pull."""
 _REFERENCE = re.compile(
     rf"(?<![\w)\]])[(\[](?P<words>[^()\[\]=\n]{{0,60}}?)(?P<name>{_NAME})[ \t]*=[ \t]*[-−]?(?:\d[\d.,/π]{{0,8}}|π|pi)"
     r"(?:[ \t]?/[ \t]?\d)?(?P<more>[^()\[\]=\n+*^]{0,60})[)\]]"
@@ -39,6 +46,7 @@ _CASE = re.compile(
 """A special case, from which an arrow leads to what it would mean: check: m2 = m3 ⇒ y'' = 0."""
 _SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
+_NAMED = re.compile(r"[^\W\d][\w\u0307\u0308]*")
 _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 
 
@@ -46,6 +54,7 @@ def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions blanked out."""
     found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
+    found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
         text = blank(text, *match.span())
     for match in _REFERENCE.finditer(text):
@@ -53,6 +62,12 @@ def without_conditions(text: str, words: Words) -> str:
         if spoken and words.names.changes(match["name"]):
             text = blank(text, *match.span())
     return text
+
+
+def _is_readable(side: str, words: Words, least: int = 2) -> bool:
+    """Whether a side consists of names of the system alone, at ``least`` so many, and of no rates."""
+    named = [x for word in _NAMED.findall(side) for x in words.factors(word)]
+    return len(named) >= least and all(words.is_name(x) or words.is_function(x) for x in named)
 
 
 def _is_case(said: str, words: Words) -> bool:

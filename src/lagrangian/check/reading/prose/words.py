@@ -174,6 +174,10 @@ class Words:
             self._products[word] = few and bool(self._splits(word, called=False, extra=False))
         return self._products[word]
 
+    def factors(self, word: str) -> list[str]:
+        """The names of the system of which a word consists, coarsest first; the word itself if it is no product."""
+        return next(iter(self._splits(word, called=True, extra=False)), [word]) if self.is_product(word) else [word]
+
     def is_function(self, word: str) -> bool:
         """Whether a word is a function and no name."""
         return function_of(word) is not None and not self.is_name(word)
