@@ -90,7 +90,9 @@ def with_primes_as_slopes(text: TracedText, changes: Callable[[str], bool], *, l
     this coordinate, if rates have dots and nothing that moves has a prime."""
     found: dict[str, str] = {}
     for match in _STATED.finditer(text.text):
-        found.setdefault(written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip())
+        found.setdefault(
+            written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip()
+        )
     found = {name: of for name, of in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))}
     primed = {written(m["name"]) for m in _PRIMED.finditer(text.text)} if found else set[str]()
     moving = any(changes(x) for x in primed) or not _DOTTED.search(normalize("NFD", text.text))

@@ -58,7 +58,8 @@ _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
 _NAMED = re.compile(
-    rf"(?:^|[.:;,][ \t])[^\S\n]*+(?:(?:[^\W\d_]{{2,24}}|\d{{1,3}})[ \t]++){{1,4}}((?>{NAME}))[ \t]*+{_SQUARED}[ \t]*+=(?![=>])",
+    rf"(?:^|[.:;,][ \t])[^\S\n]*+(?:(?:[^\W\d_]{{2,24}}|\d{{1,3}})[ \t]++){{1,4}}((?>{NAME}))"
+    rf"[ \t]*+{_SQUARED}[ \t]*+=(?![=>])",
     re.MULTILINE,
 )
 """A name behind words or a number: 2 Ms = …, Put Js = …."""

@@ -25,7 +25,7 @@ CONDITION = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 """A condition, whose values are numbers or names, and the zero of V that it is."""
-IF = frozenset("if when whenever unless wenn falls si".split())
+IF = frozenset(["if", "when", "whenever", "unless", "wenn", "falls", "si"])
 _SIDES = re.compile(
     rf"(?<!\w)(?:{'|'.join(sorted(IF))})[ \t]+(?P<left>[^=<>\n.;:'’′]{{3,60}})=(?P<right>[^=<>\n.;:'’′]{{1,60}}?)"
     r"(?=[ \t]*[,;][ \t]|[ \t]*\.?[ \t]*$|[ \t]+(?:[^\W\d_]{2,20}[ \t]+){2})",
