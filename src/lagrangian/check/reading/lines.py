@@ -164,6 +164,8 @@ class Lines:
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
         self.subjects.left = set(self.subjects.leading)
         self.subjects.gives_rates = set().union(*(self.subjects.in_rates(s.sides) for s in self._statements))
+        listed = (x for s in self._statements for side in s.sides for x in names_in(side))
+        self.subjects.bare = {key(token) for token, changing in listed if not changing and not undotted(token)[1]}
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
@@ -198,7 +200,8 @@ class Lines:
         self.names.matrices = self._has_matrices(statement.sides)
 
         def read() -> list[AnswerLine]:
-            reader = Meaning(statement.source, self.names, self.budget)
+            energy = subject is not None and subject.kind in ENERGIES
+            reader = Meaning(statement.source, self.names, self.budget, energy=energy)
             stated = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
             return stated if subject else self._equations(sides, reader)
 

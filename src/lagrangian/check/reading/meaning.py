@@ -32,11 +32,12 @@ MAX_ENTRIES = 400
 
 
 class Meaning(ExpressionReader):
-    """Evaluates the trees of one statement; ``budget`` is shared by the whole answer."""
+    """Evaluates the trees of one statement; ``budget`` is shared by the whole answer. An ``energy`` may hold rates that
+    the answer gives further down."""
 
-    def __init__(self, source: Source, names: Names, budget: ReadingBudget) -> None:
+    def __init__(self, source: Source, names: Names, budget: ReadingBudget, *, energy: bool = False) -> None:
         super().__init__(source, names.scope)
-        self.names, self.budget = names, budget
+        self.names, self.budget, self.energy = names, budget, energy
         self._done: dict[int, Value] = {}
 
     def value(self, node: Node) -> Value:
@@ -75,6 +76,9 @@ class Meaning(ExpressionReader):
             self._spend(given, token)
             return given
         _, value, dots = self._meaning(token)
+        if order and self.energy and (given := self.names.rates.get((key(base), order))) is not None:
+            self._spend(given, token)
+            return given
         order = dots + len(primes or "")  # ydd is y'', which may be a column
         if not order:
             return value

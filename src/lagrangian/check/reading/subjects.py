@@ -56,6 +56,8 @@ class Subjects:
         self.defined: set[str] = set()
         self.gives_rates: set[str] = set()
         """The keys of the names of which the rates of coordinates are functions."""
+        self.bare: set[str] = set()
+        """The keys of the names that stand somewhere without a sign of a rate."""
         self.left: set[str] = set()
         """The names that a statement defines on its left side."""
         self.leading: Counter[str] = Counter()
@@ -203,6 +205,8 @@ class Subjects:
                 return False  # a motion that is prescribed: y_p'' = -a w^2 cos(w t)
             if subject.order == 1 and key(str(subject.token)) in self.gives_rates - self.defined:
                 return True  # p' = F, where x' = p/m says what p is
+            if subject.order == 1 and self.names.occurs(subject.token) > 1 and key(subject.token) not in self.bare:
+                return False  # xS' = x' + l phi' cos phi, of which only the rate is used
             new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
             return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not accelerates(value))
         if subject.inverse or not accelerates(value):

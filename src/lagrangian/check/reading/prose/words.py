@@ -51,6 +51,7 @@ _INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
 """A letter with an index, which is a name and no word: N_r; e_r is a unit vector."""
 
 _LED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d]\w{1,23})['’′″]{1,2}[ \t]*+=(?![=>])", re.MULTILINE)
+_DOTTED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d][\w\u0307\u0308]{1,23})[ \t]*+=(?![=>])", re.MULTILINE)
 
 _FORCES = frozenset(["lam", "lmbda"])
 """Short spellings of a multiplier."""
@@ -58,9 +59,10 @@ _COMPONENT = re.compile(r"[A-Z][xyz]")
 
 
 def led_names(text: str) -> frozenset[str]:
-    """The names whose rates stand alone on a left side, xS'' = x'' - …: of letters of the answer's own, they are no
-    products."""
-    return frozenset(key(m[1]) for m in _LED.finditer(text))
+    """The names whose rates stand alone on a left side, xS'' = x'' - … or ẋS = ẋ - …: of letters of the answer's own,
+    they are no products."""
+    dotted = (m[1] for m in _DOTTED.finditer(text) if normalize("NFD", m[1])[1:2] in DOTS)
+    return frozenset(key(undotted(x)[0]) for x in (*(m[1] for m in _LED.finditer(text)), *dotted))
 
 
 def function_of(word: str) -> str | None:
@@ -196,10 +198,13 @@ class Words:
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
-        whole = key(word) in self._led or (self._is_component(word) and not self.is_name(word[1]))
+        led = key(undotted(word)[0]) in self._led
+        whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
+        rated = led or word in self._primed
         for extra in (False,) if whole else (False, True):
             found = self._splits(word, called, extra)
+            found = [x for x in found if not (rated and self._is_constant(x[-1]))]  # ys' is no y s'
             if len(found) > 1:
                 one, other = ("*".join(x) for x in found[:2])
                 what = f"'{word}' can mean {one} or {other}"
@@ -208,6 +213,10 @@ class Words:
                 self._split.setdefault(word, " ".join(found[0]))
                 return found[0]
         return [word]
+
+    def _is_constant(self, name: str) -> bool:
+        """Whether the system has this name, and it does not change with time."""
+        return bool(self.names.scope.meanings(name)[0]) and not self.names.changes(name)
 
     def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
         """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π."""
