@@ -20,7 +20,6 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
-from lagrangian import bounded
 from lagrangian.bounded.sizes import each
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, time
