@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from built_in import derivation
 from effort import at_most
 from lagrangian.check.reading.carried_out.stated import carried_out
+from lagrangian.check.reading.file_text import decode_answer
 
 SYMPY = '''import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
@@ -102,6 +104,23 @@ eq1 = diff(diff(L, diff(x,t)), t) - diff(L, x) == F - b*diff(x,t)
 eq2 = diff(diff(L, diff(theta,t)), t) - diff(L, theta) == 0
 """
 
+IN_LETTERS = r"""syms M m l J b g F real
+syms x th xd thd xdd thdd real
+T = M*xd^2/2 + m*(xd^2 + 2*l*xd*thd*cos(th) + l^2*thd^2)/2 + J*thd^2/2;
+L = T - m*g*l*cos(th);
+q = [x th]; qd = [xd thd]; qdd = [xdd thdd];
+p = jacobian(L, qd);                              % momenta
+dp = (jacobian(p, q)*qd.' + jacobian(p, qd)*qdd.').';
+eom = simplify(dp - jacobian(L, q) - [F - b*xd, 0])
+% eom(1) = (M + m)*xdd + m*l*thdd*cos(th) - m*l*thd^2*sin(th) + b*xd - F
+"""
+
+IN_STEPS = SOLVE_IVP.replace(
+    "def rhs(t, z, F):", "def F(t):\n    return 3*np.sin(t)  # an example\n\ndef rhs(t, z):"
+).replace("F - b*xd +", "F(t) - b*xd +")
+
+ADDED_UP = IN_AN_EQUATION.replace("T = M*x.diff(t)**2/2 + m*", "T = M*x.diff(t)**2/2\nT += m*")
+
 QUOTED = """T = "1/2*M*xd**2 + 1/2*m*(xd**2 + 2*l*xd*thetad*cos(theta) + l**2*thetad**2) + 1/2*J*thetad**2"
 eq1 = "(M + m)*xdd + m*l*thetadd*cos(theta) - m*l*thetad**2*sin(theta) = F - b*xd"
 eq2 = "m*l*xdd*cos(theta) + (J + m*l**2)*thetadd - m*g*l*sin(theta) = 0"
@@ -115,6 +134,9 @@ PROGRAMS = {
     "anonymous functions": (ANONYMOUS, "m*g*l*sin", "-m*g*l*sin"),
     "entry by entry": (ENTRIES, "f(2,1) = m", "f(2,1) = -m"),
     "symbols of MATLAB": (SYMBOLIC, "V = m*g*yp", "V = -m*g*yp"),
+    "rates in letters": (IN_LETTERS, "- m*g*l*cos", "+ m*g*l*cos"),
+    "an input by a function": (IN_STEPS, "F(t) - b*xd", "F(t) + b*xd"),
+    "a sum in steps": (ADDED_UP, "T += m", "T += 2*m"),
     "formulas in quotes": (QUOTED, "- m*g*l", "+ m*g*l"),
 }
 
@@ -156,6 +178,26 @@ def test_comments_with_accelerations_are_read_beside_the_program() -> None:
 def test_a_program_that_is_carried_out_is_told() -> None:
     verdict = derivation("cart-pole").check(ANONYMOUS)
     assert any("carried out on symbols" in str(note) for note in verdict.notes)
+
+
+def test_a_notebook_is_its_cells_and_what_they_show() -> None:
+    cells = [
+        {"cell_type": "markdown", "source": ["The cart:\n", "\n", "$(M+m)\\ddot x + m l\\ddot\\theta\\cos\\theta"]},
+        {
+            "cell_type": "code",
+            "source": "m l cos(theta) x'' + (J + m l^2) theta'' - m g l sin(theta) = 0",
+            "outputs": [],
+        },
+    ]
+    cells[0]["source"].append(" - m l\\dot\\theta^2\\sin\\theta = F - b\\dot x$")  # type: ignore[attr-defined]
+    shown = {"output_type": "execute_result", "execution_count": 3, "data": {"text/latex": ["$\\displaystyle x$"]}}
+    cells[1]["outputs"] = [shown, {"output_type": "error"}, 4, {"data": 5}]
+    text = decode_answer(json.dumps({"cells": [*cells, 7], "nbformat": 4}).encode(), "answer.ipynb")
+    assert text.startswith("The cart:\n\n$(M+m)") and "Out[3]: $\\displaystyle x$" in text
+    assert decode_answer(b'{"cells": [', "answer.ipynb") == '{"cells": ['
+    assert decode_answer(b'{"cells": 3}', "answer.ipynb") == '{"cells": 3}'
+    right = text.replace("Out[3]: $\\displaystyle x$", "")
+    assert derivation("cart-pole").check(right).right
 
 
 HOSTILE = {

@@ -105,13 +105,17 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         found = _declared(program, model, place)
         return replace(found, notes=(CARRIED_OUT, *found.notes))
 
+    typed: Answer | ParseError
     try:
         typed = _declared(text, model, place)
     except ParseError as error:
+        typed = error
+    if isinstance(typed, ParseError) or typed.doubt is not None:
         try:
             return by_steps()
         except ParseError:
-            raise error from None
+            if isinstance(typed, ParseError):
+                raise typed from None
     return replace(typed, others=(*typed.others, by_steps))
 
 

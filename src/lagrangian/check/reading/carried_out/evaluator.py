@@ -290,8 +290,10 @@ class Evaluator:
 
     def function(self, of: Function, given: Sequence[Value]) -> Value:
         """The value of a function of the program."""
-        self.depth += 1
         self.called.add(of.name)
+        if self.known(of.name) and list(given) == [TIME]:
+            return sp.Symbol(of.name)  # an input, of which the program has an example
+        self.depth += 1
         if self.depth > DEEPEST:
             raise AbandonedError
         names = dict(zip(of.arguments, given, strict=False))

@@ -18,9 +18,11 @@ from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpret
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Equation, Value, is_scalar, listed, scalar
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.read.scope import Scope
+from lagrangian.records import dataclass
 
 LONGEST_PROGRAM, DEEPEST = 20_000, 40
 """The most characters of a program, and how deep brackets may stand in it."""
@@ -34,6 +36,8 @@ _MATLAB = re.compile(
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
 _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
+_LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
+"""An entry of a column of the program, in a comment: eom(1) = …"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 _BARE = re.compile(r"[^\W\d]\w{0,30}")
 
@@ -55,7 +59,7 @@ def carried_out(text: str, model: Model) -> str | None:
             tree = ast.parse(in_python(bare) if matlab else bare)
         run = Interpreter(matlab=matlab, known=lambda name: _is_constant(scope, name, model))
         names = run.run(tree)
-        found = [*_statements(run), *_of_states(run, names, text, model, scope)]
+        found = [*_statements(run, _Rates(model, scope)), *_of_states(run, names, text, model, scope)]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):
@@ -80,17 +84,19 @@ def _depth(text: str) -> int:
 def _laid_out(text: str, found: Sequence[tuple[int, str]]) -> str:
     """The statements on their lines, and the comments that hold accelerations."""
     lines = text.split("\n")
-    made = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    made = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     for line, said in found:
         at = min(max(line - 1, 0), len(made) - 1)
         made[at] = f"{made[at]} ; {said}" if made[at] else said
     return "\n".join(made)
 
 
-def _statements(run: Interpreter) -> Iterator[tuple[int, str]]:
+def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
     """The energies and the equations that are assigned or shown; an equation that is used for another is none."""
     told: set[str] = set()
-    for one in run.stated:
+    last = {x.name: x for x in run.stated}
+    for one in (x for x in run.stated if x.name is None or last[x.name] is x):
         if isinstance(one.value, str) and one.name is not None and _in_quotes(one.value):
             yield one.line, one.value if "=" in one.value else f"{one.name} = {one.value}"
             continue
@@ -101,9 +107,9 @@ def _statements(run: Interpreter) -> Iterator[tuple[int, str]]:
                 said = f"{written(value.left)} = {written(value.right)}" if final else None
             elif not isinstance(value, sp.Expr) or not value.args:
                 continue
-            elif one.name in _ENERGIES and not _accelerates(value) and _moves(value):
+            elif one.name in _ENERGIES and rates.order(value) == 1:
                 said = f"{one.name} = {written(value)}"
-            elif final and _accelerates(value):
+            elif final and rates.order(value) == 2:
                 said = f"{written(value)} = 0"
             if said is not None and said not in told:
                 told.add(said)
@@ -148,12 +154,26 @@ def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", scalar(value).xreplace(table))
 
 
-def _accelerates(value: sp.Expr) -> bool:
-    return any(d.derivative_count == 2 for d in value.atoms(sp.Derivative))
+@dataclass(frozen=True, eq=False)
+class _Rates:
+    """Tells what moves: functions of time and their derivatives, coordinates and their rates in letters, thdd."""
 
+    model: Model
+    scope: AnswerScope
 
-def _moves(value: sp.Expr) -> bool:
-    return bool(value.atoms(AppliedUndef))
+    def order(self, value: sp.Expr) -> int:
+        """2 if accelerations stand in a value, 1 if something else in it moves, else 0."""
+        found = [d.derivative_count for d in value.atoms(sp.Derivative)]
+        found += [1 for _ in value.atoms(AppliedUndef)]
+        found += [self._in_letters(x.name) for x in value.atoms(sp.Symbol) if x != TIME]
+        return max([0, *(2 if k == 2 else 1 for k in found if k)])
+
+    def _in_letters(self, name: str) -> int:
+        coordinates = {c.name for c in self.model.coordinates}
+        if set(found := self.scope.meanings(name)[0]):
+            return int(bool(set(found) & coordinates))
+        orders = [k for k, stem in spelled_rates(name) if set(self.scope.meanings(stem)[0]) & coordinates]
+        return max([0, *orders])
 
 
 class _Printer(StrPrinter):
