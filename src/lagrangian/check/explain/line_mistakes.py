@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
@@ -39,7 +40,7 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
         rest = line.expr - dissipation(truth)
-        values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+        values = CompiledExpressions([-bounded.diff(rest, c.rate) for c in truth.model.coordinates]).at(truth.states)
         seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
         found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
         if seen and not (found and found[0].cost <= EXOTIC):

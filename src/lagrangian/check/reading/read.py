@@ -11,6 +11,7 @@ from functools import partial
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
+from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.indexed import counted_names, without_indices
@@ -51,6 +52,9 @@ MAX_ANSWER = 60_000
 
 LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
+
+CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
+"""The note on a program whose lines are not read as they stand."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -93,6 +97,30 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
+    program = carried_out(text, model)
+    if program is None:
+        return _declared(text, model, place)
+
+    def by_steps() -> Answer:
+        found = _declared(program, model, place)
+        return replace(found, notes=(CARRIED_OUT, *found.notes))
+
+    typed: Answer | ParseError
+    try:
+        typed = _declared(text, model, place)
+    except ParseError as error:
+        typed = error
+    if isinstance(typed, ParseError) or typed.doubt is not None:
+        try:
+            return by_steps()
+        except ParseError:
+            if isinstance(typed, ParseError):
+                raise typed from None
+    return replace(typed, others=(*typed.others, by_steps))
+
+
+def _declared(text: str, model: Model, place: Place | None) -> Answer:
+    """The content of an answer, in whose sentences names of the system may be renamed."""
     said = declarations(text, model)
     if not said.names:
         found = _parsed(said.text, model, place)
