@@ -23,8 +23,8 @@ from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
-_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)_?\d*", re.IGNORECASE)
-"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""
+_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)(?:_?\d*|_[^\W_]{1,8})", re.IGNORECASE)
+"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x, eom_theta = …."""
 
 MULTIPLIERS = ("lambda", "lam", "lmbda")
 """How names of multipliers begin."""

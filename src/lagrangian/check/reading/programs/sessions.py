@@ -45,7 +45,7 @@ _MAGIC = re.compile(
 )
 """Commands to a notebook, and declarations in Julia: @variables x(t) s(t)."""
 _CALLED = re.compile(
-    rf"(?:(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)[ \t]*+=(?!=)[ \t]*+)?"
+    rf"(?:\[?(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)\]?[ \t]*+=(?!=)[ \t]*+)?"
     rf"(?P<of>(?:{_NAME}\.){{0,4}}+)(?P<name>{_NAME})(?P<open>[(\[])"
 )
 _APPLIED = re.compile(
@@ -66,7 +66,9 @@ _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]|\bd2(?=[^\W\d])"
     r"|(?:[dD]iff\w{0,9}|Derivative|\bD)[(\[](?:[^()\[\],\n]{0,40}(?:[(\[]t[)\]])?\s*,)?\s*[({]?\s*t\s*(?:,\s*(?:2|t)|\$\s*2)"
     r"|diff\(t?\)\.diff|\bd\^?[2²]\s*/\s*dt"
+    r"|diff\((?:[^()\n]|\([^()\n]{0,20}\)){1,60}\)\s?(?:\.diff\(|,)\s*t\b"
 )
+"""Signs of an acceleration, also the rate of a slope: L.diff(xd).diff(t), diff(diff(L, xd), t)."""
 _BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")

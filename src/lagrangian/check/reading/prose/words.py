@@ -35,6 +35,11 @@ SPELLINGS = {
 }
 """How other languages write functions."""
 
+REWRITES = frozenset(
+    "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel".split()
+)
+"""Functions of programs that write an expression, their first argument, in another way."""
+
 MAX_WORDS = 500
 """The largest number of words in one answer that are tried to be split."""
 
