@@ -44,6 +44,7 @@ from lagrangian.check.reading.said.stands_for import (
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.tables import with_tables
+from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
@@ -76,7 +77,11 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     commands: list[int] = []
     typed_in = without_crossed_out(
         without_terminators(
-            without_maxima(with_drawn_pieces(with_tall_brackets(without_copying(without_proved(TracedText(text))))))
+            without_maxima(
+                with_drawn_pieces(
+                    with_tall_brackets(without_copying(without_proved(without_star_math(TracedText(text)))))
+                )
+            )
         ),
         names.notes,
     )

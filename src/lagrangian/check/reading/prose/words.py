@@ -35,9 +35,8 @@ SPELLINGS = {
 }
 """How other languages write functions."""
 
-REWRITES = frozenset(
-    "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel".split()
-)
+_REWRITES = "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel"
+REWRITES = frozenset(_REWRITES.split())
 """Functions of programs that write an expression, their first argument, in another way."""
 
 MAX_WORDS = 500

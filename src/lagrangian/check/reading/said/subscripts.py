@@ -27,8 +27,8 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
     """Return an answer in which such rates have primes or dots.
 
     ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system. Names of the answer's
-    own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a value:
-    M_t = m_1 + m_2 is a mass.
+    own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a
+    value: M_t = m_1 + m_2 is a mass.
     """
     text = written.text
     latex = "\\" in text or "$" in text
