@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import islice
 
-from lagrangian.check.reading.programs.procedures import end_of, put_in, split_at_commas
+from lagrangian.check.reading.programs.procedures import bracketed, end_of, put_in, split_at_commas
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST, MOST_TURNS, LONGEST = 8, 8, 2_000
@@ -70,10 +70,10 @@ def without_loops(written: TracedText) -> TracedText:
 def _turn(lines: str, values: Mapping[str, str], lists: Mapping[str, list[str]], number: int) -> str:
     """The lines of a loop in one of its turns."""
     own = {name: f"{name}_{number}" for name in _ASSIGNED.findall(lines)}
-    made = put_in(lines, {**own, **values})
+    made = put_in(lines, {**own, **{name: bracketed(value) for name, value in values.items()}})
     for name, listed in lists.items():
         entry = re.compile(rf"(?<![\w.]){name}\[(\d)\]")
-        made = entry.sub(lambda m, of=listed: of[int(m[1])] if int(m[1]) < len(of) else m.group(), made)
+        made = entry.sub(lambda m, of=listed: bracketed(of[int(m[1])]) if int(m[1]) < len(of) else m.group(), made)
     return _ADDED.sub(lambda m: m["value"][: end_of(m["value"], 0, "")], _PLACED.sub("", made))
 
 

@@ -111,7 +111,7 @@ def _returned(body: str) -> str | None:
     for line in body[: returns.start()].split("\n"):
         local = _LOCAL.fullmatch(line)
         if local is not None and _DECLARES.match(local["value"]) is None:
-            own[local["name"]] = _bracketed(put_in(local["value"].strip(), own))
+            own[local["name"]] = bracketed(put_in(local["value"].strip(), own))
         elif local is None and line.strip() and _PASSED.fullmatch(line) is None:
             return None
         if sum(map(len, own.values())) > LONGEST:
@@ -132,7 +132,7 @@ def _written_out(text: str, found: _Procedure) -> Iterator[Edit]:
     given = [{name: one.get(name, value) for name, value in found.letters} for one in given]
     if any(len(x[2]) > len(names) for x in calls) or not all(all(one.values()) for one in given):
         return
-    values = [put_in(found.value, {x: _bracketed(y) for x, y in one.items()}) for one in given]
+    values = [put_in(found.value, {x: bracketed(y) for x, y in one.items()}) for one in given]
     same = len(set(values)) == 1
     if same and (found.handle or _LIST.match(found.value)) and _RATES.match(found.value) is None:
         yield found.start, found.end, f"{found.name} = {values[0]}\n"
@@ -195,6 +195,6 @@ def put_in(text: str, values: dict[str, str]) -> str:
     return form.sub(lambda m: values[m.group()], text)
 
 
-def _bracketed(value: str) -> str:
+def bracketed(value: str) -> str:
     """A value in brackets, unless it is a name, a number or a call."""
     return value if _PLAIN.fullmatch(value) else f"({value})"
