@@ -1,4 +1,4 @@
-"""Writes out the loops of a program over the coordinates in which equations stand.
+"""Writes out the loops of a program over the coordinates in which equations stand, and its functions.
 
 for q, Q in zip([x, th], [F, 0]):⏎    print(diff(diff(L, q.diff(t)), t) - diff(L, q) - Q)
 eqs = [diff(diff(L, q.diff(t)), t) - diff(L, q) for q in (x, th)]
@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Mapping
 from itertools import islice
 
-from lagrangian.check.reading.programs.procedures import bracketed, end_of, put_in, split_at_commas
+from lagrangian.check.reading.programs.procedures import bracketed, end_of, put_in, split_at_commas, with_procedures
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 MOST, MOST_TURNS, LONGEST = 8, 8, 2_000
@@ -40,11 +40,14 @@ _PLACED = re.compile(rf"^[ \t]*+{_NAME}\[[^\]=\n]{{1,40}}+\][ \t]*+=(?!=)", re.M
 """What adds an equation to a list, and what puts one at a place of it."""
 
 
-def without_loops(written: TracedText) -> TracedText:
+def unrolled(written: TracedText) -> TracedText:
+    """Return an answer in which every turn of such a loop is written out, and every function where it is called."""
+    return with_procedures(_without_loops(written) if " in " in written.text else written)
+
+
+def _without_loops(written: TracedText) -> TracedText:
     """Return an answer in which every turn of such a loop is written out."""
     text = written.text
-    if " in " not in text:
-        return written
     lists = dict(_lists(text))
     edits = list[Edit]()
     for match in islice(_FOR.finditer(text), MOST):
