@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass
 
@@ -45,13 +45,16 @@ _MAGIC = re.compile(
 )
 """Commands to a notebook, and declarations in Julia: @variables x(t) s(t)."""
 _CALLED = re.compile(
-    rf"(?:(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)[ \t]*+=(?!=)[ \t]*+)?"
+    rf"(?:\[?(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)\]?[ \t]*+=(?!=)[ \t]*+)?"
     rf"(?P<of>(?:{_NAME}\.){{0,4}}+)(?P<name>{_NAME})(?P<open>[(\[])"
 )
 _APPLIED = re.compile(
     rf"(?:{_NAME}[ \t]*+=(?!=)[ \t]*+)?(?P<first>{_NAME})[ \t]*+(?:/@|@@?|//)[ \t]*+(?P<second>{_NAME})\Z"
 )
 """How Mathematica applies a function without brackets: TeXForm /@ eqs, eqs // Simplify."""
+_EXPRESSION = re.compile(r"(?:[\w\s()+\-*/^,'’′]|\.(?=\d|[a-z]{1,12}\())++")
+_CALLS = re.compile(rf"(?<!\w)(?P<name>{_NAME})\(")
+"""An expression without lists, words and parts of objects, and what is called in it."""
 _LOOP = re.compile(r"(?:for|while|if|with)[ \t][^:\n]{1,200}:(?P<body>[^\n]*+)")
 _STRING = re.compile(r"(?<=[(\[,=])[ \t]*+[bfru]?(?P<mark>['\"])[^'\"\n]{0,200}+(?P=mark)(?=[ \t]*+[,)\]:])")
 _DECLARES = re.compile(
@@ -66,7 +69,9 @@ _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]|\bd2(?=[^\W\d])"
     r"|(?:[dD]iff\w{0,9}|Derivative|\bD)[(\[](?:[^()\[\],\n]{0,40}(?:[(\[]t[)\]])?\s*,)?\s*[({]?\s*t\s*(?:,\s*(?:2|t)|\$\s*2)"
     r"|diff\(t?\)\.diff|\bd\^?[2²]\s*/\s*dt"
+    r"|diff\((?:[^()\n]|\([^()\n]{0,20}\)){1,60}\)\s?(?:\.diff\(|,)\s*t\b"
 )
+"""Signs of an acceleration, also the rate of a slope: L.diff(xd).diff(t), diff(diff(L, xd), t)."""
 _BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")
@@ -175,7 +180,8 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
     whole, shown = piece, list[Edit]()
     while (match := _whole_call(written)) is not None and match["name"] in _SHOWING:
         inside = written[match.end() : -1]
-        if not (_STATED.search(_plain(f"({inside})")) or carries(inside)) or _KEYWORD.search(inside):
+        states = _STATED.search(_plain(f"({inside})")) is not None or carries(inside) or _is_value(match, inside)
+        if not states or _KEYWORD.search(inside):
             break
         named = _NAME_IS_ZERO.fullmatch(inside.strip())
         if named is not None and not taken(named["name"] or named["other"]):
@@ -191,6 +197,14 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
     yield from shown
     if _command(written, taken):
         yield piece.start, piece.end, ""
+
+
+def _is_value(match: re.Match[str], inside: str) -> bool:
+    """Whether a statement gives a new name the value of an expression in another form: T = simplify(T1 + T2)."""
+    to, called = match["to"], [m["name"] for m in _CALLS.finditer(inside)]
+    known = all(function_of(x) is not None or x in MATHEMATICAL or x in REWRITES for x in called)
+    plain = known and match["name"] in REWRITES - {"collect"} and _EXPRESSION.fullmatch(inside) is not None
+    return bool(to) and plain and re.search(rf"(?<!\w){re.escape(to)}(?!\w)", inside) is None
 
 
 def _whole_call(written: str) -> re.Match[str] | None:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.read.letters import SPELLED
 
@@ -30,6 +30,8 @@ _CALLED = {
     "ImmutableMatrix": "Matrix",
     **{x: x for x in ("pi", "diff", "Derivative", "Matrix", "Eq", "Rational", "pow", "power", "square", "Symbol")},
 }
+_REWRITTEN = re.compile(rf"(?<=[\w)'′])\s?\.\s?(?:{'|'.join(sorted(REWRITES))}|doit)\(\s*\)")
+"""A method that writes what stands in front of it in another way."""
 _T = r"\s*['\"]?t['\"]?\s*"
 _SECOND = re.compile(rf"\.\s*diff\((?:{_T},(?:\s*2\s*|{_T})|\s*\({_T},\s*2\s*\)\s*)\)")
 _FIRST = re.compile(rf"(?<=[\w)'′])\.\s*diff\((?:{_T}(?:,\s*1\s*)?|\s*)\)")
@@ -127,6 +129,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     if from_typst:
         written = _without_typst(written)
     written = written.sub(_TYPE, lambda m: m.group() if m.group().split()[-1] == "let" else "").sub(_MODULE, _bare)
+    written = written.sub(_REWRITTEN, lambda m: "")
     written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}")
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
@@ -166,7 +169,7 @@ def _letter(match: re.Match[str]) -> str:
 def _bare(match: re.Match[str]) -> str:
     """np.sin as sin, if that is a function."""
     name = match["name"]
-    return _CALLED.get(name) or (name if function_of(name) is not None else match.group())
+    return _CALLED.get(name) or (name if name in REWRITES or function_of(name) is not None else match.group())
 
 
 def _called(text: str, taken: Callable[[str], bool], *, typst: bool) -> Iterator[Edit]:

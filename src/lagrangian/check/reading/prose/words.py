@@ -35,6 +35,10 @@ SPELLINGS = {
 }
 """How other languages write functions."""
 
+_REWRITES = "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel"
+REWRITES = frozenset(_REWRITES.split())
+"""Functions of programs that write an expression, their first argument, in another way."""
+
 MAX_WORDS = 500
 """The largest number of words in one answer that are tried to be split."""
 
