@@ -75,6 +75,19 @@ def test_accelerations_have_the_order_of_the_states() -> None:
         assert not right(rows.replace(f"{first}; {second}", f"{second}; {first}"))
 
 
+def test_a_comment_that_names_a_rate_in_words_says_nothing_of_the_coordinate() -> None:
+    written = """function dz = rhs(t, z)
+% states: z(1) = theta, z(2) = theta dot
+th = z(1); thd = z(2);
+thdd = -g/L*sin(th) - b/(m*L^2)*thd;
+dz = [thd; thdd];
+end
+"""
+    assert derivation("pendulum").check(written).right
+    assert derivation("pendulum").check(written.replace("thd ", "w ").replace("thd;", "w;")).right
+    assert not derivation("pendulum").check(written.replace("*thd;", "*th;")).right
+
+
 def test_rows_of_matlab_end_with_their_lines() -> None:
     written = """function dz = rhs(t, z)
 % z = [x theta dx dtheta]

@@ -14,7 +14,7 @@ dz(2) = (F - k*z(1))/m          without the function's first line
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.names import spelled_rates
@@ -68,7 +68,7 @@ MOST = 60
 """The most rates among which that of a state is sought."""
 _COMMENT = re.compile(r"(?:(?<!\\)[#%]|//)(?P<said>[^\n]*)")
 _STATE = rf"(?P<name>{_NAME}['’′]{{0,2}})"
-_ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}"
+_ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}(?P<rate>[ \t]*+(?:dot|prime|rate)(?!\w))?"
 _LISTED_STATES = r"(?<!\w)STATE[ \t]*+(?:=|:|is)[ \t]*+[\[(](?P<names>[^\[\]()]*+)[\])]"
 
 
@@ -99,9 +99,7 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         return written
     function = loose or _function(text, headers)
     said = _commented(text, function.state, coordinates)
-    of = {
-        own: said[i] for i, own in function.names.items() if said.get(i) in coordinates and not meant(own, coordinates)
-    }
+    of = _coordinates_said(function.names, said, coordinates)
     function.names = said | function.names
     rates = {name: rate for name in function.names.values() if (rate := _spelled_out(name, coordinates)) != name}
     if rates:  # dy = z(4) is y', not d y
@@ -133,6 +131,19 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
         edits += _rates(text, function, states)
     edits += _returned(text, function, states)
     return written.edited(apart(edits))
+
+
+def _coordinates_said(names: Mapping[int, str], said: Mapping[int, str], coordinates: Sequence[str]) -> dict[str, str]:
+    """The coordinates that comments say unpacked names to be, each one name alone: p = z(1), where z(1) is phi."""
+    own = {i: name for i, name in names.items() if said.get(i) in coordinates}
+    rates = {name for name in own.values() for _, stem in spelled_rates(name) if meant(stem, coordinates)}
+    known = {x for name in names.values() for x in meant(name, coordinates)}
+    taken = [said[i] for i in own]
+    return {
+        name: said[i]
+        for i, name in own.items()
+        if taken.count(said[i]) == 1 and said[i] not in known and name not in rates
+    }
 
 
 def _said(unpacked: re.Match[str], of: dict[str, str]) -> str:
@@ -251,7 +262,7 @@ def _commented(text: str, state: str | None, coordinates: Sequence[str]) -> dict
     said += [m[1] for m in re.finditer(listing, text, re.MULTILINE)]  # a comment that became a statement
     for comment in said:
         for match in re.finditer(_ONE_STATE.replace("STATE", state), comment):
-            found[_place(match)] = match["name"]
+            found[_place(match)] = match["name"] + ("'" if match["rate"] else "")
         for match in re.finditer(_LISTED_STATES.replace("STATE", state), comment):
             listed = [
                 x.strip() for x in re.split("[,;]" if re.search("[,;]", match["names"]) else r"\s", match["names"])
