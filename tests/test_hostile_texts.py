@@ -70,6 +70,9 @@ ANSWERS = {
     "slopes in slopes": "x1'' = 0\n" + "diff(" * (N // 5),
     "over and over": "{1 over 2} dot y\n" + "dot {" * (N // 5) + "%x over {",
     "matrices of the editor": "{1 over 2}" + "matrix{ a # " * (N // 12),
+    "comments": "x1 = 1\n" + "# x1'' + x1 = 0\n" * (N // 16),
+    "a comment behind blanks": "x1 = 1" + BLANK + "#" * (N // 10) + "x1'' + x1 = 0",
+    "returns": "A = [1]\n" + "return   " * (N // 9) + "a.b.c.solve(A, ",
     "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }
 
