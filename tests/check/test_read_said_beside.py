@@ -264,3 +264,10 @@ def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
     )
     assert right(rf"{rows}\n with $s=\sin\theta$, $c=\cos\theta$".replace(r"\n", "\n"))
     assert not right(rf"{rows}\n with $s=\cos\theta$, $c=\cos\theta$".replace(r"\n", "\n"))
+
+
+def test_a_word_between_with_and_an_article_is_no_name() -> None:
+    """… with F and therefore the pole with -F: nothing is stated there."""
+    said = "The motor pushes the cart with F and therefore the pole with -F."
+    verdict = derivation("cart-pole").check(f"{said}\n{CART}\n{POLE}")
+    assert verdict.right and not any("therefore" in str(note) for note in verdict.notes)

@@ -32,6 +32,8 @@ STEMS = {
 """The kinds of quantities that letters are used for; any other letter may be of any kind."""
 TRIVIAL = ("turning", "speed", "component", "kinetic", "Xi")
 """Kinds that are said of a name with such a letter even where the value is nothing but a letter: ω = φ̇, Q_φ = M."""
+CENTRES = ("S", "G", "cm", "CM", "com", "CoM")
+"""The indices that centres of mass have where no point of the system is called so."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
 _DIGITS = re.compile(r"\d+$")
 
@@ -51,6 +53,13 @@ def owner_of(name: str, model: Model) -> Body | None:
         if found:
             return found[0] if len(found) == 1 else None
     return None
+
+
+def is_about_centre(name: str, body: Body, model: Model) -> bool:
+    """Whether the index of a moment of inertia means the body's centre of mass, J_S, and no pivot of it."""
+    index = _split(name)[1]
+    named = {b.at.name for b in model.bodies} | {p.name for p in model.points}
+    return bool(index) and (index == body.at.name or (index in CENTRES and index not in named))
 
 
 def _split(name: str) -> tuple[str, str]:

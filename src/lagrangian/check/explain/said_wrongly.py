@@ -12,7 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
-from lagrangian.check.explain.meant import TRIVIAL, kinds_of, owner_of
+from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
@@ -185,6 +185,9 @@ def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
     found = [k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else q.kind in kinds)]
+    for b in truth.model.bodies if kinds is not None else ():
+        if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
+            found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
@@ -250,7 +253,7 @@ def _in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWord
     """What is wrong in a quantity, as the answer counts it."""
     of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
     right = folded(s, right)
-    right = _beside(s, right, own) if q.kind == "speed" else right
+    right = _beside(s, right, own) if q.kind in ("speed", "kinetic") else right
     return told(of, [right], [own], (right,), (own,))
 
 

@@ -21,7 +21,6 @@ from lagrangian.check.reading.line_forms import (
     is_aside,
     is_general,
     is_rate_of,
-    listed_names,
     made_line,
     matrix_rows,
     says_constant,
@@ -36,7 +35,7 @@ from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spel
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.own_values import amounts_to
-from lagrangian.check.reading.parts import left_out, tells, without_parts
+from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -129,8 +128,7 @@ class Lines:
         new = [x for x in sorted(listed) if not self._explains(x)]
         if error.code != "E701" or not new:
             return False
-        written = " ".join(self._statements[i].source.text.split())
-        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
+        tell_general(self._statements[i].source, new, self.names)
         return True
 
     def _explains(self, written: str) -> bool:

@@ -145,6 +145,13 @@ def _with_listed_states(written: TracedText) -> TracedText:
     return written.edited(edits)
 
 
+def _is_word(name: str, text: str) -> bool:
+    """Whether a name is a word that stands only once: and therefore the gimbal with -tau."""
+    return (
+        len(name) > 3 and name.isalpha() and name not in SPELLED.values() and len(re.findall(rf"\b{name}\b", text)) == 1
+    )
+
+
 def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text in which a value behind the words for a new name is a statement, or a
     rate in brackets behind them."""
@@ -155,6 +162,8 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
             spoken = match.groupdict().get("words") or ""
             names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
             if not names or not all(map(taken, names)) or any(map(taken, [match["new"], *spoken.split()])):
+                continue
+            if _is_word(match["new"], written.text):
                 continue
             if "end" in form.groupindex:  # a long value keeps its places
                 edits.append((match.start(), match.start("value"), f"; {match['new']} = "))

@@ -1,0 +1,48 @@
+"""Why an energy or a speed that a definition has wrong may have come out so: T_rod = ½ J φ̇², without ½mv²."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from lagrangian.check.align import LARGEST
+from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.line_mistakes import without_constant
+from lagrangian.check.explain.said_wrongly import SaidWrongly
+from lagrangian.check.explain.search import singles
+from lagrangian.check.explain.spoken import in_words
+from lagrangian.check.explain.term_said import with_reason
+from lagrangian.check.verdict import Mistake
+from lagrangian.derive.sampling import Array, CompiledExpressions
+
+REASONED = ("kinetic", "speed", "potential")
+"""Kinds of quantities of which it is said why they may have come out wrong."""
+MOST_LIKELY = 2.0
+"""A mistake that costs more is no reason that is told."""
+
+
+def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
+    """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one."""
+    mistake = said.mistake
+    if said.of.kind not in REASONED:
+        return mistake
+    values = CompiledExpressions([said.T, said.V]).at(pool.truth.states)
+    values[1] = without_constant(values[1])
+    if not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return mistake
+    V: Array = pool.kept("V but constants", lambda: without_constant(pool.V))
+    told = [t for e in singles(pool, [pool.T, V], values) for t in e.told if t.cost <= MOST_LIKELY]
+    for t in told:
+        reason = in_words(pool.truth, t, None)
+        named = t.mistake.element is said.of.owner or said.of.owner.title in str(
+            reason.what
+        )  # of gravity: of its weight
+        if named and not _is_term(t.mistake):
+            return replace(mistake, what=with_reason(mistake.what, reason).what, why=reason.why)
+    return mistake
+
+
+def _is_term(possible: Possible) -> bool:
+    """Whether a mistake is nothing but a wrong term, which the formulas show as well."""
+    return possible.change is not None and possible.change.site.single
