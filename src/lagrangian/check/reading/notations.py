@@ -22,6 +22,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
+from lagrangian.check.reading.programs.anonymous import with_named_functions, without_quotes
 from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
@@ -80,7 +81,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     )
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
-    prompted = with_columns(with_whole_matrices(without_prompts(shown)))
+    prompted = with_columns(with_whole_matrices(with_named_functions(without_quotes(without_prompts(shown)))))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:

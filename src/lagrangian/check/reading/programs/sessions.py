@@ -13,8 +13,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from itertools import islice
 
-from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words import REWRITING, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass
 
@@ -45,7 +46,7 @@ _MAGIC = re.compile(
 )
 """Commands to a notebook, and declarations in Julia: @variables x(t) s(t)."""
 _CALLED = re.compile(
-    rf"(?:(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)[ \t]*+=(?!=)[ \t]*+)?"
+    rf"(?:\[?(?P<to>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+)\]?[ \t]*+=(?!=)[ \t]*+)?"
     rf"(?P<of>(?:{_NAME}\.){{0,4}}+)(?P<name>{_NAME})(?P<open>[(\[])"
 )
 _APPLIED = re.compile(
@@ -99,6 +100,8 @@ _FORM = (
 MATHEMATICAL = frozenset(_FORM.split())
 """Functions of which expressions consist."""
 _MEANT = "diff dt doit simplify expand subs T evalf applyfunc col row"
+ENERGIES = frozenset(["T", "V", "U", "L", "D"])
+"""Letters of energies and of the dissipation function."""
 _METHODS = frozenset(_MEANT.split())
 """Methods of expressions."""
 
@@ -189,8 +192,24 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
         piece = Piece(at, piece.end - 1)
         written = text[piece.start : piece.end]
     yield from shown
-    if _command(written, taken):
+    if (opens := _rewritten_energy(written, text)) is not None:
+        yield piece.start + opens[0], piece.start + opens[1], ""
+    elif _command(written, taken):
         yield piece.start, piece.end, ""
+
+
+def _rewritten_energy(written: str, text: str) -> tuple[int, int] | None:
+    """Where the call is in an energy that is only written in another way, V = simplify(k*x**2/2), and that nothing else
+    gives or shows; None in others."""
+    match = _whole_call(written)
+    if match is None or match["to"] not in ENERGIES or match["name"] not in REWRITING:
+        return None
+    shown = rf"^[ \t]*+{match['to']}[ \t]*+(?:=(?!=)|:?$)|^[^\n=]{{0,40}}(?<!\w){match['to']}[ \t]*+=(?!=)"
+    if len(list(islice(re.finditer(shown, text, re.MULTILINE), 2))) != 1:
+        return None
+    inside = written[match.end() : -1]
+    one = len(list(_entries(inside))) == 1 and match["open"] == "("
+    return (match.start("of"), match.start("open")) if one and _OPERATOR.search(inside) else None
 
 
 def _whole_call(written: str) -> re.Match[str] | None:

@@ -14,8 +14,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from itertools import islice
 
-from lagrangian.check.reading.prose.words import function_of
+from lagrangian.check.reading.prose.words import REWRITING, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.read.letters import SPELLED
 
@@ -23,6 +24,12 @@ _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _MODULE = re.compile(
     r"(?<![\w.])(?:np|numpy|jnp|math|Math|cmath|sp|sy|sym|sympy|smp|ca|casadi|mp|mpmath|torch|onp)\.(?P<name>[A-Za-z]\w*)"
 )
+_ALIAS = re.compile(
+    r"^[ \t]*+import[ \t]++(?:sympy|numpy|jax\.numpy|casadi|mpmath)[ \t]++as[ \t]++(?P<name>\w{1,12}+)", re.MULTILINE
+)
+"""What a program calls a module."""
+MOST_MODULES = 5
+"""The most modules of a program whose names are looked for."""
 _CALLED = {
     "array": "Matrix",
     "matrix": "Matrix",
@@ -117,6 +124,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
 
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
+    modules = {m["name"] for m in islice(_ALIAS.finditer(written.text), MOST_MODULES)}
     written = written.sub(_LINE_OF_CODE, lambda m: "")
     if _is_mixed(written.text):
         written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])
@@ -127,6 +135,8 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     if from_typst:
         written = _without_typst(written)
     written = written.sub(_TYPE, lambda m: m.group() if m.group().split()[-1] == "let" else "").sub(_MODULE, _bare)
+    if modules:
+        written = written.sub(re.compile(rf"(?<![\w.])(?:{'|'.join(modules)})\.(?P<name>[A-Za-z]\w*)"), _bare)
     written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}")
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
@@ -164,9 +174,9 @@ def _letter(match: re.Match[str]) -> str:
 
 
 def _bare(match: re.Match[str]) -> str:
-    """np.sin as sin, if that is a function."""
+    """np.sin as sin, and sp.simplify as simplify, if that is a function."""
     name = match["name"]
-    return _CALLED.get(name) or (name if function_of(name) is not None else match.group())
+    return _CALLED.get(name) or (name if name in REWRITING or function_of(name) is not None else match.group())
 
 
 def _called(text: str, taken: Callable[[str], bool], *, typst: bool) -> Iterator[Edit]:

@@ -58,6 +58,13 @@ _FORCES = frozenset(["lam", "lmbda"])
 _COMPONENT = re.compile(r"[A-Z][xyz]")
 
 
+_REWRITES = (
+    "expand simplify factor collect trigsimp ratsimp powsimp nsimplify ratexpand trigexpand trigreduce together cancel"
+)
+REWRITING = frozenset(_REWRITES.split())
+"""Functions of programs that write an expression, their first argument, in another way."""
+
+
 def led_names(text: str) -> frozenset[str]:
     """The names whose rates stand alone on a left side, xS'' = x'' - … or ẋS = ẋ - …: of letters of the answer's own,
     they are no products."""
