@@ -30,12 +30,12 @@ from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import Judged, judged_lines
 from lagrangian.check.lines import filled, without_forms
-from lagrangian.check.names.declared import declared, likeliest_speeds, speeds
+from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
-from lagrangian.check.rounded import unrounded
+from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
@@ -56,6 +56,16 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     _log.info("checking the answer")
     truth = truth_of(derivation)
     said = declared(truth, lines)
+    exact = said.unrounded(truth)
+    if exact is said:
+        return _assuming(truth, said, hint, explain)
+    found = (_assuming(truth, x, hint, False) for x in (exact, said))
+    right = next((verdict for verdict in found if verdict.right), None)
+    return right or _assuming(truth, exact, hint, explain)
+
+
+def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Verdict:
+    """The verdict on the lines of an answer with what it assumes about parameters."""
     truth = truth.with_values(said.values) if said.values else truth
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
@@ -114,7 +124,7 @@ def _valued(
 ) -> Verdict:
     """The verdict on an answer in letters or, if that is not right, in numbers."""
     values = values_of(truth, written)
-    numbers = bool(values) and in_numbers(truth, written)
+    numbers = bool(values) and (in_numbers(truth, written) or in_numbers(truth, lines))
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE:
         return verdict
@@ -155,8 +165,9 @@ def _put(
 ) -> Verdict:
     """The verdict on an answer with values substituted for the parameters that it does not name."""
     valued = truth.with_values(values)
+    lines, told = with_prescribed_unrounded(valued, lines)
     read = _with_values(values, spelled(valued, _filled(valued, lines), numbers=False))
-    return _read(valued, read, hint, explain=explain)
+    return _read(valued, replace(read, notes=(*read.notes, *told)), hint, explain=explain)
 
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:

@@ -11,7 +11,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.names.spelling import values_of
 from lagrangian.check.reference import Reference
+from lagrangian.check.rounded import is_right_rounded
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.model import time
@@ -42,11 +44,20 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     order = max((d.derivative_count for d in line.expr.atoms(sp.Derivative) if d.expr == z), default=0)
     rate = sp.diff(z, (time, order)) if order else z
     number = _number_of(line.expr, rate)
-    if zero_everywhere(truth, rest):
+    if zero_everywhere(truth, rest) or (number is not None and _right_in_numbers(truth, line, rate, number)):
         return replace(line, kind="statement", expr=sp.S.Zero)
     if number is None:
         return line
     return replace(line, kind="identity", expr=rest / number, name=str(z.func) + order * "'")
+
+
+def _right_in_numbers(truth: Reference, line: AnsweredLine, rate: sp.Expr, number: sp.Expr) -> bool:
+    """Whether a line without parameters is right with their values, which may be rounded: φ = 0.139626 sin 0.9 t."""
+    values = values_of(truth, [line])
+    if line.expr.free_symbols - {time} or not values:
+        return False
+    valued = truth.with_values(values)
+    return is_right_rounded(valued.expand(rate - line.expr / number), valued.expand(rate))
 
 
 def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:

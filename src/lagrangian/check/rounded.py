@@ -7,16 +7,16 @@ near some coefficient: such a line is read as rounded only if it is a right one,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -53,7 +53,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     sizes = {float(abs(cast("Any", x))) for x in table}
     put: list[AnsweredLine] = []
     for line in lines:
-        expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)))
+        expr, few = _right_line(cast("sp.Expr", line.expr.xreplace(table)), partial(_right_lines, truth))
         put.append(replace(line, expr=expr))
         sizes |= few
     told = sorted(sizes)
@@ -63,18 +63,40 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     return tuple(put), (note,)
 
 
-def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
-    """The right line that a line is if every number that differs is rounded from what stands there, and the sizes of
-    these numbers; otherwise the line itself and none."""
-    units: dict[sp.Expr, float] = {
-        abs(x): unit for x in expr.atoms(sp.Rational) if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))
-    }
-    if not units or bounded.operations(expr) > LONGEST:
+def with_prescribed_unrounded(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The same for lines in which prescribed motions still have their names: 454.429 φ̈ becomes, when it is written out
+    with φ = 0.14 sin 0.9 t, a number whose digits tell nothing."""
+    moving = [d.symbol for d in truth.model.definitions if d.moving]
+    return unrounded(truth, lines) if any(line.expr.has(*moving) for line in lines if moving) else (tuple(lines), ())
+
+
+def is_rounded(number: sp.Expr, value: float) -> bool:
+    """Whether a decimal number is a value rounded to its last digit, and not the value itself."""
+    exact = sp.Rational(str(value))
+    return number != exact and _is_rounded_from(number, exact)
+
+
+def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
+    """Whether a sum is the right one, with numbers that may be rounded."""
+    meant, _ = _right_line(expr, lambda: [_sums(bounded.expand(right))])
+    return bounded.expand(meant - right) == 0
+
+
+def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]) -> tuple[sp.Expr, set[float]]:
+    """The one of ``rights`` that a line is if every number that differs is rounded from what stands there, and the
+    sizes of these numbers; otherwise the line itself and none."""
+    numbers = expr.atoms(sp.Rational)
+    if not numbers or bounded.operations(expr) > LONGEST:
         return expr, set()
     own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
     if not all(map(_is_finite, own.values())):
         return expr, set()
-    for right in _right_lines(truth):
+    if any(_last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
+        return _divided(expr, own, rights())
+    units = {abs(x): unit for x in numbers if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+    for right in rights() if units else ():
         if right.keys() != own.keys():
             continue
         exact = (own[k] / right[k] for k in own if abs(own[k]) not in units and right[k])
@@ -84,6 +106,27 @@ def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
             if off and all(size in units and far <= 0.5000001 * units[size] for size, far in off.items()):
                 return sp.Add(*(k * x for k, x in meant.items())), {float(x) for x in off}
     return expr, set()
+
+
+def _divided(
+    expr: sp.Expr, own: dict[sp.Expr, sp.Expr], rights: Sequence[dict[sp.Expr, sp.Expr]]
+) -> tuple[sp.Expr, set[float]]:
+    """The same for a line that was divided by a number, as (454.43 φ̈ − 60 s)/269.80: what it was divided by is sought,
+    so that all its numbers become decimals that are right ones or rounded from these."""
+    for right in rights:
+        if right.keys() != own.keys():
+            continue
+        for scale in dict.fromkeys(own[k] / x for k, x in right.items()):
+            typed = {k: x / scale for k, x in own.items()}
+            off = {k: x for k, x in typed.items() if not _same(x, right[k])}
+            if off and scale.is_Rational and all(_is_rounded_from(x, right[k]) for k, x in off.items()):
+                return sp.Add(*(scale * k * x for k, x in right.items())), {abs(float(x)) for x in off.values()}
+    return expr, set()
+
+
+def _is_rounded_from(number: sp.Expr, value: sp.Expr) -> bool:
+    unit = _last_digit(abs(number), FEWEST_IN_RIGHT_LINE) if isinstance(number, sp.Rational) else None
+    return unit is not None and abs(float(number - value)) <= 0.5000001 * unit
 
 
 def _same(a: sp.Expr, b: sp.Expr) -> bool:
@@ -122,6 +165,10 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
             few = list(own.items())[:MAX_COEFFICIENTS]
             found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
     found.update({value: float(value) for value in truth.values.values() if value.is_number})
+    held: set[sp.Basic] = set().union(*(d.expression.free_symbols for d in truth.model.definitions if d.moving))
+    if held & truth.values.keys():  # in the rows with prescribed motions in letters, the factors of these are numbers
+        left = {p: v for p, v in truth.values.items() if p not in held}
+        found |= {exact: value for value, exact in coefficients(truth_of(truth.derivation).with_values(left))}
     return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
 
 

@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.names.spelling import may_be_right
 from lagrangian.check.reference import Reference
+from lagrangian.check.rounded import is_rounded
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.model import time
@@ -54,6 +55,12 @@ class Declared:
             number = f"{float(value):.15g}" if isinstance(value, sp.Rational) else value
             parts += [parameter, " = ", number, ", "]
         return text(*parts[:-1]) if parts else None
+
+    def unrounded(self, truth: Reference) -> Declared:
+        """The same without values that are those of the system but for their last digit: A = 0.139626, which is 8°."""
+        own = truth.model.values
+        kept = {p: v for p, v in self.values.items() if p not in own or not is_rounded(v, float(own[p]))}
+        return self if len(kept) == len(self.values) else replace(self, values=kept)
 
 
 def declared(truth: Reference, lines: Sequence[AnsweredLine]) -> Declared:

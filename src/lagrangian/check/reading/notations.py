@@ -31,7 +31,6 @@ from lagrangian.check.reading.programs.session_lists import without_lists, witho
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
-from lagrangian.check.reading.programs.unrolled import unrolled
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
@@ -83,7 +82,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     typed_in = without_crossed_out(without_terminators(without_maxima(_copied(text))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
-    prompted = with_columns(with_whole_matrices(unrolled(without_prompts(shown))))
+    prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:

@@ -65,6 +65,8 @@ VARIATION = "δ"
 """The sign of virtual displacements and virtual work: δx, δW."""
 _VARIED = re.compile(rf"{VARIATION}?[^{VARIATION}]+|{VARIATION}")
 """What stands in front of virtual displacements, and each of them."""
+_ARGUMENT = re.compile(r"(?:sin|cos|exp)[ ]?\(?[^()=\n]{0,40}\Z")
+"""The text up to a place in the argument of a function: no t that stands there is a tonne."""
 MOST = 60
 """The most numbers of a statement among which units are sought."""
 _VALUE = re.compile(
@@ -232,6 +234,7 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
     """
     factor, end, below, foreign, before = Fraction(1), at, False, False, ""
     times, product = True, False
+    argument = _ARGUMENT.search(text, max(0, at - 48), at) is not None
     while (match := _ONE.match(text, end)) is not None and text[match.end() : match.end() + 1] not in _GOES_ON:
         unit, name = lookup(match["unit"]), match["unit"]
         own = words.known(name) or (not before and (words.alone(name) or words.is_product(name)))
@@ -239,7 +242,7 @@ def _unit(text: str, at: int, words: Words, sure: bool) -> tuple[Fraction | None
         power = int(match["power"] or (match["raised"] or "1").translate(_RAISED))
         if not sure and ((product and not below and power > 0) or _RATE.match(text, match.start("unit"))):
             break  # 2 m g with a mass m, 10 kg d²x/dt²
-        if unit is None or unit.factor == 0 or (before == "" and match["by"].strip()):
+        if unit is None or unit.factor == 0 or (argument and name == "t") or (before == "" and match["by"].strip()):
             break
         if before and own and "/" not in match["by"] and before not in _JOINED and not sure:
             break

@@ -64,7 +64,12 @@ _CUT = re.compile(
     r"|(?<=[^\s=+*/-])[ \t]{2,}(?![=+*/-]))"
 )
 _ARGUMENTS = re.compile(r"(?<!\w)(?P<of>[^\W\d]\w{0,23})\((?P<by>[\w ,'’′]{1,40})\)")
-_COLUMN = re.compile(rf"(?P<name>{_NAME})[ \t]*+=[ \t]*+[\[(](?P<entries>[\w ,;'’′]{{3,200}})[\])](?:\.?['’]|\^T|ᵀ)?")
+_COLUMN = re.compile(
+    rf"(?:(?:the|states?|vector|column)[ \t]++){{0,3}}(?P<name>{_NAME})[ \t]*+=[ \t]*+"
+    r"[\[(](?P<entries>[\w ,;'’′]{3,200})[\])](?:\.?['’]|\^T|ᵀ)?"
+)
+_BY_TIME = re.compile(r"(?<!\w)d(?P<of>[^\W\d_]\w{0,11}?)(?:/|_)?dt(?!\w)")
+"""The rate of a column: dz/dt, dzdt."""
 _ORDER = re.compile(r"\bcoordinates[^\S\n][^\n\[\](=]{0,20}[\[(](?P<entries>[\w ,;]{3,200})[\])]")
 """The order of the coordinates in words: generalized coordinates [x; theta]."""
 LONGEST = 400
@@ -192,17 +197,24 @@ def _stated(text: str, code: str, given: set[str], unused: set[str], taken: Call
     """The edits that state what comments say about matrices; the rest of a comment stays one."""
     comments = [m for m in islice(_COMMENT.finditer(text), MOST) if len(m["said"]) <= LONGEST]
     columns: dict[str, str] = {}
+    renamed: dict[str, str] = {}
     for comment in comments:
         for piece in _pieces(comment["said"]):
-            if (column := _COLUMN.fullmatch(piece)) is not None and _is_column(column, code, taken):
+            if (column := _COLUMN.fullmatch(piece)) is None:
+                continue
+            if own := _own_name(column, text, code, taken):
+                renamed[column["name"]] = own
+                columns[own] = piece
+            elif _is_column(column, code, taken):
                 columns.setdefault(column["name"], piece)
     for comment in comments:
         stated, rest = list[str](), list[str]()
         for piece in _pieces(comment["said"]):
-            said = _equation(piece, given, unused, {*columns, *COLUMNS}, taken)
-            column = next((name for name, listed in columns.items() if listed == piece), None)
+            column = next((name for name, listed in columns.items() if piece and listed == piece), None)
+            said = "" if column else _equation(_put(piece, renamed), given, unused, {*columns, *COLUMNS}, taken)
             if column is not None:
-                entries = re.findall(_RATE, columns.pop(column).partition("=")[2].removesuffix("^T"))
+                entries = re.findall(_RATE, columns[column].partition("=")[2].removesuffix("^T"))
+                columns[column] = ""
                 stated.insert(0, f"{column} = [{'; '.join(entries)}]")
             elif said:
                 stated.append(said)
@@ -212,6 +224,26 @@ def _stated(text: str, code: str, given: set[str], unused: set[str], taken: Call
             behind = text[text.rfind("\n", 0, comment.start()) + 1 : comment.start()].strip()
             kept = f"\n{comment['mark']} {'; '.join(rest)}" if rest else ""
             yield *comment.span(), f"{'; ' if behind else ''}{'; '.join(stated)}{kept}"
+
+
+def _own_name(column: re.Match[str], text: str, code: str, taken: Callable[[str], bool]) -> str:
+    """A name for the state x = [phi; x; …] of a program in whose code the coordinate x does not occur; none for another
+    column."""
+    name, entries = column["name"], re.findall(_WORD, column["entries"])
+    if name not in entries or not taken(name) or re.search(rf"(?<!\w){name}(?!\w)", code):
+        return ""
+    free = (
+        x for x in ("z", "y", "q", "X") if not taken(x) and re.search(rf"(?<!\w)d?{x}(?:_?dot)?(?!\w)", text) is None
+    )
+    states = all(taken(x) or any(taken(stem) for _, stem in spelled_rates(x)) for x in entries)
+    return next(free, "") if states and len(entries) > 1 else ""
+
+
+def _put(piece: str, renamed: dict[str, str]) -> str:
+    """A part of a comment with other names for columns and their rates."""
+    for name, own in renamed.items():
+        piece = re.sub(rf"(?<!\w)(d?){name}(?=(?:_?dot|_?dt|/dt)?(?!\w))", rf"\g<1>{own}", piece)
+    return piece
 
 
 def _pieces(said: str) -> Iterator[str]:
@@ -227,16 +259,21 @@ def _pieces(said: str) -> Iterator[str]:
 
 
 def _is_column(column: re.Match[str], code: str, taken: Callable[[str], bool]) -> bool:
-    """Whether a comment says which coordinates a column holds."""
+    """Whether a comment says which coordinates a column holds, and which of their rates if it is the state of a
+    program that takes none of its entries."""
     entries, name = re.findall(_WORD, column["entries"]), column["name"]  # without primes
     assigned = re.search(rf"(?<!\w){name}[ \t]*=(?!=)", code) is not None
-    return len(entries) > 1 and all(map(taken, entries)) and not taken(name) and not assigned
+    rates = [x for x in entries if not taken(x)]
+    known = all(any(taken(stem) for _, stem in spelled_rates(x)) for x in rates)
+    indexed = bool(rates) and re.search(rf"(?<![\w.]){name}[(\[]\d", code) is not None
+    return len(entries) > 1 and known and not indexed and not taken(name) and not assigned
 
 
 def _equation(piece: str, given: set[str], unused: set[str], columns: set[str], taken: Callable[[str], bool]) -> str:
     """The equation of matrices that a part of a comment states, without arguments; nothing if it states none."""
     said = _SOLVED.sub(lambda m: _product(m, given), piece.replace("==", "="))
     said = _ARGUMENTS.sub(lambda m: m["of"] if m["of"] in given else m.group(), said)
+    said = _BY_TIME.sub(lambda m: f"{m['of']}'" if m["of"] in columns else m.group(), said)
     words = re.findall(_WORD, said)
     if said.count("=") != 1 or not unused & set(words) or len(words) < 2:
         return ""

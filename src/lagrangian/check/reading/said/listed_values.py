@@ -69,7 +69,7 @@ def without_values(text: str, values: Callable[[str], float | None], notes: dict
         kept, starts = list(" " * len(line)), _starts(line, found, values)
         for match, start, below in zip(found, starts, [*starts[1:], len(line)], strict=True):
             unit = match["unit"] or "" if match.end() <= below else ""
-            read = not _same(match, values(match["name"])) and _factor(unit) is not None
+            read = not _same(match, values(match["name"])) and _factor(unit) not in (None, 1.0)
             end = match.end() if read and unit else match.end("number")
             kept[start:end] = line[start:end].replace(",", ".")
             if end < len(line):
