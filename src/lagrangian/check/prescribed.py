@@ -11,7 +11,6 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.names.spelling import values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import is_right_rounded
 from lagrangian.check.rows import zero_everywhere
@@ -53,7 +52,7 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
 
 def _right_in_numbers(truth: Reference, line: AnsweredLine, rate: sp.Expr, number: sp.Expr) -> bool:
     """Whether a line without parameters is right with their values, which may be rounded: φ = 0.139626 sin 0.9 t."""
-    values = values_of(truth, [line])
+    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in truth.values}
     if line.expr.free_symbols - {time} or not values:
         return False
     valued = truth.with_values(values)

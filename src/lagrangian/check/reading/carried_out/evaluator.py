@@ -21,12 +21,12 @@ from lagrangian.check.reading.carried_out.values import (
     AbandonedError,
     Equation,
     Fields,
-    Function,
+    OwnFunction,
     Inverse,
-    Method,
+    BoundMethod,
     Routine,
     State,
-    Unknown,
+    Opaque,
     Value,
     added,
     is_scalar,
@@ -82,7 +82,7 @@ class Evaluator:
     """For unknowns of linear equations A x = b: A, b and x."""
     aliases: dict[sp.Symbol, str] = field(default_factory=dict)
     """The names that entries of a state were given."""
-    functions: dict[str, Function] = field(default_factory=dict)
+    functions: dict[str, OwnFunction] = field(default_factory=dict)
     outer: dict[str, Value] = field(default_factory=dict)
     """The names of the program outside of its functions."""
     steps: int = 0
@@ -117,7 +117,7 @@ class Evaluator:
             return self._kept(self.operated(node.op, self.value(node.left, names), self.value(node.right, names)))
         if isinstance(node, ast.UnaryOp):
             inner = self.value(node.operand, names)
-            return inner if isinstance(inner, Unknown) else self._signed(node.op, inner)
+            return inner if isinstance(inner, Opaque) else self._signed(node.op, inner)
         if isinstance(node, (ast.List, ast.Tuple)):
             return [self.value(x, names) for x in node.elts]
         if isinstance(node, ast.Dict):
@@ -133,7 +133,7 @@ class Evaluator:
         if isinstance(node, (ast.ListComp, ast.GeneratorExp)):
             return self._comprehended(node, names)
         if isinstance(node, ast.Lambda):
-            return Function("", tuple(a.arg for a in node.args.args), node.body)
+            return OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
         if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
             return Equation(scalar(self.value(node.left, names)), scalar(self.value(node.comparators[0], names)))
         if isinstance(node, ast.JoinedStr):
@@ -169,7 +169,7 @@ class Evaluator:
 
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
-        if isinstance(a, Unknown) or isinstance(b, Unknown):
+        if isinstance(a, Opaque) or isinstance(b, Opaque):
             return UNKNOWN
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
@@ -196,7 +196,7 @@ class Evaluator:
 
     def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
         of = self.value(node.value, names)
-        if isinstance(of, Unknown):
+        if isinstance(of, Opaque):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
@@ -208,7 +208,7 @@ class Evaluator:
             return made.T if isinstance(of, MatrixBase) else made
         if isinstance(of, Equation) and node.attr in ("lhs", "rhs"):
             return of.left if node.attr == "lhs" else of.right
-        return Method(of, node.attr)
+        return BoundMethod(of, node.attr)
 
     def _comprehended(self, node: ast.ListComp | ast.GeneratorExp, names: dict[str, Value]) -> list[Value]:
         if len(node.generators) != 1 or node.generators[0].ifs:
@@ -266,29 +266,29 @@ class Evaluator:
             )
         given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
         options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
-        if isinstance(of, Function):
+        if isinstance(of, OwnFunction):
             return self.function(of, given)
-        if isinstance(of, Method):
+        if isinstance(of, BoundMethod):
             return self._method(of, given)
-        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Unknown):
+        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Opaque):
             return applied(of, given)
         if isinstance(of, Routine):
             return self._routine(of.name, given, options, node)
         return UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
-        if any(isinstance(x, Unknown) for x in given):
+        if any(isinstance(x, Opaque) for x in given):
             return UNKNOWN
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
             found = routine(name, given, options, matlab=True)
-            if isinstance(found, Unknown) and list(given) == [TIME]:
+            if isinstance(found, Opaque) and list(given) == [TIME]:
                 return sp.Symbol(name)  # tau(t), a function that the program does not hold
-            if isinstance(found, Unknown) and all(isinstance(x, sp.Integer) for x in given):
+            if isinstance(found, Opaque) and all(isinstance(x, sp.Integer) for x in given):
                 return State(name).entry(number(given[0]))  # z(2), where nothing says what z is
             return found
         return routine(name, given, options) if given or name in ("Function",) else UNKNOWN
 
-    def function(self, of: Function, given: Sequence[Value]) -> Value:
+    def function(self, of: OwnFunction, given: Sequence[Value]) -> Value:
         """The value of a function of the program."""
         self.called.add(of.name)
         if self.known(of.name) and list(given) == [TIME]:
@@ -308,9 +308,9 @@ class Evaluator:
         finally:
             self.depth -= 1
 
-    def _method(self, of: Method, given: Sequence[Value]) -> Value:
+    def _method(self, of: BoundMethod, given: Sequence[Value]) -> Value:
         value, name = of.of, of.name
-        if isinstance(value, Unknown):
+        if isinstance(value, Opaque):
             return UNKNOWN
         if name == "subs":
             return replaced(value, pairs_of(given))
@@ -326,13 +326,13 @@ class Evaluator:
         if name == "row" and isinstance(value, MatrixBase):
             return value[number(given[0]), :]
         made = routine(name, [value, *given], {})
-        if isinstance(made, Unknown):
+        if isinstance(made, Opaque):
             raise AbandonedError
         return made
 
     def _entry(self, of: Value, at: ast.expr, names: dict[str, Value]) -> Value:
         """An entry or a part of a list, a matrix or a state."""
-        if isinstance(of, Unknown):
+        if isinstance(of, Opaque):
             return UNKNOWN
         if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(at, ast.Constant) and isinstance(at.value, str):
             return sp.Symbol(at.value)

@@ -14,9 +14,9 @@ from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
     UNKNOWN,
     AbandonedError,
-    Function,
+    OwnFunction,
     State,
-    Unknown,
+    Opaque,
     Value,
     listed,
     matrix,
@@ -52,7 +52,7 @@ class Interpreter(Evaluator):
                 names[alias.asname or alias.name.partition(".")[0]] = UNKNOWN
         elif isinstance(s, ast.FunctionDef):
             out = s.returns.value if isinstance(s.returns, ast.Constant) else None
-            made = Function(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
+            made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
             names[s.name] = self.functions[s.name] = made
         elif isinstance(s, ast.Assign):
             value = self.value(s.value, names)
@@ -93,7 +93,7 @@ class Interpreter(Evaluator):
         if isinstance(target, (ast.Tuple, ast.List)):
             if isinstance(value, State):
                 value = [value.entry(k + 1) for k in range(len(target.elts))]
-            elif isinstance(value, Unknown):
+            elif isinstance(value, Opaque):
                 value = [UNKNOWN] * len(target.elts)
             parts = listed(value)
             if len(parts) != len(target.elts):

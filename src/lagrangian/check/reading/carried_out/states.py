@@ -12,7 +12,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.routines import PLAIN
-from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Fields, Function, State, Value, listed
+from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Fields, OwnFunction, State, Value, listed
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
@@ -41,7 +41,7 @@ class StateReader:
 
     def functions(self, names: dict[str, Value]) -> Iterator[StateFunction]:
         """The functions that nothing calls, and what they say of the motion."""
-        made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, Function)]
+        made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
         for f in {id(f): f for f in made}.values():
             if f.name and f.name in self.run.called:
                 continue
@@ -137,7 +137,7 @@ class StateReader:
         return found
 
 
-def _line(f: Function) -> int:
+def _line(f: OwnFunction) -> int:
     body = f.body if isinstance(f.body, ast.expr) else f.body[-1]
     return body.end_lineno or body.lineno
 
@@ -152,7 +152,7 @@ def _rates(value: Value) -> list[sp.Expr] | None:
     return found if all(isinstance(x, sp.Expr) for x in found) else None
 
 
-def _argument(f: Function, name: str, matlab: bool) -> Value:
+def _argument(f: OwnFunction, name: str, matlab: bool) -> Value:
     """What an argument is by its use: a state, parameters by name, or a number."""
     body = [f.body] if isinstance(f.body, ast.expr) else f.body
     nodes = [x for part in body for x in ast.walk(part)]

@@ -32,11 +32,11 @@ class AbandonedError(Exception):
     """A program does something that has no meaning on symbols, or too much."""
 
 
-class Unknown:
+class Opaque:
     """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
 
 
-UNKNOWN = Unknown()
+UNKNOWN = Opaque()
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Routine:
 
 
 @dataclass(frozen=True, eq=False)
-class Function:
+class OwnFunction:
     """A function of the program: the names of its arguments, and its body or its one expression."""
 
     name: str
@@ -58,7 +58,7 @@ class Function:
 
 
 @dataclass(frozen=True, eq=False)
-class Method:
+class BoundMethod:
     """A method of a value."""
 
     of: Value
