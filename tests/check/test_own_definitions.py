@@ -4,6 +4,12 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.check import lines_of
+from lagrangian.check.explain.reasoned import with_bodies
+from lagrangian.check.reading import parse_answer
+from lagrangian.check.reference import truth_of
+from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.page.formula import text
 from student_answers import CART, POLE, right
 
 
@@ -302,3 +308,14 @@ def test_the_index_of_the_centre_says_about_which_axis_it_is(bar: lg.Derivation,
 @pytest.mark.parametrize("name", ["J_S", "J_O"])
 def test_a_moment_of_inertia_that_is_used_rightly_is_not_wrong(bar: lg.Derivation, name: str) -> None:
     assert bar.check(f"{name} = m l^2/3\n{name} phi'' + m g l/2 sin(phi) = 0").right
+
+
+def test_a_wrong_energy_that_nothing_uses_is_told_in_place_of_what_else_would_explain_it(crane: lg.Derivation) -> None:
+    truth = truth_of(crane)
+    (line,) = (x for x in lines_of(parse_answer("T_rod = m x'^2 + J phi'^2/2", crane.model)) if x.kind == "definition")
+    other = [Mistake("lost", text(name), text(""), step, name) for name, step in (("rigid body 'rod'", 2), ("F", 6))]
+    first, second = with_bodies(truth, [Finding(line, Status.WRONG)], other)
+    assert str(first.what).startswith("Line 1 is not right: the kinetic energy of rigid body 'rod' is ")
+    assert second is other[1]
+    assert with_bodies(truth, [Finding(line, Status.WRONG)], [first]) == (first,)
+    assert with_bodies(truth, [Finding(line, Status.RIGHT)], other) == tuple(other)

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from lagrangian.check.align import LARGEST
-from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
 from lagrangian.check.explain.line_mistakes import without_constant
-from lagrangian.check.explain.said_wrongly import SaidWrongly
+from lagrangian.check.explain.meant import owner_of
+from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
 from lagrangian.check.explain.search import singles
 from lagrangian.check.explain.spoken import in_words
 from lagrangian.check.explain.term_said import with_reason
-from lagrangian.check.verdict import Mistake
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
 REASONED = ("kinetic", "speed", "potential")
 """Kinds of quantities of which it is said why they may have come out wrong."""
+STEP = 2
+"""The step of the kinetic energy."""
 MOST_LIKELY = 2.0
 """A mistake that costs more is no reason that is told."""
 
@@ -41,6 +46,18 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
         if named and not _is_term(t.mistake):
             return replace(mistake, what=with_reason(mistake.what, reason).what, why=reason.why)
     return mistake
+
+
+def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
+    """The mistakes, with those in wrong energies of bodies that nothing else uses in front, in place of what else would
+    be said of these energies."""
+    wrong = [f.line for f in findings if f.line.kind == "definition" and f.status is Status.WRONG and not f.follows]
+    wrong = [x for x in wrong if not any(str(m.what).startswith(f"Line {x.number} is ") for m in told)]
+    every = [p for x in wrong for p in said_of(truth, x) if p.of.owner is owner_of(x.name or "", truth.model)]
+    said = [p for p in every if p.of.kind == "kinetic"]
+    titles = [p.of.owner.title for p in said]
+    own = (reasoned(pool_of(truth), p) for p in said)
+    return (*own, *(m for m in told if m.step != STEP or m.element not in titles))
 
 
 def _is_term(possible: Possible) -> bool:
