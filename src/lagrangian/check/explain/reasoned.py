@@ -19,8 +19,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
-REASONED = ("kinetic", "speed", "potential")
-"""Kinds of quantities of which it is said why they may have come out wrong."""
+KINETIC = "kinetic_of_body"
+REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
+"""What is wrong in the quantities of which it is said why they may have come out so."""
 STEP = 2
 """The step of the kinetic energy."""
 MOST_LIKELY = 2.0
@@ -30,7 +31,7 @@ MOST_LIKELY = 2.0
 def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one."""
     mistake = said.mistake
-    if said.of.kind not in REASONED:
+    if mistake.name not in REASONED or mistake.element is None:
         return mistake
     values = CompiledExpressions([said.T, said.V]).at(pool.truth.states)
     values[1] = without_constant(values[1])
@@ -40,9 +41,8 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     told = [t for e in singles(pool, [pool.T, V], values) for t in e.told if t.cost <= MOST_LIKELY]
     for t in told:
         reason = in_words(pool.truth, t, None)
-        named = t.mistake.element is said.of.owner or said.of.owner.title in str(
-            reason.what
-        )  # of gravity: of its weight
+        own = t.mistake.element is not None and t.mistake.element.title == mistake.element
+        named = own or mistake.element in str(reason.what)  # an element of gravity: the weight of the body
         if named and not _is_term(t.mistake):
             return replace(mistake, what=with_reason(mistake.what, reason).what, why=reason.why)
     return mistake
@@ -53,9 +53,9 @@ def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mi
     be said of these energies."""
     wrong = [f.line for f in findings if f.line.kind == "definition" and f.status is Status.WRONG and not f.follows]
     wrong = [x for x in wrong if not any(str(m.what).startswith(f"Line {x.number} is ") for m in told)]
-    every = [p for x in wrong for p in said_of(truth, x) if p.of.owner is owner_of(x.name or "", truth.model)]
-    said = [p for p in every if p.of.kind == "kinetic"]
-    titles = [p.of.owner.title for p in said]
+    pairs = [(p, owner) for x in wrong if (owner := owner_of(x.name or "", truth.model)) for p in said_of(truth, x)]
+    said = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]
+    titles = [p.mistake.element for p in said]
     own = (reasoned(pool_of(truth), p) for p in said)
     return (*own, *(m for m in told if m.step != STEP or m.element not in titles))
 
