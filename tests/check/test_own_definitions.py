@@ -271,6 +271,7 @@ def test_the_square_of_a_dotted_column_is_that_of_its_length(velocity: str, sign
         ("J phi'^2/2", "½mv² of rigid body 'rod' is missing."),
         ("m/2 (x'^2 + l^2/4 phi'^2) + J phi'^2/2", "The velocities of rigid body 'rod' were squared one by one"),
         ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2)", "½Jω² of rigid body 'rod' is missing."),
+        ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2) + J phi'^2", "The ½ of ½Jω² of rigid body 'rod' is missing."),
         ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2) + J x' phi'", None),
     ],
 )
@@ -319,3 +320,11 @@ def test_a_wrong_energy_that_nothing_uses_is_told_in_place_of_what_else_would_ex
     assert second is other[1]
     assert with_bodies(truth, [Finding(line, Status.WRONG)], [first]) == (first,)
     assert with_bodies(truth, [Finding(line, Status.RIGHT)], other) == tuple(other)
+
+
+def test_of_two_likely_reasons_both_are_told(bar: lg.Derivation) -> None:
+    """m l²/4 φ̇² too much is ½mv² without its ½, and J about the pivot beside ½mv²."""
+    answer = "T_bar = 7/24 m l^2 phi'^2\nT = T_bar\nV = -m g l/2 cos(phi)"
+    words = str(bar.check(answer).mistakes[0].what)
+    first, _, second = words.partition(" A possible reason: ")[2].partition(" Or: ")
+    assert sorted(["½" in first and "missing" in first, "about its pivot" in second]) == [True, True], words

@@ -362,6 +362,6 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
             text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
         )
     findings = with_wrong_definitions(verdict.findings, named.blamed)
-    told = with_bodies(truth, judged.findings, named.told)
+    told = with_bodies(truth, findings, named.told)
     told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)

@@ -13,11 +13,13 @@ from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
 from lagrangian.check.explain.search import singles
+from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.spoken import in_words
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import text
 
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
@@ -26,6 +28,8 @@ STEP = 2
 """The step of the kinetic energy."""
 MOST_LIKELY = 2.0
 """A mistake that costs more is no reason that is told."""
+ALIKE = 0.1
+"""The largest difference of the costs of two reasons of which neither is the likelier."""
 
 
 def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
@@ -39,13 +43,19 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
         return mistake
     V: Array = pool.kept("V but constants", lambda: without_constant(pool.V))
     told = [t for e in singles(pool, [pool.T, V], values) for t in e.told if t.cost <= MOST_LIKELY]
-    for t in told:
-        reason = in_words(pool.truth, t, None)
-        own = t.mistake.element is not None and t.mistake.element.title == mistake.element
-        named = own or mistake.element in str(reason.what)  # an element of gravity: the weight of the body
-        if named and not _is_term(t.mistake):
-            return replace(mistake, what=with_reason(mistake.what, reason).what, why=reason.why)
-    return mistake
+    reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
+    own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
+    if not own:
+        return mistake
+    cost, first = own[0]
+    others = distinct([x for other, x in own[1:] if other <= cost + ALIKE and x.why != first.why], [first])
+    either = text(*first.what.parts, " Or: ", *others[0].what.parts) if others else first.what
+    return replace(mistake, what=with_reason(mistake.what, replace(first, what=either)).what, why=first.why)
+
+
+def _is_of(mistake: Mistake, title: str) -> bool:
+    """Whether a mistake is made in an element, or in its weight."""
+    return mistake.element == title or title in str(mistake.what)
 
 
 def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
