@@ -10,6 +10,7 @@ from functools import cache
 import pytest
 
 import lagrangian as lg
+from lagrangian.check.explain.meant import owner_of
 
 ALONG, ACROSS = "psi' + Omega*sin(theta)", "Omega*cos(theta)"
 ENERGY = "T = A*(theta'^2 + ({across})^2)/2 + C*({along})^2/2 + m*l^2*(theta'^2 + ({across})^2)/2"
@@ -129,3 +130,10 @@ def test_a_moment_of_inertia_has_no_sign_of_its_own() -> None:
     row = f"{INERTIA} + {CENTRIFUGAL} + C*Omega*cos(theta)*({ALONG}) + k*theta = 0"
     verdict = gyro().check(f"{row}\nC*(psi'' + Omega*cos(theta)*theta') = tau")
     assert "what C contributes has the wrong sign" in str(verdict.mistakes[0].what)
+
+
+def test_an_index_may_be_that_of_a_mass() -> None:
+    """m_w is the mass of the wheel, and T_w its energy."""
+    owners = {name: owner_of(name, gyro().model) for name in ("T_w", "T_wheel", "T_trim", "T_v", "T")}
+    named = {name: None if body is None else body.name for name, body in owners.items()}
+    assert named == {"T_w": "wheel", "T_wheel": "wheel", "T_trim": "trim", "T_v": None, "T": None}

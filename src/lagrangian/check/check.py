@@ -24,6 +24,7 @@ from lagrangian.check.explain.definitions import with_right_definitions, with_wr
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
+from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.general import untrue_in_general
@@ -372,5 +373,6 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
             text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
         )
     findings = with_wrong_definitions(verdict.findings, named.blamed)
-    told = replace(verdict, findings=findings, mistakes=named.told, alternatives=named.others)
+    told = with_bodies(truth, findings, named.told)
+    told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)

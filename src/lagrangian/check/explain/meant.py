@@ -44,11 +44,12 @@ def kinds_of(name: str) -> tuple[str, ...] | None:
 
 
 def owner_of(name: str, model: Model) -> Body | None:
-    """The only body that the index of a name may mean: that of its point, its mass, its number or its own name."""
+    """The only body that the index of a name may mean: that of its point, its mass, its number or its own name; T_R
+    of a body with the mass m_R."""
     index = _split(name)[1]
     if not index:
         return None
-    for fits in (_is_at, _is_called):
+    for fits in (_is_at, _is_called, _has_index):
         found = [b for b in model.bodies if fits(index, b)]
         if found:
             return found[0] if len(found) == 1 else None
@@ -81,3 +82,7 @@ def _is_at(index: str, body: Any) -> bool:
 
 def _is_called(index: str, body: Any) -> bool:
     return len(index) > 1 and any(w.startswith(index.lower()) for w in body.name.lower().replace("_", " ").split())
+
+
+def _has_index(index: str, body: Any) -> bool:
+    return isinstance(body.mass, sp.Symbol) and _split(str(body.mass))[1] == index

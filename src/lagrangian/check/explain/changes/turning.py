@@ -57,7 +57,7 @@ class TurningChanges:
         turned = f"the angular velocity of {b.title}"
         for c, part in every if 1 < len(every) <= MOST_PARTS else ():
             whole: Words = ("the component ", omega[c], f" of {turned}") if omega[c] != part else (turned,)
-            instead = [(sp.S.Zero, "turning_part_left_out", 1.4)]
+            instead: list[tuple[sp.Expr, str, float]] = [(sp.S.Zero, "turning_part_left_out", 1.4)]
             if omega[c] != part:
                 instead.append((-part, "turning_part_sign", 1.5))
             for f in sorted(part.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
