@@ -60,6 +60,15 @@ ANSWERS = {
     "rules": "x1'' = 0\n" + "-- y " * (N // 5),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
     "virtual displacements": "δW = " + "δx" * 1500,
+    "functions of programs": "x1'' = 0\nf = lambda q: q + 1\n" + "f(" * (N // 2),
+    "functions around each other": "".join(f"f{k} = lambda q: f{k + 1}(q) + f{k + 1}(q)\n" for k in range(40))
+    + "f0(1)",
+    "a function before blanks": "def f(q):" + "\n   " * (N // 4) + "x1'' = 0",
+    "loops": "qs = [x1, x2r]\n" + "for q in qs:\n    diff(q, t)\n" * (N // 26),
+    "loops in lists": "e = [" + "diff(q) for q in " * (N // 17),
+    "slopes in slopes": "x1'' = 0\n" + "diff(" * (N // 5),
+    "over and over": "{1 over 2} dot y\n" + "dot {" * (N // 5) + "%x over {",
+    "matrices of the editor": "{1 over 2}" + "matrix{ a # " * (N // 12),
     "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }
 

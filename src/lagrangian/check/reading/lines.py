@@ -30,6 +30,7 @@ from lagrangian.check.reading.line_forms import (
     without_expressions,
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
+from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
@@ -46,7 +47,7 @@ from lagrangian.check.reading.placeholders import (
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.stated import energy_of
-from lagrangian.check.reading.subjects import Subject, Subjects, is_label_of_equation
+from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 from lagrangian.model.names import time
@@ -154,7 +155,10 @@ class Lines:
         defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
         self._solved = {i for i, subject in defining if subject.order > 1}
         ends = {i for i, _ in defining if any(map(self.subjects.accelerates, self._statements[i].sides))}
-        for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0] in ends, x[0])):
+        alone = named_accelerations({i: (key(str(x.token)), turned[i][1][1:]) for i, x in defining if not x.order})
+        self.subjects.accelerations = set(alone.values())
+        last = {i: (x.order > 0, x.right, i not in alone, i in ends, i) for i, x in defining}
+        for i, subject in sorted(defining, key=lambda x: last[x[0]]):
             _, same = self.subjects.sharing(subject, turned[i][1])
             for token in (subject.token, *same):
                 self._waiting.setdefault(key(undotted(str(token))[0]), i)  # omega = theta' before omega' = …
@@ -164,8 +168,7 @@ class Lines:
         self.subjects.leading = Counter(key(undotted(str(s.token))[0]) for s in named if not s.right)
         self.subjects.left = set(self.subjects.leading)
         self.subjects.gives_rates = set().union(*(self.subjects.in_rates(s.sides) for s in self._statements))
-        listed = (x for s in self._statements for side in s.sides for x in names_in(side))
-        self.subjects.bare = {key(token) for token, changing in listed if not changing and not undotted(token)[1]}
+        self.subjects.bare = bare_names(side for s in self._statements for side in s.sides)
         self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
         self.names.differentiated = differentiated_by([side for s in self._statements for side in s.sides])
         self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
@@ -200,8 +203,7 @@ class Lines:
         self.names.matrices = self._has_matrices(statement.sides)
 
         def read() -> list[AnswerLine]:
-            energy = subject is not None and subject.kind in ENERGIES
-            reader = Meaning(statement.source, self.names, self.budget, energy=energy)
+            reader = Meaning(statement.source, self.names, self.budget, None if subject is None else subject.kind)
             stated = [x for own, its in self.subjects.each(subject, sides) for x in self._about(own, its, reader)]
             return stated if subject else self._equations(sides, reader)
 

@@ -32,12 +32,12 @@ MAX_ENTRIES = 400
 
 
 class Meaning(ExpressionReader):
-    """Evaluates the trees of one statement; ``budget`` is shared by the whole answer. An ``energy`` may hold rates that
-    the answer gives further down."""
+    """Evaluates the trees of one statement about a ``kind`` of quantity; ``budget`` is shared by the whole answer. An
+    energy may hold rates that the answer gives further down."""
 
-    def __init__(self, source: Source, names: Names, budget: ReadingBudget, *, energy: bool = False) -> None:
+    def __init__(self, source: Source, names: Names, budget: ReadingBudget, kind: str | None = None) -> None:
         super().__init__(source, names.scope)
-        self.names, self.budget, self.energy = names, budget, energy
+        self.names, self.budget, self.energy = names, budget, kind in ENERGIES
         self._done: dict[int, Value] = {}
 
     def value(self, node: Node) -> Value:

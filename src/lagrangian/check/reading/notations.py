@@ -22,16 +22,17 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
-from lagrangian.check.reading.programs.anonymous import with_named_functions, without_quotes
 from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
 from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
+from lagrangian.check.reading.programs.quotes import without_quotes
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
+from lagrangian.check.reading.programs.unrolled import unrolled
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
@@ -43,6 +44,7 @@ from lagrangian.check.reading.said.stands_for import (
 )
 from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.tables import with_tables
+from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
@@ -65,6 +67,12 @@ _ROUND_BY_TIME = re.compile(
 """A rate with round signs: ∂²x/∂t²."""
 
 
+def _copied(text: str) -> TracedText:
+    """The text of an answer without what copying, drawing and a formula editor leave in it."""
+    plain = without_copying(without_proved(without_star_math(TracedText(text))))
+    return with_drawn_pieces(with_tall_brackets(plain))
+
+
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
@@ -73,15 +81,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    typed_in = without_crossed_out(
-        without_terminators(
-            without_maxima(with_drawn_pieces(with_tall_brackets(without_copying(without_proved(TracedText(text))))))
-        ),
-        names.notes,
-    )
+    typed_in = without_crossed_out(without_terminators(without_maxima(_copied(text))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
-    prompted = with_columns(with_whole_matrices(with_named_functions(without_quotes(without_prompts(shown)))))
+    prompted = with_columns(with_whole_matrices(unrolled(without_quotes(without_prompts(shown)))))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:

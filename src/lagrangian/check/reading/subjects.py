@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -23,8 +23,10 @@ from lagrangian.model.names import time
 from lagrangian.read.letters import key, undotted
 from lagrangian.records import dataclass
 
-_CALLED = re.compile(r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)_?\d*", re.IGNORECASE)
-"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x."""
+_CALLED = re.compile(
+    r"(?:eqn?|ode|eom|res|dgl|bwg|el|ele|eq?uation|euler_?lagrange)(?:_?\d*|_[^\W_]{1,8})", re.IGNORECASE
+)
+"""What programs call an equation whose right side is 0: eq1 = m*x'' + k*x, eom_theta = …."""
 
 MULTIPLIERS = ("lambda", "lam", "lmbda")
 """How names of multipliers begin."""
@@ -48,6 +50,12 @@ def is_label_of_equation(subject: Subject) -> bool:
     return _CALLED.fullmatch(str(subject.token)) is not None
 
 
+def bare_names(trees: Iterable[Tree]) -> set[str]:
+    """The keys of the names that stand in trees without a sign of a rate."""
+    listed = (x for tree in trees for x in names_in(tree))
+    return {key(token) for token, changing in listed if not changing and not undotted(token)[1]}
+
+
 class Subjects:
     """Recognizes the subjects of statements; ``defined`` holds the names that a statement of the answer defines."""
 
@@ -56,6 +64,8 @@ class Subjects:
         self.defined: set[str] = set()
         self.gives_rates: set[str] = set()
         """The keys of the names of which the rates of coordinates are functions."""
+        self.accelerations: set[str] = set()
+        """The keys of the names of accelerations, of which other statements are equations of motion."""
         self.bare: set[str] = set()
         """The keys of the names that stand somewhere without a sign of a rate."""
         self.left: set[str] = set()
@@ -200,6 +210,8 @@ class Subjects:
         accelerations only if it is defined.
         """
         assert subject.token is not None
+        if not subject.order and key(str(subject.token)) in self.accelerations:
+            return not isinstance(value, sp.Derivative)  # a = y'' is no equation, a = F/m is one
         if subject.order:
             if self.names.occurs(subject.token) > 1 and not value.atoms(AppliedUndef):
                 return False  # a motion that is prescribed: y_p'' = -a w^2 cos(w t)

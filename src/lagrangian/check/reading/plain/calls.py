@@ -8,7 +8,7 @@ from lagrangian.check.reading.arguments import written
 from lagrangian.check.reading.nodes import leaf, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.derivatives import CLOSING, PlainDerivatives
-from lagrangian.check.reading.prose.words import REWRITING, Words
+from lagrangian.check.reading.prose.words import REWRITES, Words
 from lagrangian.read.letters import undotted
 
 
@@ -36,7 +36,7 @@ class PlainCalls(PlainDerivatives):
         inside = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
         if inside[:2] == ["t", ")"] or self.words.calls(token.text) or self._says(token):
             return True
-        if self._of_column() or (token.text in REWRITING and not self.words.known(token.text)):
+        if self._of_column() or (token.text in REWRITES and not self.words.known(token.text)):
             return True
         moving = self.words.names.changes(token.text)
         if moving and self.ahead().kind == "number" and inside[1:2] == [")"]:
@@ -74,7 +74,7 @@ class PlainCalls(PlainDerivatives):
         depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
         if (stated or (depends and token is self.tokens[0])) and not self.words.is_function(token.text):  # V(theta) = …
             return name(token.text, token.start)
-        if token.text in REWRITING and arguments:
+        if token.text in REWRITES and arguments:
             return arguments[0]
         return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
 

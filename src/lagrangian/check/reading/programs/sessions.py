@@ -13,9 +13,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from itertools import islice
 
-from lagrangian.check.reading.prose.words import REWRITING, function_of
+from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass
 
@@ -53,6 +52,9 @@ _APPLIED = re.compile(
     rf"(?:{_NAME}[ \t]*+=(?!=)[ \t]*+)?(?P<first>{_NAME})[ \t]*+(?:/@|@@?|//)[ \t]*+(?P<second>{_NAME})\Z"
 )
 """How Mathematica applies a function without brackets: TeXForm /@ eqs, eqs // Simplify."""
+_EXPRESSION = re.compile(r"(?:[\w\s()+\-*/^,'’′]|\.(?=\d|[a-z]{1,12}\())++")
+_CALLS = re.compile(rf"(?<!\w)(?P<name>{_NAME})\(")
+"""An expression without lists, words and parts of objects, and what is called in it."""
 _LOOP = re.compile(r"(?:for|while|if|with)[ \t][^:\n]{1,200}:(?P<body>[^\n]*+)")
 _STRING = re.compile(r"(?<=[(\[,=])[ \t]*+[bfru]?(?P<mark>['\"])[^'\"\n]{0,200}+(?P=mark)(?=[ \t]*+[,)\]:])")
 _DECLARES = re.compile(
@@ -67,7 +69,9 @@ _ACCELERATES = re.compile(
     r"['’′]\s?['’′]|[″\"]|\u0308|[ẍÿẅ¨]|ddot|(?<=\w)dd(?!\w)|\bD2\(|\bD\(\s*D\b|\bDerivative\[2\]|\bd2(?=[^\W\d])"
     r"|(?:[dD]iff\w{0,9}|Derivative|\bD)[(\[](?:[^()\[\],\n]{0,40}(?:[(\[]t[)\]])?\s*,)?\s*[({]?\s*t\s*(?:,\s*(?:2|t)|\$\s*2)"
     r"|diff\(t?\)\.diff|\bd\^?[2²]\s*/\s*dt"
+    r"|diff\((?:[^()\n]|\([^()\n]{0,20}\)){1,60}\)\s?(?:\.diff\(|,)\s*t\b"
 )
+"""Signs of an acceleration, also the rate of a slope: L.diff(xd).diff(t), diff(diff(L, xd), t)."""
 _BY_TIME = re.compile(r"\bd\^?[2²]\s*/\s*dt")
 _STATED = re.compile(r"==|(?<![=!<>:])=(?!=)|\bEq(?:uality)?[(\[]")
 _OPERATOR = re.compile(r"(?<!\*)[-+*/·⋅](?!\*)")
@@ -100,8 +104,6 @@ _FORM = (
 MATHEMATICAL = frozenset(_FORM.split())
 """Functions of which expressions consist."""
 _MEANT = "diff dt doit simplify expand subs T evalf applyfunc col row"
-ENERGIES = frozenset(["T", "V", "U", "L", "D"])
-"""Letters of energies and of the dissipation function."""
 _METHODS = frozenset(_MEANT.split())
 """Methods of expressions."""
 
@@ -178,7 +180,8 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
     whole, shown = piece, list[Edit]()
     while (match := _whole_call(written)) is not None and match["name"] in _SHOWING:
         inside = written[match.end() : -1]
-        if not (_STATED.search(_plain(f"({inside})")) or carries(inside)) or _KEYWORD.search(inside):
+        states = _STATED.search(_plain(f"({inside})")) is not None or carries(inside) or _is_value(match, inside)
+        if not states or _KEYWORD.search(inside):
             break
         named = _NAME_IS_ZERO.fullmatch(inside.strip())
         if named is not None and not taken(named["name"] or named["other"]):
@@ -192,24 +195,16 @@ def _edits(text: str, piece: Piece, taken: Callable[[str], bool]) -> Iterator[Ed
         piece = Piece(at, piece.end - 1)
         written = text[piece.start : piece.end]
     yield from shown
-    if (opens := _rewritten_energy(written, text)) is not None:
-        yield piece.start + opens[0], piece.start + opens[1], ""
-    elif _command(written, taken):
+    if _command(written, taken):
         yield piece.start, piece.end, ""
 
 
-def _rewritten_energy(written: str, text: str) -> tuple[int, int] | None:
-    """Where the call is in an energy that is only written in another way, V = simplify(k*x**2/2), and that nothing else
-    gives or shows; None in others."""
-    match = _whole_call(written)
-    if match is None or match["to"] not in ENERGIES or match["name"] not in REWRITING:
-        return None
-    shown = rf"^[ \t]*+{match['to']}[ \t]*+(?:=(?!=)|:?$)|^[^\n=]{{0,40}}(?<!\w){match['to']}[ \t]*+=(?!=)"
-    if len(list(islice(re.finditer(shown, text, re.MULTILINE), 2))) != 1:
-        return None
-    inside = written[match.end() : -1]
-    one = len(list(_entries(inside))) == 1 and match["open"] == "("
-    return (match.start("of"), match.start("open")) if one and _OPERATOR.search(inside) else None
+def _is_value(match: re.Match[str], inside: str) -> bool:
+    """Whether a statement gives a new name the value of an expression in another form: T = simplify(T1 + T2)."""
+    to, called = match["to"], [m["name"] for m in _CALLS.finditer(inside)]
+    known = all(function_of(x) is not None or x in MATHEMATICAL or x in REWRITES for x in called)
+    plain = known and match["name"] in REWRITES - {"collect"} and _EXPRESSION.fullmatch(inside) is not None
+    return bool(to) and plain and re.search(rf"(?<!\w){re.escape(to)}(?!\w)", inside) is None
 
 
 def _whole_call(written: str) -> re.Match[str] | None:

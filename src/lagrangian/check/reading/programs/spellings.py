@@ -16,7 +16,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice
 
-from lagrangian.check.reading.prose.words import REWRITING, function_of
+from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.read.letters import SPELLED
 
@@ -37,6 +37,8 @@ _CALLED = {
     "ImmutableMatrix": "Matrix",
     **{x: x for x in ("pi", "diff", "Derivative", "Matrix", "Eq", "Rational", "pow", "power", "square", "Symbol")},
 }
+_REWRITTEN = re.compile(rf"(?<=[\w)'′])\s?\.\s?(?:{'|'.join(sorted(REWRITES))}|doit)\(\s*\)")
+"""A method that writes what stands in front of it in another way."""
 _T = r"\s*['\"]?t['\"]?\s*"
 _SECOND = re.compile(rf"\.\s*diff\((?:{_T},(?:\s*2\s*|{_T})|\s*\({_T},\s*2\s*\)\s*)\)")
 _FIRST = re.compile(rf"(?<=[\w)'′])\.\s*diff\((?:{_T}(?:,\s*1\s*)?|\s*)\)")
@@ -137,6 +139,7 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     written = written.sub(_TYPE, lambda m: m.group() if m.group().split()[-1] == "let" else "").sub(_MODULE, _bare)
     if modules:
         written = written.sub(re.compile(rf"(?<![\w.])(?:{'|'.join(modules)})\.(?P<name>[A-Za-z]\w*)"), _bare)
+    written = written.sub(_REWRITTEN, lambda m: "")
     written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}")
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")
     written = written.sub(_ENERGY, lambda m: f"diff({m['of']}, {m['by']})")
@@ -174,9 +177,9 @@ def _letter(match: re.Match[str]) -> str:
 
 
 def _bare(match: re.Match[str]) -> str:
-    """np.sin as sin, and sp.simplify as simplify, if that is a function."""
+    """np.sin as sin, if that is a function."""
     name = match["name"]
-    return _CALLED.get(name) or (name if name in REWRITING or function_of(name) is not None else match.group())
+    return _CALLED.get(name) or (name if name in REWRITES or function_of(name) is not None else match.group())
 
 
 def _called(text: str, taken: Callable[[str], bool], *, typst: bool) -> Iterator[Edit]:

@@ -35,6 +35,10 @@ SPELLINGS = {
 }
 """How other languages write functions."""
 
+_REWRITES = "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel"
+REWRITES = frozenset(_REWRITES.split())
+"""Functions of programs that write an expression, their first argument, in another way."""
+
 MAX_WORDS = 500
 """The largest number of words in one answer that are tried to be split."""
 
@@ -56,13 +60,6 @@ _DOTTED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d][\w\u0307\u0308]{1,23})[ \t]*
 _FORCES = frozenset(["lam", "lmbda"])
 """Short spellings of a multiplier."""
 _COMPONENT = re.compile(r"[A-Z][xyz]")
-
-
-_REWRITES = (
-    "expand simplify factor collect trigsimp ratsimp powsimp nsimplify ratexpand trigexpand trigreduce together cancel"
-)
-REWRITING = frozenset(_REWRITES.split())
-"""Functions of programs that write an expression, their first argument, in another way."""
 
 
 def led_names(text: str) -> frozenset[str]:

@@ -27,7 +27,8 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
     """Return an answer in which such rates have primes or dots.
 
     ``moves`` says whether a name is a coordinate, ``taken`` whether it belongs to the system. Names of the answer's
-    own have rates so where their value has one and no line gives the rate a value: M_t = m_1 + m_2 is a mass.
+    own have rates so where two t stand behind them, u_tt, or their value has a rate, and no line gives the rate a
+    value: M_t = m_1 + m_2 is a mass.
     """
     text = written.text
     latex = "\\" in text or "$" in text
@@ -36,17 +37,24 @@ def with_index_of_time(written: TracedText, moves: Callable[[str], bool], taken:
     twice = any((m["by"] == "tt") and moves(_name(m["of"])) for m in found)
     if not found or not (twice or _SAID.search(text) is not None):
         return written
-    own = {m["of"] for m in found if not taken(_name(m["of"])) and _is_valued(text, m["of"], form, moves)}
+    names = {m["of"]: m for m in sorted(found, key=lambda m: m["by"] == "tt") if not taken(_name(m["of"]))}
+    own = {of for of, m in names.items() if not _is_stated(text, of)}
+    own = {of for of in own if names[of]["by"] == "tt" or _is_valued(text, of, form, moves)}
     kept = [m for m in found if moves(_name(m["of"])) or m["of"] in own]
     return written.edited((*m.span(), _written(m, latex=latex)) for m in kept)
 
 
 def _is_valued(text: str, name: str, form: re.Pattern[str], moves: Callable[[str], bool]) -> bool:
-    """Whether a line gives a name a value in which a rate stands, and none gives the name with its index one."""
+    """Whether a line gives a name a value in which a rate stands."""
     given = re.compile(rf"(?<![\w\\]){re.escape(name)}[ \t&]*=(?!=)(?P<value>[^=\n,;]{{1,400}})")
     rates = (m for x in given.finditer(text) for m in form.finditer(x["value"]))
-    index = re.compile(rf"(?<![\w\\]){re.escape(name)}_\{{?t{{1,2}}\}}?[ \t&]*=(?!=)")
-    return any(moves(_name(m["of"])) for m in rates) and index.search(text) is None
+    return any(moves(_name(m["of"])) for m in rates)
+
+
+def _is_stated(text: str, name: str) -> bool:
+    """Whether a line gives a name with such an index a value."""
+    alone = rf"(?:^|[,;:$(\[]|\b(?:with|where|and))[ \t]*{re.escape(name)}_\{{?t{{1,2}}\}}?[ \t&]*=(?!=)"
+    return re.search(alone, text, re.MULTILINE) is not None
 
 
 def _name(written: str) -> str:
