@@ -122,3 +122,21 @@ HOIST = "J_m phi_m'' + c (phi_m - phi_1) = tau\nm R^2 phi_1'' - c (phi_m - phi_1
 def test_forces_are_called_by_names_and_right_with_the_energies_beside_them(above: str, right: bool) -> None:
     verdict = hoist().check(f"{above}\n{HOIST}")
     assert verdict.right is right and (right or verdict.motion)
+
+
+PENDULUM = "m L^2 theta'' + m g L sin(theta) + b theta' = 0"
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        "T = 1/2 m L^2 theta'^2\nV = -m g L cos(theta)\nT = 1/2 m L^2 theta'^2",
+        "v = L theta'\nT = m/2*abs(v)^2\nT = m*L^2*theta'^2/2",
+    ],
+    ids=["letters that are units", "speed of its own"],
+)
+def test_an_energy_that_is_stated_twice_is_judged_twice(sheet: str) -> None:
+    """Neither are m L units because the wrong one is none in numbers, nor is T another name."""
+    assert derivation("pendulum").check(f"{sheet}\n{PENDULUM}").right
+    above, _, below = sheet.rpartition("L^2")
+    assert not derivation("pendulum").check(f"{above}L{below}\n{PENDULUM}").right
