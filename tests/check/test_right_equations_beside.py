@@ -165,3 +165,21 @@ def test_a_prescribed_angle_may_be_small(line: str, right: bool) -> None:
 def test_equations_for_a_small_prescribed_angle_alone_are_not_right() -> None:
     assert not tilted().check("m s'' + k s = -m g A sin(W t)").right
     assert not tilted().check("For small A:\nm s'' - m alpha'^2 s + m g alpha + k s = 0").right
+
+
+PENDULUM = "m L^2 theta'' + m g L sin(theta) + b theta' = 0"
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        "T = 1/2 m L^2 theta'^2\nV = -m g L cos(theta)\nT = 1/2 m L^2 theta'^2",
+        "v = L theta'\nT = m/2*abs(v)^2\nT = m*L^2*theta'^2/2",
+    ],
+    ids=["letters that are units", "speed of its own"],
+)
+def test_an_energy_that_is_stated_twice_is_judged_twice(sheet: str) -> None:
+    """Neither are m L units because the wrong one is none in numbers, nor is T another name."""
+    assert derivation("pendulum").check(f"{sheet}\n{PENDULUM}").right
+    above, _, below = sheet.rpartition("L^2")
+    assert not derivation("pendulum").check(f"{above}L{below}\n{PENDULUM}").right

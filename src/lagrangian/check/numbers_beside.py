@@ -45,6 +45,7 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     if second.status is Status.OTHER_COORDINATES:
         return None
     others = whole and first.right and len(numeric) > 1 and not truth.values
+    others = others and any(line.kind == "equation" for line in numbers)  # 2 m L^2 is no energy in numbers
     if others and all(f.status is Status.WRONG for f in second.findings):
         note = text("The lines in numbers were not judged: they are for other values than those of the system.")
         return replace(first, notes=(*first.notes, note))

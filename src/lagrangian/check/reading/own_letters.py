@@ -40,7 +40,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
         if kind in ("V", "L") and not renamed and any(names.changes(x) or key(x) in given for x in listed):
             continue
-        others = [s for s, moved in zip(statements, moving, strict=True) if moved and s is not sides]
+        listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
+        others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
         used = (str(x) for s in others for side in s for x, changing in names_in(side) if not changing)
         if str(named[0]) in used and all(
             names.scope.meanings(x)[0] or key(x) in given or names.changes(x) for x in listed

@@ -77,7 +77,7 @@ def _alone(found: list[Value], text: Value) -> Value:
 
 
 def symbols(text: Value, options: Mapping[str, Value]) -> Value:
-    """Symbols, or with cls=OwnFunction functions without an argument."""
+    """Symbols, or with cls=Function functions without an argument."""
     if "cls" in options:
         return _alone([sp.Function(x) for x in names_in(text)], text)
     return _alone([sp.Symbol(x) for x in names_in(text)], text)

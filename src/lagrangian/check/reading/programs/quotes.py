@@ -1,0 +1,63 @@
+"""Writes equations that a program has in quotes without these.
+
+eq1 = "m*xdd + k*x = 0"                     m*xdd + k*x = 0
+T = sympify('m*v**2/2')  "T": "m*v**2/2"    T = m*v**2/2
+eqs = ["a = 0", "b = 0"]                    a = 0⏎b = 0
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.check.reading.traced_text import TracedText
+
+_NAME = r"[^\W\d]\w{0,23}+"
+_TEXT = r"[bfru]?(?P<mark>\"|')(?P<said>(?:(?!(?P=mark))[^\n]){1,400}+)(?P=mark)"
+_QUOTED = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?:(?P<quote>['\"]?)(?P<to>{_NAME})(?P=quote)[ \t]*+[=:][ \t]*+)?(?:\[[ \t]*+)?"
+    rf"(?P<call>(?:\w{{1,8}}\.)?(?:sympify|parse_expr|str2sym|S|sym|print|disp)\([ \t]*+)?{_TEXT}"
+    r"(?(call)[^()\n]{0,60}\))[ \t]*+[;,\]]{0,2}+(?P<end>[ \t]*+(?:[#%][^\n]*+)?$)",
+    re.MULTILINE,
+)
+"""A line that is a text in quotes, perhaps behind a name."""
+_LISTED = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?:{_NAME}[ \t]*+=[ \t]*+)?[\[({{][ \t]*+(?P<texts>['\"][^\n]{{1,2000}}['\"])"
+    r"[ \t]*+[\])}];?[ \t]*+$",
+    re.MULTILINE,
+)
+_ONE = re.compile(_TEXT)
+"""Texts in quotes in a list on one line, and one of them."""
+_FORMULA = re.compile(r"[\w)\]]\s?(?:\*\*?|/|\^|\+|-|=)\s?[\w(\[-]")
+_STATED = re.compile(r"(?<![=<>!:])==?(?![=>])")
+_WORD = re.compile(r"[^\W\d_]{2,}[ ][^\W\d_]{2,}[ ][^\W\d_]{2,}")
+"""Three words, which are no formula."""
+
+
+def without_quotes(written: TracedText) -> TracedText:
+    """Return an answer in which formulas that fill a line in quotes stand without these; the name of an equation is
+    left out."""
+    if "'" not in written.text and '"' not in written.text:
+        return written
+    return written.sub(_LISTED, _on_lines).sub(_QUOTED, _unquoted)
+
+
+def _on_lines(match: re.Match[str]) -> str:
+    """The equations of a list in quotes, one on each line; the list as it is if it holds something else."""
+    said = [m["said"].strip() for m in _ONE.finditer(match["texts"])]
+    equations = all(_is_formula(x) and _STATED.search(x) for x in said)
+    between = re.sub(r"[\s,;]", "", _ONE.sub("", match["texts"]))
+    return "\n".join(match["indent"] + x for x in said) if equations and not between else match.group()
+
+
+def _unquoted(match: re.Match[str]) -> str:
+    """The formula of a line in quotes; a text that is no formula as it is."""
+    said, states = match["said"].strip(), _STATED.search(match["said"]) is not None
+    shows = (match["call"] or "").lstrip().startswith(("print", "disp"))
+    if not _is_formula(said) or not (states or (match["to"] and not shows)):
+        return match.group()
+    return f"{match['indent']}{said if states else match['to'] + ' = ' + said}{match['end']}"
+
+
+def _is_formula(said: str) -> bool:
+    """Whether a text in quotes is a formula and no sentence, nor one in which a program puts in values."""
+    return _FORMULA.search(said) is not None and _WORD.search(said) is None and "{" not in said and "%" not in said
