@@ -42,7 +42,7 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     order = max((d.derivative_count for d in line.expr.atoms(sp.Derivative) if d.expr == z), default=0)
     rate = sp.diff(z, (time, order)) if order else z
     number = _number_of(line.expr, rate)
-    if zero_everywhere(truth, rest):
+    if _is_true(truth, rest):
         return replace(line, kind="statement", expr=sp.S.Zero)
     if number is None:
         return line
@@ -65,10 +65,20 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
         rest = truth.expand(z - said)
         if zero_everywhere(truth, rest):
             out.append(replace(line, kind="statement", expr=sp.S.Zero))
+        elif _is_true(truth, rest):
+            table[z] = said
+            out.append(replace(line, kind="statement", expr=sp.S.Zero))
         else:
             table[z] = said
             out.append(replace(line, kind="identity", expr=rest, name=str(z.func)))
     return tuple(_put(line, table) for line in out) if table else tuple(out)
+
+
+def _is_true(truth: Reference, rest: sp.Expr) -> bool:
+    """Whether what is right less what is written is zero, perhaps with the values of the system: s = x - 0.1 theta. A
+    value that is 1 may just have been forgotten."""
+    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if v != 1}
+    return zero_everywhere(truth, rest) or bounded.expand(cast("sp.Expr", rest.xreplace(values))) == 0
 
 
 def _put(line: AnsweredLine, table: Mapping[Any, sp.Expr]) -> AnsweredLine:
