@@ -101,7 +101,8 @@ def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr] | None:
         return None
     z, said = own[0], bounded.expand(own[0] - expr / number)
     moving = said.has(*(c.symbol for c in model.coordinates))
-    others = [*(c.rate for c in model.coordinates), *(u.symbol for u in model.inputs), z]
+    rates = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
+    others = [*rates, *(u.symbol for u in model.inputs), z]
     known = said.free_symbols <= truth.names and not said.has(*others)
     return (z, said) if moving and known else None
 
