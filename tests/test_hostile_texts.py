@@ -53,6 +53,9 @@ ANSWERS = {
     "rules": "x1'' = 0\n" + "-- y " * (N // 5),
     "a number before blanks": "x1'' = 0 (1)" + BLANK + "y",
     "virtual displacements": "δW = " + "δx" * 1500,
+    "comments": "x1 = 1\n" + "# x1'' + x1 = 0\n" * (N // 16),
+    "a comment behind blanks": "x1 = 1" + BLANK + "#" * (N // 10) + "x1'' + x1 = 0",
+    "returns": "A = [1]\n" + "return   " * (N // 9) + "a.b.c.solve(A, ",
     "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }
 

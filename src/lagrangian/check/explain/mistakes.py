@@ -89,6 +89,7 @@ def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right:
     A mistake that would be visible in a line that is right is not considered. If nothing explains a derivative, the
     equations that follow from it are explained. ``right`` are lines that are right, besides those of the findings.
     """
+    findings = [f for f in findings if f.line.kind != "definition"]  # what others follow from is sought among all
     named = _of_lines(truth, lines, findings, right)
     derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
     if named.told or not derived or not any(f.follows for f in findings):

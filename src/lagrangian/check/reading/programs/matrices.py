@@ -39,6 +39,11 @@ _SOLVED = re.compile(
     r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
     re.MULTILINE,
 )
+_RETURNED = re.compile(
+    rf"^(?P<before>[ \t]*+)return[ \t]++(?=(?:(?:\w{{1,6}}\.){{0,3}}(?:solve|inv)\(|{_NAME}\.(?:inv|LUsolve)\())",
+    re.MULTILINE,
+)
+"""What returns the accelerations for which it solves: return np.linalg.solve(M, f)."""
 _JULIA = re.compile(r"\bModelingToolkit\b|\bDifferential\(|@(?:variables|parameters|mtkmodel)\b|(?<!\w)D\(D\(")
 _EQUATES = re.compile(r"(?<=\S)[ \t]+~[ \t]+(?=\S)")
 """The sign of an equation of Julia, also in a list."""
@@ -66,6 +71,7 @@ def with_whole_matrices(written: TracedText) -> TracedText:
     written = with_states_one_by_one(written.edited(_continued(written.text)))
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
+    written = written.sub(_RETURNED, lambda m: f"{m['before']}qdd = ") if given else written
     return written.sub(_SOLVED, lambda m: _product(m, given)) if given else written
 
 
