@@ -116,10 +116,21 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
     if function.state is not None:
         edits += _indices(text, function.state, states)
+    for other in {*function.others} - {function.state}:
+        edits += _inputs(text, other)
     if function.out is not None:
         edits += _rates(text, function, states)
     edits += _returned(text, function, states)
     return written.edited(apart(edits))
+
+
+def _inputs(text: str, name: str) -> Iterator[Edit]:
+    """The names of inputs in the place of u(1), where a comment or a line lists them: u = [F; tau]."""
+    listed = _commented(text, name, [])
+    for match in islice(re.finditer(rf"^[ \t]*+{_LISTED_STATES.replace('STATE', name)}{_END}", text, re.MULTILINE), 1):
+        listed |= dict(enumerate(re.findall(_NAME, match["names"])))
+        yield *match.span(), ""
+    yield from _indices(text, name, [listed[k] for k in range(len(listed)) if k in listed])
 
 
 def _solved(text: str, order: Sequence[str]) -> Iterator[Edit]:
@@ -223,8 +234,12 @@ def _commented(text: str, state: str | None, coordinates: Sequence[str]) -> dict
 
 
 def _spelled_out(name: str, coordinates: Sequence[str]) -> str:
-    """theta' for theta_dot, which may get a prime behind it."""
-    return next((stem + "'" * order for order, stem in spelled_rates(name) if stem in coordinates), name)
+    """theta' for theta_dot, which may get a prime behind it, or for thd; theta for th, if no other begins so."""
+    for order, stem in (*spelled_rates(name), (0, name)):
+        near = [c for c in coordinates if c == stem] or [c for c in coordinates if c.startswith(stem) and len(stem) > 1]
+        if len(near) == 1:
+            return near[0] + "'" * order
+    return name
 
 
 def _used(text: str, rates: dict[str, str]) -> Iterator[Edit]:
