@@ -26,7 +26,8 @@ def only_parts(verdict: Verdict, lines: Sequence[AnsweredLine], *, unjudged: boo
     unused = matrices and not kinds & {"equation", "left"}
     if not verdict.right or not (unused or (not kinds & WHOLE and (unjudged or any(map(_is_part, lines))))):
         return verdict
-    note = text("No line states an equation of motion, the whole T* or ", Name("L"), ".")
+    more = () if kinds & WHOLE else (", the whole T* or ", Name("L"))
+    note = text("No line states an equation of motion", *more, ".")
     return replace(verdict, status=Status.INCOMPLETE, notes=(*verdict.notes, note))
 
 
