@@ -108,6 +108,11 @@ WHEEL = "T_wheel = 1/2 J phi'^2"
         (WHEEL, "T_rod = 1/6 m l^2 theta'^2", False),
         (WHEEL, "T_rod = 1/2 m R^2 phi'^2", False),
         ("T_wheel = tau - b phi'", f"T_rod = {ROD}", True),  # a torque
+        (WHEEL, "V_rod = -m g (R cos(phi) + l/2 cos(theta))", True),
+        (WHEEL, "V_rod = m g (R + l - R cos(phi) - l/2 cos(theta))", True),  # from the lowest place
+        (WHEEL, "V_rod = m g (R cos(phi) + l/2 cos(theta))", False),
+        (WHEEL, "V_rod = -m g (R cos(phi) + l cos(theta))", False),
+        ("V_wheel = 1/2 k R^2 phi^2", f"T_rod = {ROD}", True),
         ("T_wheel = 1/2 J phi'^2 + 1/6 m l^2 theta'^2", f"T_rod = {ROD} - 1/6 m l^2 theta'^2", True),  # T* in all
     ],
 )

@@ -131,3 +131,12 @@ def test_accelerations_that_a_function_returns_are_judged() -> None:
     assert CART.check(program).right
     assert not CART.check(program.replace("F - b*xd", "F + b*xd")).right
     assert not CART.check(f"# T = 1/2*M*x'^2\n{program}".replace("m*g*l*", "-m*g*l*")).right
+
+
+def test_matrices_that_no_equation_uses_lack_it() -> None:
+    """A position that nothing uses takes nothing away from T* and V."""
+    matrix, column = "A = [M + m, m l cos(theta); m l cos(theta), J + m l^2]", "f = [F + b x'; m g l sin(theta)]"
+    for said in (matrix, column, f"{matrix}\n{column}"):
+        assert CART.check(f"{ENERGIES}\n{said}").status == "incomplete"
+    assert told(f"{ENERGIES}\nr_1 = (x, 0)")
+    assert not CART.check(f"{ENERGIES}\n{matrix}\n{column}\nA q'' = f").right

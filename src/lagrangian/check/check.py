@@ -14,7 +14,7 @@ from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
-from lagrangian.check.coordinates.chart import chart, system_coordinates, with_own_quantities
+from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
@@ -74,6 +74,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
     written = _filled(truth, judged)
+    truth = truth.within(region(truth, written))
     verdict = _checked(truth, judged, written, hint, explain)
     general = untrue_in_general(truth, written)
     if verdict.findings:

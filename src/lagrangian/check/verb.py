@@ -188,7 +188,8 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     why = ("nothing else uses ", "no equation uses this matrix ")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
-    verdict = only_parts(verdict, check.lines_of(answer), unjudged=any("was not judged" in note for note in told))
+    unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
+    verdict = only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices)
     read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(listed.values()))

@@ -15,16 +15,19 @@ WHOLE = frozenset(["equation", "left", "T", "L", "p", "p-rate"])
 """The kinds of lines from which the motion follows, or that hold all of T*."""
 
 
-def only_parts(verdict: Verdict, lines: Sequence[AnsweredLine], *, unjudged: bool) -> Verdict:
+def only_parts(verdict: Verdict, lines: Sequence[AnsweredLine], *, unjudged: bool, matrices: bool) -> Verdict:
     """A right verdict as an incomplete one, with a note, if an answer has neither the whole T* or L nor an equation,
     but the kinetic energies of parts of the system, or something that was not judged.
 
-    V, D or a force without such parts is the answer to a question about it.
+    V, D or a force without such parts is the answer to a question about it. ``matrices``: of mass or with inputs, which
+    no equation uses: they would be in the equations.
     """
-    whole = not verdict.right or any(f.line.kind in WHOLE for f in verdict.findings)
-    if whole or not (unjudged or any(map(_is_part, lines))):
+    kinds = {f.line.kind for f in verdict.findings}
+    unused = matrices and not kinds & {"equation", "left"}
+    if not verdict.right or not (unused or (not kinds & WHOLE and (unjudged or any(map(_is_part, lines))))):
         return verdict
-    note = text("No line states an equation of motion, the whole T* or ", Name("L"), ".")
+    more = () if kinds & WHOLE else (", the whole T* or ", Name("L"))
+    note = text("No line states an equation of motion", *more, ".")
     return replace(verdict, status=Status.INCOMPLETE, notes=(*verdict.notes, note))
 
 

@@ -1,5 +1,4 @@
-"""Kinetic energies of bodies that stand alone: T_drum = … where nothing else uses T_drum, so that only its name judges
-it."""
+"""Energies of bodies that stand alone: T_drum = … where nothing else uses T_drum, so that only its name judges it."""
 
 from __future__ import annotations
 
@@ -28,28 +27,35 @@ NEAR = 1e-9
 
 
 def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[int, Finding]:
-    """The findings for lines that say of a body, by a name that nothing else uses, what is no kinetic energy in the
-    system; by the place of the line.
+    """The findings for lines that say of a body, by a name that nothing else uses, what is no energy in the system; by
+    the place of the line.
 
     A name may stand for the energy of its body, for that of its translation or its rotation, and for sums of such
-    energies of several bodies. Names whose sum is T* share it out in their own way.
+    energies of several bodies; a potential energy for that of its weight and of springs, from any level. Names whose
+    sum is T*, or V, share it out in their own way.
     """
-    said = {k: x for k, x in enumerate(lines) if _owner(truth, x) is not None and not _is_used(lines, x)}
-    values = {k: value for k, x in said.items() if (value := in_names_of(truth, x)) is not None}
-    if not values or zero_everywhere(truth, sp.Add(*values.values()) - truth.T):
-        return {}
     found: dict[int, Finding] = {}
-    for k, value in values.items():
-        body = _owner(truth, lines[k])
-        if body is not None and _is_meant(truth, body, value) and not _is_sum_of_pieces(truth, body, value):
-            note = text(f"it is neither the kinetic energy of {body.title} nor a part of it")
-            found[k] = Finding(lines[k], Status.WRONG, note)
+    for kind in ("kinetic", "potential"):
+        said = {k: x for k, x in enumerate(lines) if _owner(truth, x, kind) is not None and not _is_used(lines, x)}
+        values = {k: value for k, x in said.items() if (value := in_names_of(truth, x)) is not None}
+        every = sp.Add(*values.values())
+        if not values or (zero_everywhere(truth, every - truth.T) if kind == "kinetic" else _level(truth, every)):
+            continue
+        for k, value in values.items():
+            body = _owner(truth, lines[k], kind)
+            if body is None or not _is_meant(truth, body, value, kind):
+                continue
+            pieces = _kinetic(truth, body) if kind == "kinetic" else _potential(truth, body)
+            of = [value] if kind == "kinetic" else [bounded.diff(value, c.symbol) for c in truth.model.coordinates]
+            if not _is_sum(truth, of, pieces):
+                note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
+                found[k] = Finding(lines[k], Status.WRONG, note)
     return found
 
 
-def _owner(truth: Reference, line: AnsweredLine) -> Body | None:
-    """The body of which a definition says the kinetic energy, by its name."""
-    if line.kind != "definition" or line.name is None or kinds_of(line.name) != ("kinetic",):
+def _owner(truth: Reference, line: AnsweredLine, kind: str) -> Body | None:
+    """The body of which a definition says an energy, by its name."""
+    if line.kind != "definition" or line.name is None or kinds_of(line.name) != (kind,):
         return None
     return owner_of(line.name, truth.model)
 
@@ -61,21 +67,43 @@ def _is_used(lines: Sequence[AnsweredLine], line: AnsweredLine) -> bool:
     return any(name in x.names for x in others)
 
 
-def _is_meant(truth: Reference, body: Body, value: sp.Expr) -> bool:
-    """Whether a value may be meant as the kinetic energy of a body: it has squares or products of rates, and a letter
-    of the body's mass or moment of inertia. T_drum may be a torque or a tension."""
-    s = ingredients_of(truth.derivation)
-    square = any(bounded.diff(value, v).has(*s.v) for v in s.v)
-    own = {x for x in truth.put(s.kinetic(body)).free_symbols if x in value.free_symbols}
-    return square and bool(own or truth.values)
+def _level(truth: Reference, V: sp.Expr) -> bool:
+    """Whether an energy is V but for a constant."""
+    return all(zero_everywhere(truth, bounded.diff(V - truth.V, c.symbol)) for c in truth.model.coordinates)
 
 
-def _is_sum_of_pieces(truth: Reference, body: Body, value: sp.Expr) -> bool:
-    """Whether a value is a sum of energies of translations and rotations."""
+def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
+    """Whether a value may be meant as the energy of a body: it has squares or products of rates, or positions alone,
+    and a letter of the body's mass or moment of inertia. T_drum may be a torque or a tension."""
     s = ingredients_of(truth.derivation)
-    others = [b for b in s.bodies if b is not body]
-    pieces = [truth.put(x) for b in (body, *others) for x in (s.translation(b), s.rotation(b))]
-    wanted, *listed = CompiledExpressions([value, *[x for x in pieces if x != 0][:MOST_PIECES]]).at(truth.states)
-    sums = (c for count in range(1, len(listed) + 1) for c in combinations(listed, count))
+    if kind == "kinetic":
+        fits = any(bounded.diff(value, v).has(*s.v) for v in s.v)
+        letters = truth.put(s.kinetic(body)).free_symbols
+    else:
+        fits = s.moves(value) and not value.has(*s.v)
+        letters = truth.put(s.expand(body.mass)).free_symbols
+    return fits and bool(letters & value.free_symbols or (truth.values and kind == "kinetic"))
+
+
+def _kinetic(truth: Reference, body: Body) -> list[list[sp.Expr]]:
+    """The energies of translations and rotations, those of a body first."""
+    s = ingredients_of(truth.derivation)
+    bodies = [body, *(b for b in s.bodies if b is not body)]
+    return [[truth.put(x)] for b in bodies for x in (s.translation(b), s.rotation(b)) if x != 0]
+
+
+def _potential(truth: Reference, body: Body) -> list[list[sp.Expr]]:
+    """The slopes of the energies of weights and springs, those of a body first."""
+    s = ingredients_of(truth.derivation)
+    stored = [V for _, b, V in sorted(s.weights(), key=lambda x: x[1] is not body)]
+    stored += [V for _, _, V in s.springs()]
+    return [[bounded.diff(truth.put(V), q) for q in s.q] for V in stored]
+
+
+def _is_sum(truth: Reference, value: Sequence[sp.Expr], pieces: Sequence[Sequence[sp.Expr]]) -> bool:
+    """Whether values are those of a sum of some pieces at every state; none is the sum of nothing."""
+    exprs = [*value, *(x for piece in pieces[:MOST_PIECES] for x in piece)]
+    wanted, *listed = np.split(CompiledExpressions(exprs).at(truth.states), len(exprs) // len(value))
     near = NEAR * (1 + np.abs(wanted).max())
+    sums = (c for count in range(1, len(listed) + 1) for c in combinations(listed, count))
     return any(bool(np.abs(wanted - sum(chosen)).max() <= near) for chosen in sums)

@@ -315,8 +315,9 @@ class Lines:
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
             pairs = zip([c.symbol.diff(time, 2) for c in self.model.coordinates], value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
-        self._used_nowhere(subject, reader)
-        if self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
+        if not (acts := value.shape == (len(names),) * 2 or value.has(*(u.symbol for u in self.model.inputs))):
+            self._used_nowhere(subject, reader)
+        if (acts or self.names.occurs(token) > 1) and not self._is_used_as_matrix(token):
             self._not_judged(reader, f"no equation uses this matrix {token}")
         return entries_of(token, value, side, reader)
 

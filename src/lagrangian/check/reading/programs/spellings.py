@@ -28,6 +28,7 @@ _CALLED = {
     "matrix": "Matrix",
     "asarray": "Matrix",
     "ImmutableMatrix": "Matrix",
+    **{x: x for x in ("simplify", "expand", "factor", "trigsimp", "together", "cancel")},
     **{x: x for x in ("pi", "diff", "Derivative", "Matrix", "Eq", "Rational", "pow", "power", "square", "Symbol")},
 }
 _REWRITTEN = re.compile(rf"(?<=[\w)'′])\s?\.\s?(?:{'|'.join(sorted(REWRITES))}|doit)\(\s*\)")
