@@ -115,13 +115,18 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         typed = _declared(text, model, place)
     except ParseError as error:
         typed = error
-    if isinstance(typed, ParseError) or typed.doubt is not None:
+    if isinstance(typed, ParseError) or typed.doubt is not None or not _has_equations(typed):
         try:
             return by_steps()
         except ParseError:
             if isinstance(typed, ParseError):
                 raise typed from None
     return replace(typed, others=(*typed.others, by_steps))
+
+
+def _has_equations(answer: Answer) -> bool:
+    """Whether an equation with accelerations stands in an answer: where only a program has some, that is judged."""
+    return any(x.kind == "equation" and accelerates(sp.sympify(x.residual)) for x in answer.lines)
 
 
 def _declared(text: str, model: Model, place: Place | None) -> Answer:

@@ -85,7 +85,10 @@ class Interpreter(Evaluator):
                 value = self.value(x, names)
                 self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
             return
+        before = set(self.used)
         value = self.value(s.value, names)
+        if called == "append" and call is not None and isinstance(call.func, ast.Attribute):
+            self.used -= {getattr(call.func.value, "id", "")} - before  # a list that is filled is not used by that
         if not isinstance(s.value, ast.Constant):
             self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
 

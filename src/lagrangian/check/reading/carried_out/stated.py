@@ -59,7 +59,12 @@ def carried_out(text: str, model: Model) -> str | None:
             tree = ast.parse(in_python(bare) if matlab else bare)
         run = Interpreter(matlab=matlab, known=lambda name: _is_constant(scope, name, model))
         names = run.run(tree)
-        found = [*_statements(run, _Rates(model, scope)), *_of_states(run, names, text, model, scope)]
+        found = list(_statements(run, _Rates(model, scope)))
+        try:
+            found += _of_states(run, names, text, model, scope)
+        except TROUBLES:  # a function of its own that returns no rates
+            if not any(_ACCELERATES.search(x) for _, x in found):
+                raise
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):

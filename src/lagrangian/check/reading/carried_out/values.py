@@ -119,10 +119,10 @@ def number(value: Value) -> int:
 
 
 def listed(value: Value) -> list[Value]:
-    """Return the entries of a list or a matrix."""
+    """Return the entries of a list or a matrix, and the names of a table."""
     if isinstance(value, MatrixBase):
         return value.flat()
-    if isinstance(value, (list, tuple)):
+    if isinstance(value, (list, tuple, dict)):
         return list(value)
     raise AbandonedError
 

@@ -3,6 +3,7 @@
 f = @(t, z) [z(2); …];        function dz = f(t, z)⏎ dz = [z(2); …];        the rates of a state
 A = @(z) [a, b; c, d];        A = [a, b; c, d];                             what depends on the state
 … A(z)\\h(z)                   … A\\h
+[t, z] = ode45(@(t, z) [z(2); …], …)          function dz = f(t, z)⏎ dz = [z(2); …];
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import re
 from itertools import islice
 
+from lagrangian.check.reading.programs.sessions import closes
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
 _NAME = r"[^\W\d]\w{0,23}+"
@@ -17,6 +19,11 @@ _HANDLE = re.compile(
     rf"^(?P<indent>[ \t]*+)(?P<name>{_NAME})[ \t]*+=[ \t]*+@\((?P<of>[\w ,~]{{1,60}}+)\)[ \t]*+(?P<list>\[)?",
     re.MULTILINE,
 )
+_SOLVES = re.compile(
+    r"^(?P<indent>[ \t]*+)[^=\n]{0,60}=[ \t]*+(?P<name>ode\w{1,6})\([ \t]*+@\((?P<of>[\w ,~]{1,60}+)\)[ \t]*+(?=\[)",
+    re.MULTILINE,
+)
+"""A function that is stated where a program solves it."""
 _CALL = re.compile(rf"(?<![\w.@])(?P<name>{_NAME})\((?P<of>[\w ,]{{1,60}}+)\)")
 _TIMES = frozenset(["t", "~", "tt", "time", "T", "tau"])
 MOST = 60
@@ -27,16 +34,21 @@ def without_handles(written: TracedText) -> TracedText:
     """Return an answer in which such functions are what they return; that of the rates of a state has a first line."""
     text, edits = written.text, list[Edit]()
     given: dict[str, list[str]] = {}
-    rates = False
+    rates, called = False, {m["name"] for m in islice(_CALL.finditer(text), 10 * MOST)}
     for match in islice(_HANDLE.finditer(text), MOST):
         of, end = _names(match["of"]), match.end() - len(match["list"] or "")
-        if match["list"] and len(of) > 1 and of[0] in _TIMES and not rates:
+        if match["list"] and len(of) > 1 and of[0] in _TIMES and not rates and match["name"] not in called:
             rates = True
             head = f"function d{of[1]} = {match['name']}({', '.join(of)})\n{match['indent']}d{of[1]} = "
             edits.append((match.start("name"), end, head))
         elif match["name"] not in given:
             given[match["name"]] = of
             edits.append((match.start("name"), end, f"{match['name']} = "))
+    for match in islice(_SOLVES.finditer(text), 0 if rates else 1):
+        if (end := closes(text, match.end())) > 0:
+            stop, state = text.find("\n", end), _names(match["of"])[-1]
+            head = f"function d{state} = {match['name']}({match['of']})\n{match['indent']}d{state} = "
+            edits += [(match.start(), match.end(), head), (end + 1, len(text) if stop < 0 else stop, ";")]
     calls = (m for m in islice(_CALL.finditer(text), 10 * MOST) if given.get(m["name"]) == _names(m["of"]))
     edits += [(m.end("name"), m.end(), "") for m in calls]
     return written.edited(apart(sorted(edits)))
