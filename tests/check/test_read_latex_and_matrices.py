@@ -155,3 +155,13 @@ def test_words_around_latex_without_delimiters_are_no_part_of_it(said: str) -> N
         .check(f"mL^2\\ddot\\theta + b\\dot\\theta\n{row.partition('=')[0]} = -2mgL \\sin\\theta")
         .right
     )
+
+
+def test_a_bold_letter_with_its_arguments_is_not_the_letter_of_the_system() -> None:
+    """g(q) as a column beside the g of gravity."""
+    answer = r"""$q=[x,\;\theta]^{\mathsf T}$, $\mathbf M(q)\ddot q+\mathbf g(q)=\mathbf f$ with
+\[ \mathbf M=\begin{bmatrix}M+m&ml\cos\theta\\ml\cos\theta&J+ml^2\end{bmatrix},\quad
+\mathbf g=\begin{bmatrix}0\\-mgl\sin\theta\end{bmatrix},\quad
+\mathbf f=\begin{bmatrix}F-b\dot x+ml\dot\theta^2\sin\theta\\0\end{bmatrix}. \]"""
+    assert derivation("cart-pole").check(answer).right
+    assert derivation("cart-pole").check(answer.replace("-mgl", "mgl")).status == "wrong"

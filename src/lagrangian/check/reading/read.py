@@ -10,7 +10,6 @@ from functools import partial
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents
-from lagrangian.check.reading.braces import with_round_brackets
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
@@ -175,13 +174,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
     rated, plain = called.text != plain.text, called if reading.rated else plain
     text = without_markup(plain.text)
     latex = bool(LATEX.search(text))
-    text = (
-        text
-        if latex
-        else dots_in_letters(
-            plain_format(with_round_brackets(text)), [c.name for c in model.coordinates], model.symbols
-        )
-    )
+    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     bullets, signed = Bullets(text, partial(_has_no_minus, lines)), text
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
