@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from student_answers import right
 
 
 @cache
@@ -86,3 +87,20 @@ def test_the_letter_of_an_energy_alone_is_the_function_that_is_stated(letter: st
     assert judged == ([True] if letter == "K" else [False])
     if letter == "K":
         assert not arm().check(answer.replace("2·m·R·l", "m·R·l")).right
+
+
+@pytest.mark.parametrize(
+    "slope",
+    [r"\frac{d h_c}{d\theta}", r"\dfrac{\mathrm{d}h_{c}}{\mathrm{d}\theta}", r"\frac{dh_c}{d \theta}", r"dh_c/d\theta"],
+)
+def test_a_slope_of_an_own_quantity_is_read_in_latex(slope: str) -> None:
+    written = rf"""$h_c = l\cos\theta$
+
+${slope} = -l\sin\theta$
+
+$(M+m)\ddot x + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta + b\dot x = F$
+
+$(J+ml^2)\ddot\theta + ml\ddot x\cos\theta - mgl\sin\theta = 0$"""
+    assert right(written)
+    assert not right(written.replace("= -l", "= l"))
+    assert not right(written.replace("- mgl", "+ mgl"))

@@ -168,3 +168,13 @@ def test_the_argument_of_a_fraction_is_one_letter_even_if_that_and_a_number_are_
     s.particle(m / 2 + m2, at=s.point("P", (x, 0)))
     s.spring(k, deflection=x)
     assert s.derive().check(rf"\left(m_2 + {half}\right)\ddot x + k x = 0").right == is_right
+
+
+def test_a_bold_letter_with_its_arguments_is_not_the_letter_of_the_system() -> None:
+    """g(q) as a column beside the g of gravity."""
+    answer = r"""$q=[x,\;\theta]^{\mathsf T}$, $\mathbf M(q)\ddot q+\mathbf g(q)=\mathbf f$ with
+\[ \mathbf M=\begin{bmatrix}M+m&ml\cos\theta\\ml\cos\theta&J+ml^2\end{bmatrix},\quad
+\mathbf g=\begin{bmatrix}0\\-mgl\sin\theta\end{bmatrix},\quad
+\mathbf f=\begin{bmatrix}F-b\dot x+ml\dot\theta^2\sin\theta\\0\end{bmatrix}. \]"""
+    assert derivation("cart-pole").check(answer).right
+    assert derivation("cart-pole").check(answer.replace("-mgl", "mgl")).status == "wrong"

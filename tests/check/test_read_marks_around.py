@@ -120,3 +120,14 @@ def test_a_dash_of_print_joins_the_words_of_a_label() -> None:
     answer = f"E–L for x: {CART}\nE–L for θ: {POLE}"
     assert right(answer)
     assert derivation("cart-pole").check(answer.replace("+ b x'", "- b x'")).status is Status.WRONG
+
+
+PULL = "m (x'' + l theta'' cos theta - l theta'^2 sin theta)"
+
+
+@pytest.mark.parametrize("last", ["**Pole:**", "The pole, with both put together:"])
+def test_a_line_with_a_bullet_below_words_is_one_of_a_list_like_others(last: str) -> None:
+    pole = "(J + m l^2) theta'' = m g l sin theta - m l x'' cos theta"
+    answer = f"**Cart:**\n\n- M x'' = F - b x' - H\n- H = {PULL}\n\n{last}\n\n- {pole}\n\nSo\n\n{CART}\n{POLE}"
+    assert right(answer)
+    assert not right(answer.replace("= m g", "= - m g"))

@@ -183,3 +183,32 @@ def test_an_energy_that_is_stated_twice_is_judged_twice(sheet: str) -> None:
     assert derivation("pendulum").check(f"{sheet}\n{PENDULUM}").right
     above, _, below = sheet.rpartition("L^2")
     assert not derivation("pendulum").check(f"{above}L{below}\n{PENDULUM}").right
+
+
+ALL_FORCES = "Q_x = F - b x', Q_theta = m g l sin theta"
+GIBBS = "S = 1/2 M x''^2 + 1/2 (J + m l^2) theta''^2 + m l x'' theta'' cos theta\n"
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        f"{GIBBS}{ALL_FORCES}\n{CART}\n{POLE}",
+        f"{GIBBS}{ALL_FORCES}   [from V = m g l cos theta]\ndS/dx'' = Q_x\n{CART}\ndS/dtheta'' = Q_theta\n{POLE}",
+        f"Virtual work of all forces: {ALL_FORCES}\n{CART}\n{POLE}",
+        f"V = m g l cos theta\n{ALL_FORCES}\nd/dt dT/dtheta' - dT/dtheta = Q_theta\n{CART}\n{POLE}",
+    ],
+)
+def test_forces_with_those_of_the_potential_are_right_where_nothing_else_accounts_for_it(sheet: str) -> None:
+    pole = derivation("cart-pole")
+    assert pole.check(sheet).right
+    assert not pole.check(sheet.replace("Q_theta = m", "Q_theta = - m")).right
+    assert not pole.check(sheet.replace("- m g l sin", "+ m g l sin")).right
+    assert not pole.check(
+        f"L = 1/2 (M + m) x'^2 + m l x' theta' cos theta - m g l cos theta + 1/2 (J + m l^2) theta'^2\n{sheet}"
+    ).right
+
+
+def test_a_potential_above_such_forces_counts_its_forces_twice() -> None:
+    pole = derivation("cart-pole")
+    assert not pole.check(f"V = m g l cos theta\n{ALL_FORCES}\n{CART}\n{POLE}").right
+    assert not pole.check(f"{ALL_FORCES}\nd/dt dL/dtheta' - dL/dtheta = Q_theta\n{CART}\n{POLE}").right

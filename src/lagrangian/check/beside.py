@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import cast
@@ -27,6 +28,11 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
+
+_D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
+_SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
+"""A derivative on the left: dI/dθ = …, which is said of all positions unless it is zero."""
+_ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 
 
 def beside(
@@ -62,6 +68,8 @@ def beside(
 
 def _place(truth: Reference, line: AnsweredLine, wrong: Sequence[AnsweredLine]) -> str | None:
     """Why a line about positions is not about every motion, with what else its line says: τ = 0, F = m g."""
+    if _SLOPE.match(line.text) and not _ZERO.search(line.text):
+        return None
     given = [x.expr for x in wrong if x.number == line.number and x is not line]
     return place_or_approximation(truth, line.expr, line.text, given, said="rest" in line.beside)
 

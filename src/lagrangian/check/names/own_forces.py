@@ -10,7 +10,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.reading import generalized_force, of_coordinate
+from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
@@ -41,7 +43,9 @@ def with_own_forces(
     """
     wrong = [f.line for f in verdict.findings if f.status is Status.WRONG]
     equations = [line for line in lines if line.kind == "equation"]
-    forces = [x for x in wrong if x.kind == "Xi" and "Ξ" not in x.text and _is_used(x, equations)]
+    applied = _hold_all_forces(truth, lines, written)
+    stated = [x for x in wrong if x.kind == "Xi" and "Ξ" not in x.text]
+    forces = [x for x in stated if applied or _is_used(x, equations)]
     if verdict.status is not Status.WRONG or not forces:
         return None
     moved = [x for x in forces if _has_moved_terms(truth, x)]
@@ -53,7 +57,28 @@ def with_own_forces(
         return tuple(replace(x, kind="definition") if x.kind == "Xi" and str(x.name) in names else x for x in given)
 
     sure = bool(moved) and len(moved) == len(forces)
-    return OwnForces(own(lines), own(written), _read_as_own(forces), sure) if forces else None
+    note = text(f"{_listed(forces)} was read as all forces, with those of V.") if applied else _read_as_own(forces)
+    return OwnForces(own(lines), own(written), note, sure) if forces else None
+
+
+def _hold_all_forces(truth: Reference, read: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> bool:
+    """Whether every Q_i of an answer is Ξ_i − ∂V/∂ξ_i, as with T alone, Gibbs's function or virtual work, and nothing
+    else accounts for V: no L, and a V above them only where a statement says what they are equal to."""
+    mine = [x for x in lines if x.kind == "Xi"]
+    places = {c.name: i for i, c in enumerate(truth.model.coordinates)}
+    if not mine or truth.derivation.multipliers or any(x.name not in places for x in mine):
+        return False
+    lagrangian = str(ENERGIES["L"].func)
+    if any(x.kind in ("L", "slope") or lagrangian in str(x.expr) for x in (*read, *lines)):
+        return False
+    equal = any(x.kind == "statement" and x.expr.has(generalized_force(str(y.name))) for x in read for y in mine)
+    if not equal and any(x.kind == "V" and x.number < min(y.number for y in mine) for x in lines):
+        return False
+    return all(zero_everywhere(truth, x.expr - _whole_force(truth, places[str(x.name)])) for x in mine)
+
+
+def _whole_force(truth: Reference, i: int) -> sp.Expr:
+    return truth.Xi[i] - bounded.diff(truth.V, truth.model.coordinates[i].symbol)
 
 
 def without_own_names(
@@ -71,9 +96,11 @@ def without_own_names(
 
 
 def _read_as_own(lines: Sequence[AnsweredLine]) -> Text:
-    listed = list(dict.fromkeys(f"'{x.text}'" if len(x.text) <= LONGEST else f"Line {x.number}" for x in lines))
-    table = [x for line in listed for x in (line, ", ")][:-1]
-    return text(*table, " was read as a name of your own; as Ξ it would be wrong.")
+    return text(f"{_listed(lines)} was read as a name of your own; as Ξ it would be wrong.")
+
+
+def _listed(lines: Sequence[AnsweredLine]) -> str:
+    return ", ".join(dict.fromkeys(f"'{x.text}'" if len(x.text) <= LONGEST else f"Line {x.number}" for x in lines))
 
 
 def _is_used(line: AnsweredLine, equations: Sequence[AnsweredLine]) -> bool:

@@ -22,6 +22,9 @@ _QUANTITY = re.compile(r"\s*(?:\\d{0,2}dot)?[\s{]*\\?[^\W\d_]\w*(?:\{\w{1,20}\})
 _BEFORE = re.compile(r"(?:([^\W\d_]+)|[\w*/+^·×=)\]}'−-])[ \t]*\Z")
 """What makes something a factor or a term, and no beginning of a statement; a word of several letters does not."""
 
+_BOLD = frozenset(["mathbf", "boldsymbol", "bm", "pmb", "vec", "underline"])
+r"""What makes another name of a letter: \mathbf g(q) is a column, beside the g of the system."""
+
 _MATRIX = re.compile(r"\s*(?:\[|\\begin|\\left)")
 
 _RATES = frozenset(["dot", "ddot", "der"])
@@ -190,7 +193,7 @@ def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str]
     for match in _STATED.finditer(text):
         name, of = written(match["name"]), written(match["of"].removeprefix("\\left"))
         before = _BEFORE.search(text, max(0, match.start() - 40), match.start())
-        first = before is None or (before[1] is not None and len(before[1]) > 1)
+        first = before is None or (before[1] is not None and len(before[1]) > 1 and before[1] not in _BOLD)
         listed = [x for x in re.split("[,;]", of[1:-1]) if x]
         end = _VALUE_END.search(text, match.end())
         value = text[match.end() : len(text) if end is None else end.start()]

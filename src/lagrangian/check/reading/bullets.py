@@ -64,6 +64,7 @@ class Bullets:
             lists = [every]
         else:
             lists = [x for x in self._paragraphs() if not self._are_signs() and self._are_list(x)]
+            lists += self._introduced(lists, marked=marked)
         if any(map(self._may_be_signs, lists)):
             notes.setdefault("The sign at the beginning of lines was read as that of a list.")
         return self._blanked([*self._beside_sure_ones(), *(k for x in lists for k in x)])
@@ -96,6 +97,19 @@ class Bullets:
     def _are_signs(self) -> bool:
         """Whether lines that may begin with a minus are those of a program that puts a blank behind it."""
         return any(map(_PRINTED.search, self._lines)) and self._may_be_signs(range(len(self._lines)))
+
+    def _introduced(self, lists: Sequence[range], *, marked: bool) -> list[range]:
+        """Paragraphs of one line with an equals sign that are lists like the others, by what stands above them, words
+        with a colon at their end: **Roller:** and a line with a bullet. Without ``lists`` they must be several, in an
+        answer that uses Markdown elsewhere (``marked``)."""
+        marks = {self._marks[k] for x in lists for k in x if self._marks[k]}
+        found = [x for x in self._paragraphs() if x not in lists and self._is_introduced(x)]
+        alike = marks if marks or not marked or len(found) < 2 else {self._marks[x[0]] for x in found}
+        return [x for x in found if self._marks[x[0]] in alike] if not self._are_signs() and len(alike) == 1 else []
+
+    def _is_introduced(self, places: range) -> bool:
+        above = next((line for line in reversed(self._lines[: places[0]]) if line.strip()), "")
+        return above.rstrip(" \t*_").endswith(":") and self._are_list(places, marked=True)
 
     def _are_list(self, places: Sequence[int], *, marked: bool = False) -> bool:
         """Whether several lines with an equals sign begin with the same bullet, and none without; one if Markdown is

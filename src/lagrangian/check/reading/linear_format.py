@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from lagrangian.check.reading.braces import with_round_brackets
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 from lagrangian.read.letters import key
@@ -50,6 +51,7 @@ _MAX = 400
 
 def plain_format(text: str) -> str:
     """Return an answer with the linear format written in plain text."""
+    text = with_round_brackets(text)
     if "■" in text or "█" in text:
         text = _arrays(text).translate(_DELIMITERS)
     if "⎡" in text:

@@ -12,7 +12,6 @@ import sympy as sp
 
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents
-from lagrangian.check.reading.braces import with_round_brackets
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import plainer
@@ -232,13 +231,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     plain, comments = _with_comments(called if reading.rated else plain, reading)
     text = without_markup(plain.text)
     latex = bool(LATEX.search(text))
-    text = (
-        text
-        if latex
-        else dots_in_letters(
-            plain_format(with_round_brackets(text)), [c.name for c in model.coordinates], model.symbols
-        )
-    )
+    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
     bullets, signed = Bullets(text, partial(_has_no_minus, lines)), text
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
