@@ -95,7 +95,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
-    tagless = with_primes_as_slopes(tagless, names.changes, latex=latex)
+    tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")

@@ -18,6 +18,7 @@ from itertools import islice
 
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
 from lagrangian.check.reading.programs.entered import with_entries_together
+from lagrangian.check.reading.programs.handles import without_handles
 from lagrangian.check.reading.programs.sessions import MOST, closes
 from lagrangian.check.reading.programs.slices import with_states_one_by_one
 from lagrangian.check.reading.prose.words import function_of
@@ -29,7 +30,12 @@ _RATE = rf"{_WORD}['’′]{{0,2}}"
 _CALL = r"(?:\w{1,8}\.)?(?:array|asarray|Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix)\("
 _ARRAY = re.compile(rf"(?<![\w.\\{{]){_CALL}(?=\s*+\[)")
 _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
-_MARK = re.compile(r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)")
+_MARK = re.compile(
+    r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)"
+    r"|(?<=[\w)\]'])(?P<row>[ \t]*+(?:%[^\n]*+)?\n[ \t]*+(?=[\w(\[-]))"
+)
+_MATLAB = re.compile(r"^[ \t]*+function[ \t]|=[ \t]*+@\(", re.MULTILINE)
+"""A function of MATLAB, in which the end of a line ends a row of a matrix."""
 _FACTOR = r"[^\W\d]\w{0,23}+|\([^()\n=]{1,200}\)"
 _SOLVED = re.compile(
     rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}}(?:[ \t]*+,[ \t]*+{_NAME}){{0,8}})[ \t]*+=[ \t]*+(?:"
@@ -69,7 +75,8 @@ LONGEST = 400
 def with_whole_matrices(written: TracedText) -> TracedText:
     """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
     written = written.sub(_EQUATES, lambda m: " = ") if _JULIA.search(written.text) else written
-    written = with_states_one_by_one(with_entries_together(written.edited(_continued(written.text))))
+    written = with_entries_together(without_handles(written.edited(_continued(written.text))))
+    written = with_states_one_by_one(written)
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
     written = written.sub(_RETURNED, lambda m: f"{m['before']}qdd = ") if given else written
@@ -106,13 +113,13 @@ def with_equations_in_comments(written: TracedText, taken: Callable[[str], bool]
 
 
 def _continued(text: str) -> Iterator[Edit]:
-    """Blanks for the marks with which a line of a matrix goes on below."""
-    depth = 0
+    """Blanks for the marks with which a line of a matrix goes on below, and semicolons for the ends of rows."""
+    depth, rows = 0, _MATLAB.search(text) is not None
     for match in _MARK.finditer(text):
         mark = match.group()
-        if match["more"]:
-            if depth:
-                yield *match.span(), " "
+        if match["more"] or match["row"]:
+            if depth and (match["more"] or rows):
+                yield *match.span(), " " if match["more"] else "; "
         else:
             depth = depth + 1 if mark == "[" else max(0, depth - 1) if mark == "]" else 0
 
