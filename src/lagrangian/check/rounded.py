@@ -165,9 +165,8 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
             few = list(own.items())[:MAX_COEFFICIENTS]
             found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
     found.update({value: float(value) for value in truth.values.values() if value.is_number})
-    held: set[sp.Basic] = set().union(*(d.expression.free_symbols for d in truth.model.definitions if d.moving))
-    if held & truth.values.keys():  # in the rows with prescribed motions in letters, the factors of these are numbers
-        left = {p: v for p, v in truth.values.items() if p not in held}
+    if truth.prescribed & truth.values.keys():  # where A and Ω stay letters, the factor of φ̈ is a number of its own
+        left = {p: v for p, v in truth.values.items() if p not in truth.prescribed}
         found |= {exact: value for value, exact in coefficients(truth_of(truth.derivation).with_values(left))}
     return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
 
