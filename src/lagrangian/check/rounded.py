@@ -80,7 +80,7 @@ def is_rounded(number: sp.Expr, value: float) -> bool:
 
 def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     """Whether a sum is the right one, with numbers that may be rounded."""
-    meant, _ = _right_line(expr, lambda: [_sums(bounded.expand(right))])
+    meant, _ = _right_line(expr, lambda: [{k: x for k, x in _sums(bounded.expand(right)).items() if x}])
     return bounded.expand(meant - right) == 0
 
 
@@ -95,7 +95,7 @@ def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Ex
         return expr, set()
     if any(_last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
         return _divided(expr, own, rights())
-    units = {abs(x): unit for x in numbers if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+    units: dict[Any, float] = {abs(x): u for x in numbers if (u := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
     for right in rights() if units else ():
         if right.keys() != own.keys():
             continue
