@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 
@@ -42,6 +43,48 @@ def drum() -> lg.Derivation:
     s.spring(k=k, deflection=y - R * phi)
     s.torque(s.inputs("tau"), on=phi)
     return s.derive()
+
+
+@cache
+def helicopter() -> lg.Derivation:
+    """A pendulum that a rotor F raises, and a disc that its drag c F turns and a second rotor P holds."""
+    s = lg.System("helicopter")
+    theta, psi = s.coordinates("theta psi")
+    J, m, l, c, d, g = s.parameters("J m l c d g")
+    F, P = s.inputs("F P")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(psi, name="disc"), name="disc")
+    s.particle(m, at=s.point("ballast", (l * sp.sin(theta), -l * sp.cos(theta))))
+    s.gravity((0, -1), g)
+    s.torque(l * F, on=theta)
+    s.torque(d * P - c * F, on=psi)
+    return s.derive()
+
+
+FLIES = "m l^2 theta'' + m g l sin(theta) = l F\nJ psi'' = d P - c F\n\n"
+
+
+@pytest.mark.parametrize(
+    ("line", "right"),
+    [
+        ("Rest with psi constant: F = m g sin(theta) and P = c F/d", True),
+        ("At rest: l F = m g l sin(theta), d P = c F", True),
+        ("Hovering at theta requires F = m g sin(theta), P = c m g sin(theta)/d.", True),
+        ("One needs F = m g sin(theta) to hold it there.", True),
+        ("Static: m g sin(theta) = F", True),
+        ("Hover: F = m g cos(theta)", False),
+        ("One needs P = -c F/d to hold it there.", False),
+        ("One needs F = m g sin(theta) + c theta' to hold it there.", False),
+        ("m g l sin(theta) = l F", False),  # nothing says that it is about rest
+    ],
+)
+def test_what_inputs_hold_a_position(line: str, right: bool) -> None:
+    assert helicopter().check(FLIES + line).right is right
+
+
+def test_what_inputs_hold_does_not_stand_for_an_equation_of_motion() -> None:
+    rows = FLIES.replace("m l^2 theta'' + ", "")
+    assert not helicopter().check(rows + "At rest: F = m g sin(theta)").right
+    assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d").right
 
 
 @pytest.mark.parametrize(

@@ -93,3 +93,46 @@ def test_a_t_with_the_letters_of_two_bodies_is_the_whole(swing: lg.Derivation, l
 def test_what_is_no_energy_has_no_name(swing: lg.Derivation, line: str) -> None:
     found = parse_answer(f"{line}\n{ROWS}", swing.model)
     assert not [x for x in found.lines if x.kind in ("definition", "T", "V")]
+
+
+WHEEL = "T_wheel = 1/2 J phi'^2"
+
+
+@pytest.mark.parametrize(
+    ("wheel", "rod", "right"),
+    [
+        (WHEEL, f"T_rod = {ROD}", True),
+        (WHEEL, "T_rod = 1/24 m l^2 theta'^2", True),  # of its rotation alone
+        (WHEEL, f"T_rod = {SLIP}", True),  # of its translation alone
+        ("T_wheel = J phi'^2", f"T_rod = {ROD}", False),
+        (WHEEL, "T_rod = 1/6 m l^2 theta'^2", False),
+        (WHEEL, "T_rod = 1/2 m R^2 phi'^2", False),
+        ("T_wheel = tau - b phi'", f"T_rod = {ROD}", True),  # a torque
+        (WHEEL, "V_rod = -m g (R cos(phi) + l/2 cos(theta))", True),
+        (WHEEL, "V_rod = m g (R + l - R cos(phi) - l/2 cos(theta))", True),  # from the lowest place
+        (WHEEL, "V_rod = m g (R cos(phi) + l/2 cos(theta))", False),
+        (WHEEL, "V_rod = -m g (R cos(phi) + l cos(theta))", False),
+        ("V_wheel = 1/2 k R^2 phi^2", f"T_rod = {ROD}", True),
+        ("T_wheel = 1/2 J phi'^2 + 1/6 m l^2 theta'^2", f"T_rod = {ROD} - 1/6 m l^2 theta'^2", True),  # T* in all
+    ],
+)
+def test_the_energy_of_a_body_that_nothing_uses_is_judged_by_its_name(
+    swing: lg.Derivation, wheel: str, rod: str, right: bool
+) -> None:
+    assert swing.check(f"{wheel}\n{rod}\n{ROWS}").right == right
+
+
+def test_a_wrong_energy_of_a_body_explains_the_equations(swing: lg.Derivation) -> None:
+    verdict = swing.check(f"T_wheel = J phi'^2\nT_rod = {ROD}\n{ROWS.replace('(J +', '(2 J +')}")
+    first, *others = (f for f in verdict.findings if not f.status.right)
+    assert first.line.number == 1 and not first.follows and all(f.follows for f in others) and others
+    assert "kinetic energy of rigid body 'wheel'" in str(verdict.mistakes[0].what)
+
+
+def test_energies_of_parts_alone_are_no_answer(swing: lg.Derivation) -> None:
+    potential = "V = 1/2 k (R phi)^2 - m g (R cos(phi) + l/2 cos(theta))"
+    for parts in (WHEEL, f"{WHEEL}\nT_rod = {ROD}", "E1 = 1/2 J phi'^2", "K_w = 1/2 J phi'^2"):
+        verdict = swing.check(f"{parts}\n{potential}")
+        assert verdict.status == "incomplete" and any("No line states" in str(note) for note in verdict.notes)
+    assert swing.check(potential).right  # the answer to a question about V
+    assert swing.check(f"{WHEEL}\nT = 1/2 J phi'^2 + {ROD}\n{potential}").right

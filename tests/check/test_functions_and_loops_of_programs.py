@@ -71,6 +71,10 @@ eq1 = lagrange(x, F)
 eq2 = lagrange(th, -b*thd)""",
     "loop": """for q, Q in zip([x, th], [F, -b*thd]):
     print(sp.simplify(L.diff(q.diff(t)).diff(t) - L.diff(q) - Q))""",
+    "table": """fric = b*thd
+Q = {x: F, th: -fric}
+for q in Q:
+    print(sp.simplify(L.diff(q.diff(t)).diff(t) - L.diff(q) - Q[q]))""",
     "list": "eqs = [sp.simplify(L.diff(q.diff(t)).diff(t) - L.diff(q) - Q) for q, Q in [(x, F), (th, -b*thd)]]",
     "places": """qs = [x, th]
 Qs = [F, -b*thd]

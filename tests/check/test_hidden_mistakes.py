@@ -92,3 +92,51 @@ def test_an_equation_of_motion_in_a_comment_is_told(mark: str) -> None:
     assert told(f"{mark} the equations of the cart\n{ROWS}") == []
     (note,) = told(f"{ROWS}\n{mark} (M + m) x'' = F")
     assert "(M + m) x'' = F" in note and "comment" in note
+
+
+ENERGIES = """T = 1/2 (M + m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2
+V = m g l cos(theta)"""
+WRONG_ROWS = ROWS.replace("+ b x'", "- b x'")
+
+
+def commented(rows: str, mark: str) -> str:
+    """Equations in comments."""
+    return "\n".join(f"{mark} {row}" for row in rows.splitlines())
+
+
+@pytest.mark.parametrize("mark", ["#", "%", "//", "##  and"])
+def test_equations_that_only_comments_state_are_read(mark: str) -> None:
+    (first, *_) = told(f"{ENERGIES}\n{commented(ROWS, mark)}")
+    assert "was read, though it is a comment" in first
+    assert not CART.check(f"{ENERGIES}\n{commented(WRONG_ROWS, mark)}").right
+    assert not CART.check(commented(WRONG_ROWS, mark)).right
+    assert told(f"{ROWS}\n{commented(WRONG_ROWS, mark)}")  # where a line states them, a comment is none
+
+
+def test_comments_in_brackets_behind_lines_and_over_several_lines_are_read() -> None:
+    for rows, is_right in ((ROWS, True), (WRONG_ROWS, False)):
+        above, below = rows.splitlines()
+        over = above.replace(" - m l theta'^2", "\n#    - m l theta'^2")
+        assert CART.check(f"{ENERGIES}\n(* the result:\n{rows} *)").right == is_right
+        assert CART.check(f"{ENERGIES}   # {above}\n# and {below}").right == is_right
+        assert CART.check(f"{ENERGIES}\n# of x:\n#  {over}\n# of theta:\n#  {below}").right == is_right
+    assert not CART.check(f"{ENERGIES}\n# ddx = (F - b*dx)/(M + m)").right
+
+
+def test_accelerations_that_a_function_returns_are_judged() -> None:
+    program = """def accelerations(x, theta, xd, thetad, F):
+    A = np.array([[M + m, m*l*np.cos(theta)], [m*l*np.cos(theta), J + m*l**2]])
+    f = np.array([F - b*xd + m*l*np.sin(theta)*thetad**2, m*g*l*np.sin(theta)])
+    return np.linalg.solve(A, f)"""
+    assert CART.check(program).right
+    assert not CART.check(program.replace("F - b*xd", "F + b*xd")).right
+    assert not CART.check(f"# T = 1/2*M*x'^2\n{program}".replace("m*g*l*", "-m*g*l*")).right
+
+
+def test_matrices_that_no_equation_uses_lack_it() -> None:
+    """A position that nothing uses takes nothing away from T* and V."""
+    matrix, column = "A = [M + m, m l cos(theta); m l cos(theta), J + m l^2]", "f = [F + b x'; m g l sin(theta)]"
+    for said in (matrix, column, f"{matrix}\n{column}"):
+        assert CART.check(f"{ENERGIES}\n{said}").status == "incomplete"
+    assert told(f"{ENERGIES}\nr_1 = (x, 0)")
+    assert not CART.check(f"{ENERGIES}\n{matrix}\n{column}\nA q'' = f").right

@@ -183,3 +183,36 @@ def test_a_greek_letter_in_a_formula_is_not_split_at_a_word_of_the_sentence() ->
     swing, row = sys.derive(), "m*a^2*theta'' + m*g*a*sin(theta) = 0"
     assert swing.check(f"I call the angle of the rod theta.\n{row}").right
     assert not swing.check(f"I call the angle of the rod theta.\n{row.replace('g', '2*g')}").right
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "With G for m1 + m2 the energy is",
+        "Writing G for m1 + m2, we get",
+        "With the abbreviation G for m1 + m2:",
+        "Denote m1 + m2 by G.",
+    ],
+)
+def test_a_letter_for_a_sum_is_read(said: str) -> None:
+    answer = f"{said}\nT = G x'^2/2 + m2 (y'^2 - x'^2)/2\n{SHEET}"
+    assert carts().check(answer).right
+    assert not carts().check(answer.replace("m1 + m2", "m1 + 2 m2")).right
+
+
+def test_powers_and_products_without_signs_stand_in_such_a_sum() -> None:
+    pendulum = derivation("pendulum")
+    answer = "With I for mL² the equation is\nI theta'' + b theta' + m g L sin(theta) = 0"
+    assert pendulum.check(answer).right and not pendulum.check(answer.replace("mL²", "2 mL²")).right
+
+
+def test_a_direction_is_no_value() -> None:
+    """H is the friction in $+x$: H is not x."""
+    answer = "The friction $H$ acts on the cart, it is counted in $SIGNx$.\n$$m_1 \\ddot x = F - k (x - y) - H$$\n"
+    rows = (
+        r"$$m_1\ddot x + k (x - y) + c(\dot x - \dot y) = F$$"
+        "\n"
+        r"$$m_2 \ddot y + k (y - x) + c (\dot y - \dot x) = 0$$"
+    )
+    for sign in ("+", "-"):
+        assert carts().check(answer.replace("SIGN", sign) + rows).right

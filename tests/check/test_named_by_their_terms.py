@@ -280,3 +280,40 @@ def test_a_wrong_velocity_is_told_by_rates() -> None:
     s.gravity((0, -1), g)
     said = first(s.derive(), "T = m*(x'^2 + (x' + l*sin(theta)*theta')^2)/2\nV = m*g*(x - 2*l*cos(theta))")
     assert "l*sin(theta)*theta' stands in place of 2*l*sin(theta)*theta'" in said, said
+
+
+@cache
+def turning() -> lg.Derivation:
+    """Two masses on a rod that nods on a turntable."""
+    s = lg.System("nodding rod")
+    theta = s.coordinates("theta")
+    m, M, l, R, Omega, g = s.parameters("m M l R Omega g")
+    for mass, arm, name in ((m, l, "near"), (M, -R, "far")):
+        along = arm * sp.cos(theta)
+        at = (along * sp.cos(Omega * time), along * sp.sin(Omega * time), arm * sp.sin(theta))
+        s.particle(mass, at=s.point(name, at), name=name)
+    s.gravity((0, 0, -1), g)
+    return s.derive()
+
+
+TURNING = """T = (m*l^2 + M*R^2)*(theta'^2 + Omega^2*cos(theta)^2)/2
+V = (m*l - M*R)*g*sin(theta)"""
+SLOPE = "(m*l^2 + M*R^2)*Omega^2*sin(theta)*cos(theta)"
+
+
+@pytest.mark.parametrize(("sign", "is_right"), [("-", True), ("+", False)])
+def test_no_mistake_is_placed_in_an_energy_that_is_right(sign: str, is_right: bool) -> None:
+    """The sign of the derivative of a cosine is wrong, in the terms of both masses; T* has its cosine."""
+    verdict = turning().check(f"{TURNING}\ndT/dtheta = {sign}{SLOPE}")
+    assert verdict.findings[2].status.right == is_right
+    if not is_right:
+        (mistake,) = verdict.mistakes
+        assert mistake.step == 5 and "has the wrong sign" in str(mistake.what)
+        assert "stands in place of" not in str(mistake.what)
+
+
+@pytest.mark.parametrize("above", ["", TURNING])
+def test_a_slip_in_l_below_energies_that_are_right_is_made_there(above: str) -> None:
+    written = "L = (m*l^2 + M*R^2)*(theta'^2 + Omega^2*sin(theta)^2)/2 - (m*l - M*R)*g*sin(theta)"
+    said = first(turning(), f"{above}\n{written}")
+    assert said.startswith("Not above, where it is right, but in line 3") == bool(above), said

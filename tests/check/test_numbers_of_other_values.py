@@ -86,3 +86,30 @@ def test_the_whole_expression_in_front_of_a_listed_value_has_it() -> None:
     assert right(f"{values}\n{CART}\n{POLE}")
     for number in ("3.53", "0.588", "2.2 and", "0.018", "1.96"):
         assert not right(f"{values.replace(number, '4' + number[1:])}\n{CART}\n{POLE}")
+
+
+@pytest.mark.parametrize(("said", "holds"), [("y = x - 0.1 theta", True), ("y = x - 0.2 theta", False)])
+def test_a_name_of_the_system_may_be_said_in_numbers(said: str, holds: bool) -> None:
+    system = """
+name = "drum and box"
+[coordinates]
+x = "box"
+theta = "drum"
+[parameters]
+J = "2 kg*m^2"
+m = "3 kg"
+k = "50 N/m"
+R = "0.1 m"
+[define]
+y = "x - R*theta"
+[[kinetic]]
+value = "J*theta'^2/2 + m*x'^2/2"
+[[spring]]
+k = "k"
+deflection = "y"
+"""
+    drum = loads(system).derive()
+    rows = "3 x'' + 50 y = 0\n2 theta'' - 5 y = 0"
+    assert drum.check(f"{said}\n{rows}").right == holds
+    assert not drum.check(f"{said}\n{rows.replace('- 5', '- 0.5')}").right
+    assert not drum.check(f"{said}\n{rows.replace('50', '5')}").right

@@ -4,6 +4,12 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.check import lines_of
+from lagrangian.check.explain.reasoned import with_bodies
+from lagrangian.check.reading import parse_answer
+from lagrangian.check.reference import truth_of
+from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.page.formula import text
 from student_answers import CART, POLE, right
 
 
@@ -257,3 +263,68 @@ def test_what_multiplies_an_acceleration_has_its_verdict(crane: lg.Derivation, s
 def test_the_square_of_a_dotted_column_is_that_of_its_length(velocity: str, sign: str, is_right: bool) -> None:
     answer = f"P = (x + l sin(θ), l cos(θ))\n{velocity}Ṗ² = ẋ² {sign} 2 l ẋ θ̇ cos(θ) + l² θ̇²"
     assert right(f"{answer}\n{CART}\n{POLE}") == is_right
+
+
+@pytest.mark.parametrize(
+    ("said", "reason"),
+    [
+        ("J phi'^2/2", "½mv² of rigid body 'rod' is missing."),
+        ("m/2 (x'^2 + l^2/4 phi'^2) + J phi'^2/2", "The velocities of rigid body 'rod' were squared one by one"),
+        ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2)", "½Jω² of rigid body 'rod' is missing."),
+        ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2) + J phi'^2", "The ½ of ½Jω² of rigid body 'rod' is missing."),
+        ("m/2 (x'^2 + l x' phi' cos(phi) + l^2/4 phi'^2) + J x' phi'", None),
+    ],
+)
+def test_why_the_energy_of_a_body_came_out_wrong(crane: lg.Derivation, said: str, reason: str | None) -> None:
+    """The formulas are told as well; a term that nothing explains has no reason."""
+    energies = f"T_trolley = M x'^2/2\nT_rod = {said}"
+    (mistake,) = crane.check(f"{energies}\nT = T_trolley + T_rod\nV = -m g l/2 cos(phi)").mistakes
+    words = str(mistake.what)
+    assert words.startswith("Line 2 is not right: the kinetic energy of rigid body 'rod' is ")
+    assert (f"A possible reason: {reason}" in words) if reason is not None else ("reason" not in words)
+
+
+@pytest.fixture(scope="module")
+def bar() -> lg.Derivation:
+    """A uniform bar that hangs from one end."""
+    s = lg.System("bar")
+    phi = s.coordinates("phi")
+    m, l = s.parameters("m l")
+    at = s.point("S", (l / 2 * sp.sin(phi), -l / 2 * sp.cos(phi)))
+    s.rigid_body(m, m * l**2 / 12, at=at, frame=s.frame(phi, name="bar"), name="bar")
+    s.gravity()
+    return s.derive()
+
+
+@pytest.mark.parametrize(("name", "about_pivot"), [("J_S", False), ("J_G", False), ("J_O", True), ("J", True)])
+def test_the_index_of_the_centre_says_about_which_axis_it_is(bar: lg.Derivation, name: str, about_pivot: bool) -> None:
+    """J_S = m l²/3 is wrong where ½mv² stands beside it; J_O is right, and what uses it is wrong."""
+    verdict = bar.check(f"{name} = m l^2/3\nT = m l^2/8 phi'^2 + {name} phi'^2/2\nV = -m g l/2 cos(phi)")
+    assert found(verdict) == [(1, about_pivot, False), (2, False, not about_pivot), (3, True, False)]
+    inertia = "Line 1 is not right: the moment of inertia of rigid body 'bar' is l^2*m/12, not l^2*m/3."
+    twice = "Rigid body 'bar' has J about its pivot and ½mv² as well."
+    assert str(verdict.mistakes[0].what) == (twice if about_pivot else inertia)
+
+
+@pytest.mark.parametrize("name", ["J_S", "J_O"])
+def test_a_moment_of_inertia_that_is_used_rightly_is_not_wrong(bar: lg.Derivation, name: str) -> None:
+    assert bar.check(f"{name} = m l^2/3\n{name} phi'' + m g l/2 sin(phi) = 0").right
+
+
+def test_a_wrong_energy_that_nothing_uses_is_told_in_place_of_what_else_would_explain_it(crane: lg.Derivation) -> None:
+    truth = truth_of(crane)
+    (line,) = (x for x in lines_of(parse_answer("T_rod = m x'^2 + J phi'^2/2", crane.model)) if x.kind == "definition")
+    other = [Mistake("lost", text(name), text(""), step, name) for name, step in (("rigid body 'rod'", 2), ("F", 6))]
+    first, second = with_bodies(truth, [Finding(line, Status.WRONG)], other)
+    assert str(first.what).startswith("Line 1 is not right: the kinetic energy of rigid body 'rod' is ")
+    assert second is other[1]
+    assert with_bodies(truth, [Finding(line, Status.WRONG)], [first]) == (first,)
+    assert with_bodies(truth, [Finding(line, Status.RIGHT)], other) == tuple(other)
+
+
+def test_of_two_likely_reasons_both_are_told(bar: lg.Derivation) -> None:
+    """m l²/4 φ̇² too much is ½mv² without its ½, and J about the pivot beside ½mv²."""
+    answer = "T_bar = 7/24 m l^2 phi'^2\nT = T_bar\nV = -m g l/2 cos(phi)"
+    words = str(bar.check(answer).mistakes[0].what)
+    first, _, second = words.partition(" A possible reason: ")[2].partition(" Or: ")
+    assert sorted(["½" in first and "missing" in first, "about its pivot" in second]) == [True, True], words

@@ -5,6 +5,7 @@ Oracle: the equations of the built-in examples, written by hand.
 
 import pytest
 
+import lagrangian as lg
 from built_in import derivation
 
 ONE = r"mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0"
@@ -155,3 +156,15 @@ def test_words_around_latex_without_delimiters_are_no_part_of_it(said: str) -> N
         .check(f"mL^2\\ddot\\theta + b\\dot\\theta\n{row.partition('=')[0]} = -2mgL \\sin\\theta")
         .right
     )
+
+
+@pytest.mark.parametrize(("half", "is_right"), [(r"\frac m2", True), (r"\frac{m}{2}", True), (r"\frac m3", False)])
+def test_the_argument_of_a_fraction_is_one_letter_even_if_that_and_a_number_are_a_name(
+    half: str, is_right: bool
+) -> None:
+    s = lg.System("two masses")
+    x = s.coordinate("x")
+    m, m2, k = s.parameters("m m2 k")
+    s.particle(m / 2 + m2, at=s.point("P", (x, 0)))
+    s.spring(k, deflection=x)
+    assert s.derive().check(rf"\left(m_2 + {half}\right)\ddot x + k x = 0").right == is_right

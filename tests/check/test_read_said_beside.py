@@ -264,3 +264,17 @@ def test_equations_in_latex_beside_delimited_mathematics_are_read() -> None:
     )
     assert right(rf"{rows}\n with $s=\sin\theta$, $c=\cos\theta$".replace(r"\n", "\n"))
     assert not right(rf"{rows}\n with $s=\cos\theta$, $c=\cos\theta$".replace(r"\n", "\n"))
+
+
+def test_a_word_between_with_and_an_article_is_no_name() -> None:
+    """… with F and therefore the pole with -F: nothing is stated there."""
+    said = "The motor pushes the cart with F and therefore the pole with -F."
+    verdict = derivation("cart-pole").check(f"{said}\n{CART}\n{POLE}")
+    assert verdict.right and not any("therefore" in str(note) for note in verdict.notes)
+
+
+def test_labels_behind_commas_are_left_out() -> None:
+    said = "Velocity of A: v = x', velocity of B: u = x' + l theta' cos(theta), in y: w = {}l theta' sin(theta)"
+    energy = "T = 1/2 M v^2 + 1/2 m (u^2 + w^2) + 1/2 J theta'^2"
+    assert right(f"{said.format('')}\n{energy}\n{CART}\n{POLE}")
+    assert not right(f"{said.format('2 ')}\n{energy}\n{CART}\n{POLE}")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 import sympy as sp
 
@@ -122,6 +124,47 @@ HOIST = "J_m phi_m'' + c (phi_m - phi_1) = tau\nm R^2 phi_1'' - c (phi_m - phi_1
 def test_forces_are_called_by_names_and_right_with_the_energies_beside_them(above: str, right: bool) -> None:
     verdict = hoist().check(f"{above}\n{HOIST}")
     assert verdict.right is right and (right or verdict.motion)
+
+
+BEAD = "m s'' - m alpha'^2 s + m g sin(alpha) + k s = 0\n\n"
+
+
+@cache
+def tilted() -> lg.Derivation:
+    """A bead on a rail that a servo tilts."""
+    system = lg.System("tilted rail")
+    s = system.coordinates("s")
+    m, k, A, W, g = system.parameters("m k A W g")
+    alpha = system.define("alpha", A * sp.sin(W * system.t))
+    system.particle(m, at=system.point("bead", (s * sp.cos(alpha), s * sp.sin(alpha))))
+    system.gravity((0, -1), g)
+    system.spring(k=k, deflection=s)
+    return system.derive()
+
+
+@pytest.mark.parametrize(
+    ("line", "right"),
+    [
+        ("For small A: m s'' + k s = -m g A sin(W t)", True),
+        ("With alpha small: m s'' - m alpha'^2 s + m g alpha + k s = 0", True),
+        ("Linearised: s'' + k/m s = -g alpha", True),
+        ("Small tilts, sin(alpha) = alpha and alpha'^2 = 0: m s'' + m g alpha + k s = 0", True),
+        ("cos(alpha) = 1 for small tilts.", True),
+        ("For small A: m s'' + k s = m g A sin(W t)", False),
+        ("For small A: m s'' + k s = -m A sin(W t)", False),
+        ("For small A: m s'' + k s = 0", False),
+        ("For small W: m s'' + m g sin(alpha) + k s = 0", False),
+        ("cos(alpha) = alpha for small tilts.", False),
+        ("For small tilts, sin(alpha) = 1.", False),
+    ],
+)
+def test_a_prescribed_angle_may_be_small(line: str, right: bool) -> None:
+    assert tilted().check(BEAD + line).right is right
+
+
+def test_equations_for_a_small_prescribed_angle_alone_are_not_right() -> None:
+    assert not tilted().check("m s'' + k s = -m g A sin(W t)").right
+    assert not tilted().check("For small A:\nm s'' - m alpha'^2 s + m g alpha + k s = 0").right
 
 
 PENDULUM = "m L^2 theta'' + m g L sin(theta) + b theta' = 0"

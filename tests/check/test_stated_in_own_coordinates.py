@@ -8,6 +8,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 
@@ -284,3 +285,32 @@ def test_coordinates_of_the_system_may_be_any_functions_of_the_answers(now: str,
     found = plane().check(POLAR)
     assert found.right and "other coordinates" in found.to_text(), found.to_text()
     assert now in POLAR and not plane().check(POLAR.replace(now, wrong, 1)).right
+
+
+@cache
+def trammel() -> lg.Derivation:
+    """A rod whose ends slide on the floor and on the wall, pulled by a spring and a force on the floor."""
+    s = lg.System("trammel")
+    phi = s.coordinate("phi")
+    m, l, k, b, g = s.parameters("m l k b g")
+    F = s.inputs("F")
+    s.particle(m, at=s.point("A", (l * sp.cos(phi), 0)), name="block A")
+    s.particle(m, at=s.point("B", (0, l * sp.sin(phi))), name="block B")
+    s.gravity(g=g)
+    s.spring(k, deflection=l * sp.cos(phi))
+    s.damper(b, deflection=l * sp.sin(phi))
+    s.force(F, deflection=l * sp.cos(phi))
+    return s.derive()
+
+
+IN_PLACE = """u = l cos(phi)
+V = m g sqrt(l^2 - u^2) + 1/2 k u^2
+m l^2/(l^2 - u^2) u'' + m l^2 u u'^2/(l^2 - u^2)^2 - m g u/sqrt(l^2 - u^2) + k u = F - b u^2/(l^2 - u^2) u'"""
+
+
+def test_a_root_is_a_length_where_a_coordinate_of_the_answer_s_own_determines_the_motion() -> None:
+    """There √(l² − u²) is l sin φ; in φ itself it is so only on one side."""
+    assert trammel().check(IN_PLACE).right
+    for old, new in (("sqrt(l^2 - u^2) +", "sqrt(l^2 + u^2) +"), ("- m g u/", "+ m g u/"), ("m g sqrt", "-m g sqrt")):
+        assert not trammel().check(IN_PLACE.replace(old, new)).right
+    assert not trammel().check("V = m g sqrt(l^2 sin(phi)^2) + 1/2 k l^2 cos(phi)^2").right

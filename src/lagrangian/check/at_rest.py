@@ -3,6 +3,8 @@
 The rows of the system with all rates 0, and with each input constant or 0, are A q = c for those that are linear in the
 coordinates q. A line a q = b holds if it is a combination of them; it does not if a is one of the rows of A, and b is
 not that of c. Where rows of A depend on each other, there is only rest for certain parameters, which are then chosen.
+
+What holds a position, F = m g sin α, is told by the same rows at any q, where they are linear in the inputs.
 """
 
 from __future__ import annotations
@@ -33,6 +35,26 @@ def at_rest(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = ()) -> b
     put = _given(truth, given)
     found = {_holds(truth, expr, put | inputs) for inputs in _inputs(truth, put, expr)}
     return True if True in found else False if False in found and None not in found else None
+
+
+def balances(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression with inputs is 0 at any position that these hold at rest: F = m g sin θ, F2 = c F1/l."""
+    inputs = [u.symbol for u in truth.model.inputs]
+    if expr.has(sp.Derivative) or truth.derivation.multipliers or not expr.has(*inputs):
+        return False
+    listed = [cast("sp.Expr", x.xreplace(still_of(truth))) for x in (*truth.rows, expr)]
+    letters = set[Any]().union(*(x.free_symbols for x in listed)) - {time}
+    numbers = numbers_for([*sorted(letters, key=str), *(c.symbol for c in truth.model.coordinates)])
+    for put in _inputs(truth, {}, expr):
+        zero = {x: value for x, value in put.items() if value == 0}
+        *found, own = (_linear(cast("sp.Expr", x.xreplace(zero).xreplace(numbers)), inputs) for x in listed)
+        rows = [row for row in found if row is not None and any(abs(x) > _SMALL for x in row[:-1])]
+        if own is None or not rows:
+            continue
+        for group in (*([row] for row in rows), rows):
+            if not _contradictions(group) and all(abs(x) <= _SMALL for x in _reduced(group, own)):
+                return True
+    return False
 
 
 def still_of(truth: Reference) -> dict[Any, Any]:

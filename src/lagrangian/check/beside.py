@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -12,7 +12,15 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.explain.misconceptions.small_angle import first_order, small
-from lagrangian.check.places import AT_REST, is_rate, only_places, place_or_approximation, rests
+from lagrangian.check.places import (
+    AT_REST,
+    amplitudes,
+    is_rate,
+    only_places,
+    place_or_approximation,
+    prescribed_angles,
+    rests,
+)
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
 from lagrangian.check.verdict import AnsweredLine
@@ -92,17 +100,27 @@ def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
 
 
 def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:
-    """Which equations are the right ones for small motions, with sin θ = θ or of first order, and their sums."""
-    moving = [f for row in truth.rows for f in row.atoms(sp.sin, sp.cos) if f.atoms(AppliedUndef)]
-    if not moving:
-        return [False] * len(exprs)
-    table = {f: small(f) for f in moving}
-    changed = [cast("sp.Expr", row.xreplace(table)) for row in truth.rows]
-    coordinates = truth.model.coordinates
-    names = [x for c in coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    """Which equations are the right ones for small motions, and their sums."""
     P = CompiledExpressions(exprs).at(truth.states)
     holds = np.zeros(len(exprs), bool)
-    for rows in filter(None, (changed, first_order(changed, names))):
+    for rows in filter(None, _rows_for_small(truth)):
         W: Array = CompiledExpressions(rows).at(truth.states)
         holds |= factors_of(truth, P, W)[1]
     return [bool(x) for x in holds]
+
+
+def _rows_for_small(truth: Reference) -> Iterator[Sequence[sp.Expr]]:
+    """The equations of motion with sin θ = θ, or of first order in θ, in the amplitude A of a prescribed angle
+    A sin Ωt, or in both."""
+    moving = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos) if f.atoms(AppliedUndef)}
+    prescribed = prescribed_angles(truth)
+    names = [x for c in truth.model.coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    for replaced in filter(None, (moving, prescribed, moving | prescribed if moving and prescribed else None)):
+        table = {f: small(f) for f in replaced}
+        changed = [cast("sp.Expr", row.xreplace(table)) for row in truth.rows]
+        yield changed
+        if moving:
+            yield first_order(changed, names) or ()
+    if sizes := amplitudes(truth):
+        yield first_order(truth.rows, sizes) or ()
+        yield first_order(truth.rows, [*names, *sizes]) or ()

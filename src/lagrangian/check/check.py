@@ -14,7 +14,7 @@ from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
-from lagrangian.check.coordinates.chart import chart, system_coordinates, with_own_quantities
+from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
@@ -24,6 +24,7 @@ from lagrangian.check.explain.definitions import with_right_definitions, with_wr
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
+from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.general import untrue_in_general
@@ -73,6 +74,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
     written = _filled(truth, judged)
+    truth = truth.within(region(truth, written))
     verdict = _checked(truth, judged, written, hint, explain)
     general = untrue_in_general(truth, written)
     if verdict.findings:
@@ -372,5 +374,6 @@ def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ve
             text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
         )
     findings = with_wrong_definitions(verdict.findings, named.blamed)
-    told = replace(verdict, findings=findings, mistakes=named.told, alternatives=named.others)
+    told = with_bodies(truth, findings, named.told)
+    told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
     return replace(told, notes=notes, sure=named.sure)

@@ -14,6 +14,7 @@ from lagrangian.check.difference import Likeness, differences, likeness, nearest
 from lagrangian.check.explain.after_definitions import follow_from_definitions
 from lagrangian.check.explain.after_derivatives import follow_from_derivatives
 from lagrangian.check.explain.consequences import follow_from_above
+from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.row_words import findings_of, name_of
@@ -66,8 +67,10 @@ def judged_lines(
     told = _equations(truth, equations, comparison, above) if compared else findings_of(truth, equations, comparison)
     of_equation = dict(zip(map(id, equations), told, strict=True))
     findings: list[Finding] = []
+    alone = untrue_of_bodies(truth, moved)
     for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
         if line.kind in ("definition", "statement"):
+            findings += [replace(alone[k], line=own)] if k in alone else []
             continue
         finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, chart)
         if finding is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any, cast
 
@@ -9,9 +10,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.at_rest import DIGITS, at_rest, letters_of_inputs, numbers_for, still_of
+from lagrangian.check.at_rest import DIGITS, at_rest, balances, letters_of_inputs, numbers_for, still_of
 from lagrangian.check.reference import Reference
 from lagrangian.model import time
+from lagrangian.read.letters import key
 
 HIGHEST = 4
 """The highest degree of an approximation: cos θ = 1 − θ²/2 + θ⁴/24."""
@@ -47,8 +49,12 @@ def place_or_approximation(
     """
     if "=" in written and _is_input(truth, expr):
         return "it is about one value of an input"
+    if "=" in written and _is_small(truth, expr):
+        return "it is about small motions"
     if "=" not in written or bounded.hard([expr], LONG):
         return None
+    if (said or _gives_input(truth, written)) and balances(truth, expr):
+        return AT_REST
     if (holds := rests(truth, expr, given, said=said)) is not None:
         return AT_REST if holds else None
     changing = only_places(truth, expr)
@@ -94,6 +100,12 @@ def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, sai
     return holds if holds or claims or formula else None
 
 
+def _gives_input(truth: Reference, written: str) -> bool:
+    """Whether an input alone stands on the left: F = m g sin α."""
+    left = key(re.sub(r"[\s\\${}&]", "", written.partition("=")[0]))
+    return any(left == key(u.name) for u in truth.model.inputs)
+
+
 def _is_input(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line only gives an input a value: F = 0."""
     changing = {x for x in expr.atoms(AppliedUndef) if x.args}
@@ -137,6 +149,35 @@ def _approximates(expr: sp.Expr, changing: Iterable[AppliedUndef]) -> bool:
             return False
         changed = changed.diff(size)
     return True
+
+
+def prescribed_angles(truth: Reference) -> set[Any]:
+    """The sines and cosines of prescribed angles that swing: sin(A sin Ωt)."""
+    found = {cast("Any", f) for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
+    return {f for f in found if not f.atoms(AppliedUndef) and f.has(time) and f.args[0].atoms(sp.sin, sp.cos)}
+
+
+def amplitudes(truth: Reference) -> set[sp.Symbol]:
+    """The parameters to which prescribed angles are proportional, outside the functions in these: A of A sin Ωt."""
+    sizes: set[sp.Symbol] = set()
+    for angle in {cast("sp.Expr", f.args[0]) for f in prescribed_angles(truth)}:
+        bare = angle.xreplace({f: sp.Dummy() for f in angle.atoms(sp.sin, sp.cos)})
+        found = {p.symbol for p in truth.model.parameters} & bare.free_symbols
+        whole = sp.Add(*[x * angle.diff(x) for x in found])
+        sizes |= found if bounded.expand(angle - whole) == 0 else set()
+    return sizes
+
+
+def _is_small(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether what a line says of a prescribed angle holds to first order in its amplitude: sin α = α, α′² = 0."""
+    if not (sizes := amplitudes(truth)) or not expr.has(*sizes) or not expr.has(time) or expr.has(sp.Derivative):
+        return False
+    bare = expr.xreplace({f: sp.Dummy() for f in expr.atoms(sp.sin, sp.cos) if not f.has(*sizes)})
+    if bounded.hard([bare], LONG):
+        return False
+    size = sp.Dummy()
+    scaled = cast("sp.Expr", bare.xreplace({x: size * x for x in sizes}))
+    return all(bounded.expand(x.xreplace({size: sp.S.Zero})) == 0 for x in (scaled, scaled.diff(size)))
 
 
 def _functions(expr: sp.Expr, symbols: Iterable[AppliedUndef]) -> list[Any]:

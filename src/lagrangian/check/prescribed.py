@@ -11,7 +11,6 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.names.spelling import values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import is_right_rounded
 from lagrangian.check.rows import zero_everywhere
@@ -44,7 +43,7 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     order = max((d.derivative_count for d in line.expr.atoms(sp.Derivative) if d.expr == z), default=0)
     rate = sp.diff(z, (time, order)) if order else z
     number = _number_of(line.expr, rate)
-    if zero_everywhere(truth, rest) or (number is not None and _right_in_numbers(truth, line, rate, number)):
+    if _is_true(truth, rest) or (number is not None and _right_in_numbers(truth, line, rate, number)):
         return replace(line, kind="statement", expr=sp.S.Zero)
     if number is None:
         return line
@@ -53,7 +52,7 @@ def as_prescribed(truth: Reference, line: AnsweredLine) -> AnsweredLine:
 
 def _right_in_numbers(truth: Reference, line: AnsweredLine, rate: sp.Expr, number: sp.Expr) -> bool:
     """Whether a line without parameters is right with their values, which may be rounded: φ = 0.139626 sin 0.9 t."""
-    values = values_of(truth, [line])
+    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in truth.values}
     if line.expr.free_symbols - {time} or not values:
         return False
     valued = truth.with_values(values)
@@ -76,10 +75,20 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
         rest = truth.expand(z - said)
         if zero_everywhere(truth, rest):
             out.append(replace(line, kind="statement", expr=sp.S.Zero))
+        elif _is_true(truth, rest):
+            table[z] = said
+            out.append(replace(line, kind="statement", expr=sp.S.Zero))
         else:
             table[z] = said
             out.append(replace(line, kind="identity", expr=rest, name=str(z.func)))
     return tuple(_put(line, table) for line in out) if table else tuple(out)
+
+
+def _is_true(truth: Reference, rest: sp.Expr) -> bool:
+    """Whether what is right less what is written is zero, perhaps with the values of the system: s = x - 0.1 theta. A
+    value that is 1 may just have been forgotten."""
+    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if v != 1}
+    return zero_everywhere(truth, rest) or bounded.expand(cast("sp.Expr", rest.xreplace(values))) == 0
 
 
 def _put(line: AnsweredLine, table: Mapping[Any, sp.Expr]) -> AnsweredLine:
@@ -102,7 +111,8 @@ def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr] | None:
         return None
     z, said = own[0], bounded.expand(own[0] - expr / number)
     moving = said.has(*(c.symbol for c in model.coordinates))
-    others = [*(c.rate for c in model.coordinates), *(u.symbol for u in model.inputs), z]
+    rates = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
+    others = [*rates, *(u.symbol for u in model.inputs), z]
     known = said.free_symbols <= truth.names and not said.has(*others)
     return (z, said) if moving and known else None
 

@@ -118,7 +118,7 @@ class Reference:
                 del self._valued[next(iter(self._valued))]
             own = {p: cast("sp.Expr", v.xreplace(dict(values))) for p, v in self.values.items()}
             self._valued[key] = Reference(self.derivation, own | dict(values))
-        return self._valued[key]
+        return self._valued[key].within(self.region)
 
     @cached_property
     def algebra(self) -> Algebra:

@@ -305,9 +305,10 @@ def _quotient(truth: Reference, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | 
     if terms_of(expr) > 200:
         return None
     for c in truth.model.coordinates:
-        above, below = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
+        above, below = bounded.diff(expr, c.acceleration), bounded.diff(truth.rows[i], c.acceleration)
         if below != 0 and above != 0:
-            factor = bounded.cancel(bounded.together(above / below))
+            plain = above.is_number or above == below
+            factor = above / below if plain else bounded.cancel(bounded.together(above / below))
             if terms_of(factor) <= 30:
                 return _only(truth, i, factor)
     return None
@@ -319,7 +320,7 @@ def _solved(truth: Reference, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | 
     if np.abs(by_set - by_set[:, :1]).max() > DOUBLE_TOLERANCE * np.abs(A).max():
         return None
     M = truth.derivation.mass_matrix
-    slope = sp.Matrix([[expr.diff(c.acceleration) for c in truth.model.coordinates]])
+    slope = sp.Matrix([[bounded.diff(expr, c.acceleration) for c in truth.model.coordinates]])
     if slope.has(*truth.derivation.coordinates) or M.has(*truth.derivation.coordinates):
         return None
     if M.det() == 0:

@@ -54,11 +54,11 @@ class StatedQuantity:
         Twice: with its Ξ as the whole, and with its Ξ without the dampers, which D adds.
         """
         forces = [m.symbol for m in truth.derivation.multipliers.values()]
-        of_constraints = [sp.Add(*[x * row.diff(x) for x in forces]) for row in truth.rows]
+        of_constraints = [sp.Add(*[x * bounded.diff(row, x) for x in forces]) for row in truth.rows]
         whole = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
         D = self.D if self.D is not None else dissipation(truth)
         driven = [driving(truth, i) if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
-        damped = [x - D.diff(c.rate) for x, c in zip(driven, truth.model.coordinates, strict=True)]
+        damped = [x - bounded.diff(D, c.rate) for x, c in zip(driven, truth.model.coordinates, strict=True)]
         left = left_values(truth, self.lagrangian(truth))
         found: list[Array] = []
         for Xi in (whole, damped):
@@ -283,7 +283,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
     coordinates = truth.model.coordinates
     if line.kind == "V" and _grows(truth, rest):
         return None
-    if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
+    if line.kind == "V" and all(zero_everywhere(truth, bounded.diff(rest, c.symbol)) for c in coordinates):
         if rest.has(*[c.rate for c in coordinates]):
             return None
         return text("V may differ by a constant")
@@ -299,7 +299,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
             return None
         words = "the time derivative of a function" if held else "a constant"
         return text(f"{line.kind} may differ by {words}: no equation changes")
-    if line.kind == "D" and all(zero_everywhere(truth, rest.diff(c.rate)) for c in coordinates):
+    if line.kind == "D" and all(zero_everywhere(truth, bounded.diff(rest, c.rate)) for c in coordinates):
         return text("up to what no rate changes")
     return None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import StatedQuantity, dissipation, driving, given, left_sides
@@ -47,5 +48,5 @@ def _is_right(truth: Reference, own: StatedQuantity) -> bool:
         mine, right = own.Xi[i], truth.Xi[i]
         whole = whole and zero_everywhere(truth, left - (right if mine is None else mine) + right)
         undamped = driving(truth, i) if mine is None else mine
-        damped = damped and zero_everywhere(truth, left + D.diff(c.rate) - undamped + right)
+        damped = damped and zero_everywhere(truth, left + bounded.diff(D, c.rate) - undamped + right)
     return whole or damped

@@ -16,6 +16,7 @@ from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.check.reference import truth_of
+from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks
 from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
@@ -186,7 +187,10 @@ def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) ->
     """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged."""
     why = ("nothing else uses ", "no equation uses this matrix ")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
-    read = (text(Verbatim(note)) for note in answer.notes if not note.startswith(judged))
+    told = [note for note in answer.notes if not note.startswith(judged)]
+    unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
+    verdict = only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices)
+    read = (text(Verbatim(note)) for note in told)
     listed = {str(note): note for note in (*read, *notes, *verdict.notes)}
     return replace(verdict, notes=tuple(listed.values()))
 

@@ -20,7 +20,6 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
-from lagrangian import bounded
 from lagrangian.bounded.sizes import each
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, time
@@ -109,8 +108,12 @@ class CompiledExpressions:
 
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
-        expr = self._without_fractions(sp.sympify(expr))
-        for s in sorted(bounded.names(expr) - self.table.keys(), key=sp.default_sort_key):
+        expr = sp.sympify(expr)
+        parts = set(each(expr))
+        names = {x for x in parts if isinstance(x, (sp.Symbol, AppliedUndef, sp.Derivative))}
+        names |= {x.expr for x in names if isinstance(x, sp.Derivative)}
+        expr, exact = self._without_fractions(expr, parts)
+        for s in sorted((names | exact) - self.table.keys(), key=sp.default_sort_key):
             self.input(s)
         return from_sympy(self.graph, expr, self.table, self._memo)
 
@@ -121,9 +124,12 @@ class CompiledExpressions:
             self.symbols.append(symbol)
         return self.table[symbol]
 
-    def _without_fractions(self, expr: sp.Expr) -> sp.Expr:
+    def _without_fractions(self, expr: sp.Expr, parts: set[sp.Basic]) -> tuple[sp.Expr, set[sp.Basic]]:
+        """An expression with symbols for fractions, and these symbols; ``parts`` are all parts of the expression."""
         table: dict[sp.Basic, sp.Expr] = {}
-        for number in {x for x in each(expr) if isinstance(x, (sp.Rational, sp.Float, sp.NumberSymbol))}:
+        for number in parts:
+            if not isinstance(number, (sp.Rational, sp.Float, sp.NumberSymbol)):
+                continue
             if isinstance(number, sp.Integer) and abs(int(number)) <= EXACT_INTEGER:
                 continue
             if number in (sp.S.Half, -sp.S.Half):  # roots: x^(1/2) is the graph's square root
@@ -132,7 +138,7 @@ class CompiledExpressions:
             dummy = sp.Symbol(f"number {exact}")
             self._numbers[dummy] = exact
             table[number] = dummy
-        return cast("sp.Expr", expr.xreplace(table)) if table else expr
+        return (cast("sp.Expr", expr.xreplace(table)) if table else expr), set(table.values())
 
     def slopes(self, symbols: Sequence[sp.Basic]) -> CompiledExpressions:
         """∂expression/∂symbol for one expression after another."""

@@ -11,11 +11,12 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.held import held
 from lagrangian.check.reading import OwnCoordinates, named, of_coordinate, replaced_by
 from lagrangian.check.reference import Reference
@@ -26,6 +27,8 @@ from lagrangian.read.letters import key
 _NUMBERED = re.compile(r"[\s$&]*(?:\\?Xi|Ξ|[QFp])\s?_?\s?\{?\s?\d\s?\}?\s*&?=")
 """A force or a momentum that is called by the number of its coordinate."""
 
+MOST_REPLACED = 4
+"""The most coordinates of which such a determinant is computed."""
 OF_COORDINATES = ("Xi", "p", "p-rate", "slope", "left")
 """What lines state for one coordinate."""
 
@@ -41,6 +44,17 @@ def chart(truth: Reference, lines: tuple[AnsweredLine, ...]) -> OwnCoordinates |
     rows = tuple(q - table[q] for q in coordinates if q in table)
     own = tuple((key(str(line.name)), line.expr) for line in stated)
     return replaced_by(own, gone, tuple(coordinates), rows) if gone else None
+
+
+def region(truth: Reference, lines: Sequence[AnsweredLine]) -> sp.Expr | None:
+    """det ∂η/∂ξ of the coordinates η of an answer's own, x = l cos φ, whose sign is constant where they determine the
+    motion: there √(l² − x²) is l sin φ. None if it is constant, or if there are none."""
+    stated, gone = replaced(truth, lines)
+    if not 0 < len(stated) == len(gone) <= MOST_REPLACED or truth.derivation.multipliers:
+        return None
+    J = sp.Matrix([[bounded.diff(truth.expand(x.expr), q) for q in gone] for x in stated])
+    det = bounded.expand(cast("sp.Expr", J.det()))
+    return det if det.has(*truth.derivation.coordinates) else None
 
 
 def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[AnsweredLine], tuple[Any, ...]]:

@@ -112,7 +112,7 @@ def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
     told = [line.expr for line in lines if line.kind != "statement"]
-    found = {f for expr in told for f in expr.atoms(AppliedUndef) if f.args == (time,)}
+    found = {f for expr in told for f in bounded.names(expr) if isinstance(f, AppliedUndef) and f.args == (time,)}
     return sorted(found - own, key=str)
 
 

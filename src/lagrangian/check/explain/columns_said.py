@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import Any, TypeAlias, cast
 
 import numpy as np
@@ -11,8 +12,7 @@ import sympy as sp
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
-from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.said_wrongly import NEAR, SaidWrongly, folded, in_names_of, put, turned_to
+from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, folded, in_names_of, put, told, turned_to
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
@@ -56,9 +56,13 @@ def said_of_column(truth: Reference, column: Column) -> Iterator[SaidWrongly]:
         effect = put(truth, _effect(s, q.owner, q.kind, own))
         if effect.T == 0 and effect.V == 0:
             continue
-        shown, written = (_shown([folded(s, x) for x in xs]) for xs in (right, said))
-        quoted = frozenset(y for x in (*right, *said) for y in letters_in(x))
-        yield SaidWrongly(column[0], q, shown, written, effect, quoted, elsewhere)
+        yield SaidWrongly(column[0], effect, partial(_in_words, s, q, right, said), elsewhere)
+
+
+def _in_words(s: Ingredients, q: Sayable, right: Sequence[sp.Expr], said: Sequence[sp.Expr]) -> InWords:
+    """What is wrong in a column."""
+    shown, written = (_shown([folded(s, x) for x in xs]) for xs in (right, said))
+    return told(q, right, said, shown, written)
 
 
 def _said(truth: Reference, column: Column) -> list[sp.Expr] | None:

@@ -18,7 +18,7 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     """The findings with wrong definitions in their places, and what follows from them marked so."""
     if blamed is None:
         return tuple(findings)
-    below = {(line.number, line.text) for line in blamed.because}
+    below = {(line.number, line.text) for line in (*blamed.because, *blamed.later)}
     wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in below for f in findings]
     found = [replace(f, follows=f.follows or follows) for f, follows in zip(findings, wrong, strict=True)]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}

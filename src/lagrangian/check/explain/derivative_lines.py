@@ -15,6 +15,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.own_terms import WHY, term_replaced
+from lagrangian.check.explain.spoken import in_lagrangian
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
@@ -25,10 +26,14 @@ from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
 WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
+STEP_OF = {"T": 2, "V": 3}
+"""The steps of the energies of which L is made."""
 RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
 """What a missing or wrong term of a derivative would also be called."""
 MOST_TERMS_TOLD = 2
 """The largest number of terms of ∂L/∂ξ̇ that are told to be wrong."""
+MOST_ALIKE = 4
+"""The most terms of a derivative that are told to be wrong in the same way."""
 LONGEST = 200
 """A derivative with more terms is not compared term by term."""
 
@@ -83,11 +88,14 @@ def of_derivative_of(
 ) -> tuple[list[Mistake], tuple[Mistake, ...]]:
     """The mistakes behind the first wrong ``line``, and second choices, in the words for a derivative if it is one.
 
-    The term that is wrong is told; a sine in place of a cosine was differentiated wrongly.
+    The term that is wrong is told; a sine in place of a cosine was differentiated wrongly. L may have its own slip.
     """
     if told and line.kind == "p":
         terms = of_differences(line, findings)
         return [*([_with_slip(told[0], terms[0])] if terms else told[:1]), *told[1:]], tuple(others)
+    if told and line.kind == "L":
+        right = {STEP_OF[f.line.kind] for f in findings if f.status.right and f.line.kind in STEP_OF}
+        return [in_lagrangian(told[0], line) if told[0].step in right else told[0], *told[1:]], tuple(others)
     if not told or line.kind not in DERIVED:
         return list(told), tuple(others)
     found = [replace(m, why=WHY_FUNCTION) if m.name == "sine_cosine" else m for m in told]
@@ -114,7 +122,7 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
         return None
     title, own, more = found
     rest, right = ([x for x in sp.Add.make_args(bounded.expand(e)) if x != 0] for e in (more, own))
-    if not 1 <= len(rest) <= 2 or len(right) > LONGEST:
+    if not rest or len(right) > LONGEST:
         return None
     pair = _replaced(rest, right)
     if pair is None:
@@ -149,10 +157,21 @@ def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Exp
             if (number := bounded.cancel(rest[0] / t)).is_number:
                 return cast("sp.Expr", (1 + number) * t), t
         return rest[0], sp.S.Zero
-    for more, less in (rest, rest[::-1]):
+    for more, less in (rest, rest[::-1]) if len(rest) == 2 else ():
         if -less in right and more not in right:
             return more, -less
-    return None
+    return _same_number(rest, right)
+
+
+def _same_number(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:
+    """The same for several terms that are all wrong by one number, put together: A Ω² sin θ cos θ + m l² Ω² …."""
+    if len(rest) > MOST_ALIKE:
+        return None
+    numbers = {n for x in rest for t in right if (n := bounded.cancel(x / t)).is_number}
+    whole = sp.factor_terms(sp.Add(*[x / n for n in numbers for x in rest])) if len(numbers) == 1 else None
+    if whole is None or any(x / n not in right for n in numbers for x in rest):
+        return None
+    return cast("sp.Expr", (1 + numbers.pop()) * whole), cast("sp.Expr", whole)
 
 
 def _derivative(

@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
@@ -31,15 +32,23 @@ UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
 
-def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tuple[list[Explanation], list[Mistake]]:
+def unopposed(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
+    """The explanations that no right line speaks against."""
+    return [e for e in found if not any(id(t.mistake) in against for t in e.told)]
+
+
+def of_line(
+    pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine], against: set[int]
+) -> tuple[list[Explanation], list[Mistake]]:
     """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own.
 
-    ``lines`` are all lines of the answer.
+    ``lines`` are all lines of the answer. A derivative of energies that are right has no mistake of these, which right
+    lines speak ``against``.
     """
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
         rest = line.expr - dissipation(truth)
-        values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+        values = CompiledExpressions([-bounded.diff(rest, c.rate) for c in truth.model.coordinates]).at(truth.states)
         seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
         found = singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else []
         if seen and not (found and found[0].cost <= EXOTIC):
@@ -47,11 +56,11 @@ def of_line(pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> tu
             found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind in DERIVED and i is not None:
-        found = _of_derivative(pool, line, i)
+        found = unopposed(_of_derivative(pool, line, i), against)
         slip = None if found else slip_in(truth, line, lines)
         return found, [slip] if slip is not None else []
     if line.kind == "p" and i is not None:
-        return _of_momentum(pool, line, i), []
+        return unopposed(_of_momentum(pool, line, i), against), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)

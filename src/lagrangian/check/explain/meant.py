@@ -32,6 +32,8 @@ STEMS = {
 """The kinds of quantities that letters are used for; any other letter may be of any kind."""
 TRIVIAL = ("turning", "speed", "component", "kinetic", "Xi")
 """Kinds that are said of a name with such a letter even where the value is nothing but a letter: ω = φ̇, Q_φ = M."""
+CENTRES = ("S", "G", "cm", "CM", "com", "CoM")
+"""The indices that centres of mass have where no point of the system is called so."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
 _DIGITS = re.compile(r"\d+$")
 
@@ -42,15 +44,23 @@ def kinds_of(name: str) -> tuple[str, ...] | None:
 
 
 def owner_of(name: str, model: Model) -> Body | None:
-    """The only body that the index of a name may mean: that of its point, its mass, its number or its own name."""
+    """The only body that the index of a name may mean: that of its point, its mass, its number or its own name; T_R
+    of a body with the mass m_R."""
     index = _split(name)[1]
     if not index:
         return None
-    for fits in (_is_at, _is_called):
+    for fits in (_is_at, _is_called, _has_index):
         found = [b for b in model.bodies if fits(index, b)]
         if found:
             return found[0] if len(found) == 1 else None
     return None
+
+
+def is_about_centre(name: str, body: Body, model: Model) -> bool:
+    """Whether the index of a moment of inertia means the body's centre of mass, J_S, and no pivot of it."""
+    index = _split(name)[1]
+    named = {b.at.name for b in model.bodies} | {p.name for p in model.points}
+    return bool(index) and (index == body.at.name or (index in CENTRES and index not in named))
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -72,3 +82,7 @@ def _is_at(index: str, body: Any) -> bool:
 
 def _is_called(index: str, body: Any) -> bool:
     return len(index) > 1 and any(w.startswith(index.lower()) for w in body.name.lower().replace("_", " ").split())
+
+
+def _has_index(index: str, body: Any) -> bool:
+    return isinstance(body.mass, sp.Symbol) and _split(str(body.mass))[1] == index

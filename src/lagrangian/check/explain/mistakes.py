@@ -25,12 +25,15 @@ from lagrangian.check.explain.line_mistakes import (
     of_forces,
     of_line,
     stated,
+    unopposed,
 )
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
+from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.reduced import of_reduced
+from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
 from lagrangian.check.explain.search import (
     EXOTIC,
@@ -89,6 +92,7 @@ def mistakes(truth: Reference, lines: Lines, findings: Sequence[Finding], right:
     A mistake that would be visible in a line that is right is not considered. If nothing explains a derivative, the
     equations that follow from it are explained. ``right`` are lines that are right, besides those of the findings.
     """
+    findings = [f for f in findings if f.line.kind != "definition"]  # what others follow from is sought among all
     named = _of_lines(truth, lines, findings, right)
     derived = any(f.line.kind in DERIVED and f.status is Status.WRONG for f in findings)
     if named.told or not derived or not any(f.follows for f in findings):
@@ -105,9 +109,9 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     true = [f.line for f in findings if f.status.right]
     bodies = BodiesSaid(truth, lines, (*true, *right), _rates(truth, wrong))
     if (blamed := bodies.of_all(findings, wrong)) is not None:
-        return NamedMistakes(_once([p.mistake for p in blamed.said], ()), certain=True, blamed=blamed)
+        return NamedMistakes(_once([reasoned(pool_of(truth), p) for p in blamed.said], ()), certain=True, blamed=blamed)
     pool = pool_of(truth)
-    against = contradicted(pool, true, lines) | against_derivatives(pool, true)
+    against = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     left: list[AnsweredLine] = []
@@ -120,12 +124,12 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
         if line.kind == "Xi" and forces:
             groups += [forces] if forces not in groups else []
         elif line.kind != "equation":
-            found, more = of_line(pool, line, lines)
+            found, more = of_line(pool, line, lines, against)
             if said := bodies.of_line(line):
                 likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
                 found, more, blamed = _with_definitions(line, said, (found, likely, more), blamed)
             more = more or (of_differences(line, findings) if not found else [])
-            groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
+            groups.append(unopposed(found, against) or found)  # a slip in one of two lines shows in that one
             own += more
             left += [] if found or more else [line]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
@@ -262,11 +266,6 @@ def _of_rows_alone(pool: Pool, found: Sequence[Explanation]) -> list[Explanation
     return [replace(e, cost=cost) for cost, e in sorted(zip(more, found, strict=True), key=lambda x: x[0])]
 
 
-def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
-    """The explanations that no right line speaks against."""
-    return [e for e in found if not any(id(t.mistake) in against for t in e.told)]
-
-
 def _changing(pool: Pool, exprs: Sequence[sp.Expr]) -> set[int]:
     """The possible mistakes that would change sums of right equations, by their identity."""
     truth = pool.truth
@@ -296,7 +295,7 @@ def _of_equations(
     found = alignments(pool.truth, exprs, P)
     if any(np.abs(a.rest).max() <= 1e-9 for a in found):
         return [], []  # what is wrong is too small to be seen in doubles
-    explained = _likely(first_explained(pool, found), against) or _likely(by_rows(pool, found), against)
+    explained = unopposed(first_explained(pool, found), against) or unopposed(by_rows(pool, found), against)
     cost = explained[0].cost if explained else np.inf
     forgotten = undivided(pool, found)
     if forgotten is not None and forgotten.cost < cost:
@@ -304,7 +303,7 @@ def _of_equations(
     if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
         return explained, []
     solved, Q = stated(pool.truth, every)
-    more = _likely(solved_from_wrong(pool, solved, Q), against)
+    more = unopposed(solved_from_wrong(pool, solved, Q), against)
     if more and more[0].cost < cost:
         explained, cost = more, more[0].cost
     if (numerators := by_numerators(pool, solved)) and sum(x.cost + 1 for _, x in numerators) - 1 < cost:

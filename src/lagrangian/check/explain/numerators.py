@@ -56,7 +56,7 @@ def solved_row(truth: Reference, expr: sp.Expr) -> SolvedRow | None:
     acceleration = cast("sp.Expr", truth.model.coordinates[i].acceleration)
     if sum(truth.rows[i].has(c.acceleration) for c in truth.model.coordinates) < 2:
         return None
-    slope = expr.diff(acceleration)
+    slope = bounded.diff(expr, acceleration)
     if slope.has(acceleration) or slope == 0:
         return None
     above, below = _fraction(-cast("sp.Expr", expr.xreplace({acceleration: sp.S.Zero})) / slope)
@@ -129,7 +129,7 @@ def _determinant(truth: Reference, row: SolvedRow) -> tuple[sp.Matrix, sp.Expr, 
 @lru_cache(maxsize=16)
 def _mass_matrix(truth: Reference) -> tuple[sp.Matrix, sp.Expr]:
     """M and det M."""
-    M = sp.Matrix(truth.n, truth.n, lambda a, b: truth.rows[a].diff(truth.model.coordinates[b].acceleration))
+    M = sp.Matrix(truth.n, truth.n, lambda a, b: bounded.diff(truth.rows[a], truth.model.coordinates[b].acceleration))
     return M, bounded.expand(cast("sp.Expr", M.det(method="berkowitz")))
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
+from functools import cached_property, partial
 from typing import cast
 
 import numpy as np
@@ -11,7 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
-from lagrangian.check.explain.meant import TRIVIAL, kinds_of, owner_of
+from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
@@ -74,19 +75,37 @@ NEAR = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
+class InWords:
+    """What a definition has wrong, as a sentence says it."""
+
+    of: Sayable
+    right: tuple[str | Left, ...]
+    """What is right, in the sense in which the answer counts it."""
+    written: tuple[str | Left, ...]
+    letters: frozenset[sp.Basic]
+    """The letters, coordinates and rates in what is right and in what is written."""
+
+
+@dataclass(frozen=True, eq=False)
 class SaidWrongly:
     """One quantity that a definition has wrong, and what this adds to T*, to V, to every Ξ_i and to left-hand sides."""
 
     line: AnsweredLine
-    of: Sayable
-    right: tuple[str | Left, ...]
-    """What is right, in the sense in which the answer counts it, in a sentence."""
-    written: tuple[str | Left, ...]
     effect: Effect
-    letters: frozenset[sp.Basic]
-    """The letters, coordinates and rates in what is right and in what is written."""
+    say: Callable[[], InWords]
+    """Makes the words, which few of all are asked for."""
     elsewhere: bool = False
     """Whether what is written is right for another quantity."""
+
+    @cached_property
+    def words(self) -> InWords:
+        """What is wrong, as a sentence says it."""
+        return self.say()
+
+    @property
+    def letters(self) -> frozenset[sp.Basic]:
+        """The letters, coordinates and rates in what is right and in what is written."""
+        return self.words.letters
 
     @property
     def number(self) -> int:
@@ -106,36 +125,39 @@ class SaidWrongly:
     @property
     def mistake(self) -> Mistake:
         """The mistake in words."""
-        kind, owner = self.of.kind, self.of.owner
+        of = self.words.of
+        kind, owner = of.kind, of.owner
         of_body = isinstance(owner, Body) or (owner is not None and self.T != 0)
         own = f"{NAMES.get(kind, kind)}_{'of_body' if of_body else 'said'}"
         begins = f"Line {self.number} is not right: the "
-        what = text(begins, *self.of.words, " is ", *self.right, ", not ", *self.written, ".")
+        what = text(begins, *of.words, " is ", *self.words.right, ", not ", *self.words.written, ".")
         title = owner.title if owner is not None else None
-        words = self.of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
+        words = of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
         brief = text("The ", *words, " is not right.")
-        return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, self.of.coordinate, brief)
+        return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, of.coordinate, brief)
 
     @property
     def own_letters(self) -> set[sp.Basic]:
         """The letters, coordinates and rates in what is written."""
-        return {y for x in self.written if isinstance(x, sp.Expr) for y in letters_in(x)}
+        return {y for x in self.words.written if isinstance(x, sp.Expr) for y in letters_in(x)}
 
     def adds(self, truth: Reference, kind: str, i: int | None) -> sp.Expr:
         """What it adds to an energy, to Ξ_i or to a derivative of L by ξ_i."""
-        e, L = self.effect, self.effect.T - self.effect.V
+        e = self.effect
         if kind in ("T", "V", "L"):
-            return {"T": e.T, "V": e.V, "L": L}[kind]
+            return {"T": e.T, "V": e.V, "L": e.T - e.V}[kind]
         if i is None:
             return sp.S.Zero
         if kind == "Xi":
             return e.Xi[i] if e.Xi else sp.S.Zero
-        c = truth.model.coordinates[i]
-        momentum, slope = bounded.diff(L, c.rate), bounded.diff(L, c.symbol)
-        if kind in ("p", "slope"):
-            return momentum if kind == "p" else slope
+        c, L = truth.model.coordinates[i], e.T - e.V
+        if kind == "slope":
+            return bounded.diff(L, c.symbol)
+        momentum = bounded.diff(L, c.rate)
+        if kind == "p":
+            return momentum
         rate = bounded.diff(momentum, time)
-        return rate if kind == "p-rate" else rate - slope
+        return rate if kind == "p-rate" else rate - bounded.diff(L, c.symbol)
 
     def rows(self, truth: Reference) -> Array:
         """What it adds to the left-hand side of every equation, left minus right, at every state."""
@@ -163,6 +185,9 @@ def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
     found = [k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else q.kind in kinds)]
+    for b in truth.model.bodies if kinds is not None else ():
+        if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
+            found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
@@ -221,11 +246,26 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         for written, sign in _senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
             if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
-                of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
-                right = folded(s, right)
-                right = _beside(s, right, own) if q.kind == "speed" else right
-                quoted = frozenset(y for x in (right, own) for y in letters_in(x))
-                yield SaidWrongly(line, of, (right,), (own,), effect, quoted, elsewhere)
+                yield SaidWrongly(line, effect, partial(_in_words, s, q, written, sign), elsewhere)
+
+
+def _in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords:
+    """What is wrong in a quantity, as the answer counts it."""
+    of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
+    right = folded(s, right)
+    right = _beside(s, right, own) if q.kind in ("speed", "kinetic") else right
+    return told(of, [right], [own], (right,), (own,))
+
+
+def told(
+    of: Sayable,
+    right: Iterable[sp.Expr],
+    written: Iterable[sp.Expr],
+    in_sentence: tuple[str | Left, ...],
+    as_written: tuple[str | Left, ...],
+) -> InWords:
+    """The words about expressions that a sentence shows in some form."""
+    return InWords(of, in_sentence, as_written, frozenset(y for x in (*right, *written) for y in letters_in(x)))
 
 
 def said_of_rate(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
@@ -237,8 +277,8 @@ def said_of_rate(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         for sign in (1, -1):
             written = bounded.expand(sign * q.right - rest)
             effect = put(truth, q.adds(sign * written))
-            quoted = frozenset(y for x in (q.right, written) for y in letters_in(x))
-            yield SaidWrongly(line, q, (bounded.expand(sign * q.right),), (written,), effect, quoted)
+            right = (bounded.expand(sign * q.right),)
+            yield SaidWrongly(line, effect, partial(told, q, [q.right], [written], right, (written,)))
 
 
 def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
@@ -296,13 +336,13 @@ def _senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Ex
 def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
     """The sense in which what is written is counted: that which leaves fewer motions different, or less."""
     moving = [x for c in truth.model.coordinates for x in (c.rate, c.symbol) if right.has(x) or said.has(x)]
+    rests = [bounded.expand(said - sign * right) for sign in (-1, 1)]
+    back, forth = (sum(rest.has(x) for x in moving) for rest in rests)
+    if back != forth:
+        return -1 if back < forth else 1
     values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
-
-    def different(sign: int) -> tuple[int, float]:
-        rest = bounded.expand(said - sign * right)
-        return sum(rest.has(x) for x in moving), float(np.abs(values[1] - sign * values[0]).sum())
-
-    return -1 if different(-1) < different(1) else 1
+    back, forth = (float(np.abs(values[1] - sign * values[0]).sum()) for sign in (-1, 1))
+    return -1 if back < forth else 1
 
 
 def _turned(expr: sp.Expr) -> sp.Expr:

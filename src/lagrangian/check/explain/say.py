@@ -58,6 +58,7 @@ WAY = "Go along the way from the fixed point to the body: every piece of it coun
 VELOCITY = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
 MEASURE = "Look at the sketch: how far is it, and does the number belong to this length or to another one?"
 DEFLECTION = "The deflection of a spring is the motion of one end relative to the other, less the rest length."
+OMEGA = "ω is how fast the body itself turns against the fixed axes: with relative angles the sum of the rates."
 DAMPER = "A damper feels the velocity of one end relative to the other."
 
 KINDS: Mapping[str, KindWords] = {
@@ -183,7 +184,17 @@ KINDS: Mapping[str, KindWords] = {
     "omega": KindWords(
         "{Site} is {right}, not {written}.",
         "{Brief} is not right.",
-        "ω is how fast the body itself turns against the fixed axes: with relative angles the sum of the rates.",
+        OMEGA,
+    ),
+    "turning_part_left_out": KindWords("In {site}, {right} is left out.", "Something is left out in {brief}.", OMEGA),
+    "turning_part_sign": KindWords(
+        "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", OMEGA
+    ),
+    "turning_function": KindWords(
+        "In {site}, {written} stands in place of {right}.", "There is a wrong sine or cosine in {brief}.", ANGLES
+    ),
+    "components_exchanged": KindWords(
+        "In {site}, {right} and {written} are exchanged.", "Two components are exchanged in {brief}.", ANGLES
     ),
     "inertia_form": KindWords(
         "{Site} is taken as {written}.",
@@ -237,12 +248,14 @@ KINDS: Mapping[str, KindWords] = {
 def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr | None = None) -> Mistake:
     """The mistake that a multiple of a change is; ``factor`` brings terms of an equation to the answer's own scale."""
     site = _in_scale(change.site, factor)
+    if of_body := change.kind == "sign_in_a_sum" and change.right in _inertias(model):
+        change = replace(change, right=("what ", cast("sp.Symbol", change.right), " contributes"))
     if change.kind in KINDS:
         kind = KINDS[change.kind]
         what, brief, why, name = (
             _filled(kind.what, change, site, times),
             _filled(kind.brief, change, site, times),
-            kind.why,
+            WHY_PART.get(site.step, WHY_PART[5]) if of_body else kind.why,
             change.kind,
         )
     else:
@@ -257,6 +270,11 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     coordinate = model.coordinates[site.coordinate].name if site.coordinate is not None else None
     element = site.element.title if site.element is not None else None
     return Mistake(name, what, text(why), site.step, element, coordinate, brief)
+
+
+def _inertias(model: Model) -> set[Any]:
+    """The masses and moments of inertia: no pieces of a way, which would have a direction."""
+    return {x for b in model.bodies for x in (b.mass, *(b.inertia if isinstance(b, RigidBody) else ()))}
 
 
 def _has_no_unit(change: LocalChange) -> bool:

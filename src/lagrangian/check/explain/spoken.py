@@ -12,9 +12,10 @@ from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import Mistake
+from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.page.formula import text
 
+WHY_COPIED = "The Lagrangian is kinetic minus potential energy: take both as they stand above."
 ALIKE = 0.05
 """The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 AS_LIKELY = 1.1
@@ -32,6 +33,14 @@ def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
     row = possible.change.site.coordinate
     factor = under.factor(truth, row) if under is not None and row is not None else None
     return say.mistake(possible.change, told.times, truth.model, factor)
+
+
+def in_lagrangian(mistake: Mistake, line: AnsweredLine) -> Mistake:
+    """A mistake in L where T* or V, in which it would be made, is right: it was made when L was written down."""
+    first, *more = mistake.what.parts
+    words = f"{str(first)[:1].lower()}{str(first)[1:]}" if isinstance(first, str) else first
+    where = f"Not above, where it is right, but in {line.title}: "
+    return replace(mistake, what=text(where, words, *more), why=text(WHY_COPIED), step=4)
 
 
 def of_either(

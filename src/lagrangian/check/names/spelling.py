@@ -54,7 +54,7 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
         put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(reading))) for line in lines)
         if may_be_right(truth, put):
             return Spelling(put, (*notes, *(_read(a, b) for a, b in reading.items())))
-    close = _likeliest(truth, lines, unknown, free) or _closest(unknown, [*free, *inputs])
+    close = _likeliest(truth, lines, unknown, [*free, *inputs]) or _closest(unknown, [*free, *inputs])
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
     left = [s for s in unknown if s not in close]
     told = [_read(a, b) for a, b in close.items()]

@@ -122,6 +122,8 @@ class Answer:
     marked_rows: Callable[[], tuple[MarkedRow, ...]] = field(default=tuple, repr=False, compare=False)
     read_marked: Callable[[tuple[tuple[int, int], ...]], Answer] | None = field(default=None, repr=False, compare=False)
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
+    commented: bool = field(default=False, repr=False, compare=False)
+    """Whether comments hold equations of motion."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
 from unicodedata import normalize
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
-from lagrangian.read.letters import key
+from lagrangian.read.letters import SPELLED, key
 
 _NAME = r"(?<![\w\\])\\?[^\W\d_]\w*(?:\{\w{1,20}\})?"
 _STATED = re.compile(
@@ -85,32 +86,70 @@ _DOTTED = re.compile("[\u0307\u0308]|\\\\d?dot(?![A-Za-z])|(?<=[^\\W\\d])_?d?dot
 _PRIMED = re.compile(r"(?<!\w)\\?(?P<name>[^\W\d_]\w{0,24}(?:\{\w{1,20}\})?)[ }]{0,2}['’′″]")
 
 
-def with_primes_as_slopes(text: TracedText, changes: Callable[[str], bool], *, latex: bool) -> TracedText:
-    """Return an answer in which a prime behind a function of one coordinate, Θ' after Θ(r) = …, is its derivative by
-    this coordinate, if rates have dots and nothing that moves has a prime."""
-    found: dict[str, str] = {}
-    for match in _STATED.finditer(text.text):
-        found.setdefault(
-            written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip()
-        )
-    found = {name: of for name, of in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))}
+def with_primes_as_slopes(
+    text: TracedText, system: Callable[[str], bool], changes: Callable[[str], bool], *, latex: bool
+) -> TracedText:
+    """Return an answer in which the derivative of a function of one coordinate by this coordinate, dΘ/dr or Θ'(r) after
+    Θ(r) = …, is written ∂Θ/∂r; Θ' alone, too, if rates have dots and nothing that moves has a prime.
+
+    ``system`` says whether a name belongs to the system; d/dr of such a function is read elsewhere.
+    """
+    found: dict[str, tuple[str, str]] = {}
+    for match in islice(_STATED.finditer(text.text), _MAX):
+        of = match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip()
+        found.setdefault(written(match["name"]), (match["name"], of))
+    found = {
+        x: (name, of) for x, (name, of) in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))
+    }
     primed = {written(m["name"]) for m in _PRIMED.finditer(text.text)} if found else set[str]()
     moving = any(changes(x) for x in primed) or not _DOTTED.search(normalize("NFD", text.text))
     edits: list[Edit] = []
-    for name, of in found.items() if not moving else ():
-        if name not in primed or changes(name):
+    for name, (top, of) in found.items():
+        if changes(name):
             continue
-        form = rf"(?:(?<![\w\\])|(?<=\d)(?=\\)){_spelled(name)}\s?['’′](?!['’′])(?:\s?\(\s?{re.escape(of)}\s?\))?"
-        for match in re.finditer(form, text.text):
-            top = match["name"].strip()
-            new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
-            edits.append((*match.span(), f" {new} "))
-    return text.edited(apart(edits))
+        forms = _primed(name, of, alone=not moving) if name in primed else []
+        forms += _differentiated(name, of) if not system(name) and name not in _LETTERS else []
+        new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
+        edits += [(*m.span(), f" {new} ") for form in forms for m in re.finditer(form, text.text)]
+    return text.edited(apart(sorted(edits)))
+
+
+def _primed(name: str, of: str, *, alone: bool) -> list[str]:
+    """The pattern of a function with a prime: Θ'(r), and Θ' ``alone``."""
+    applied = rf"(?:\s?{_argument(of)})"
+    return [rf"(?:(?<![\w\\])|(?<=\d)(?=\\)){_spelled(name)}\s?['’′](?!['’′]){applied}{'?' if alone else ''}"]
+
+
+def _differentiated(name: str, of: str) -> list[str]:
+    """The patterns of a function of a coordinate that is differentiated by it, as a fraction or by an operator."""
+    d, by = r"(?:\\mathrm\s?\{d\}|\\partial|d|∂)\s?", rf"{_letter(of)}(?![\w'’′\u0307(])"
+    applied = rf"{_spelled(name)}\s?{_argument(of)}"
+    whole, begins = rf"(?:{applied}|{_spelled(name)})", r"(?<![^\W\d])(?<!\\)"
+    inner = rf"(?:{applied}|(?:\\left)?[(\[]\s?{whole}\s?(?:\\right)?[)\]]|{_spelled(name)}(?=\s{{0,3}}&?\s{{0,3}}=))"
+    fraction = r"\\[dt]?frac\s?\{{\s?{}\s?\}}\s?\{{\s?{}\s?\}}"
+    return [
+        rf"{begins}{d}{whole}\s?/\s?{d}{by}",
+        fraction.format(d + whole, d + by),
+        rf"{begins}{d}/\s?{d}{_letter(of)}(?![\w'’′\u0307])\s?{inner}",
+        fraction.format(d, d + by) + rf"\s?{inner}",
+    ]
+
+
+def _argument(of: str) -> str:
+    """A pattern of a coordinate in brackets behind a function."""
+    return rf"(?:\\left)?\(\s?{_letter(of)}\s?(?:\\right)?\)"
+
+
+def _letter(of: str) -> str:
+    """A pattern of a coordinate, whose Greek letter may be spelled out."""
+    bare = of.removeprefix("\\")
+    named = {bare, SPELLED.get(bare, bare), *(letter for letter, word in SPELLED.items() if word == bare)}
+    return rf"\\?(?:{'|'.join(map(re.escape, sorted(named)))})"
 
 
 def _spelled(name: str) -> str:
     r"""A pattern of a name as it may be written: J_{b} and \Theta."""
-    return r"(?P<name>\\?" + r"[_{\s]{0,2}".join(map(re.escape, name)) + r"\}?)"
+    return r"\\?" + r"[_{\s]{0,2}".join(map(re.escape, name)) + r"\}?"
 
 
 def _bare(text: str, whole: str, system: Callable[[str], bool], *, latex: bool) -> Iterator[Edit]:
@@ -155,6 +194,8 @@ def _functions(text: str, system: Callable[[str], bool], changes: Callable[[str]
         listed = [x for x in re.split("[,;]", of[1:-1]) if x]
         end = _VALUE_END.search(text, match.end())
         value = text[match.end() : len(text) if end is None else end.start()]
+        if _MATRIX.match(text, match.end()):
+            continue
         own = system(name) or (name in _LETTERS and not moves(value) and not _ENERGY.search(value))
         if first and own and not changes(name) and all(changes(x) or _has_rate(x, text) for x in listed):
             yield f"{name}{of}"

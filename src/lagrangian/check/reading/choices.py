@@ -20,8 +20,9 @@ MOST_AGAIN = 4
 class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
-    accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), and which
-    rows, at the places in ``marks``, are without what may be no part of them, in the reading of this number."""
+    accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), whether
+    ``comments`` with equations of motion are read, and which rows, at the places in ``marks``, are without what may be
+    no part of them, in the reading of this number."""
 
     flipped: bool = False
     listed: bool | None = None
@@ -29,6 +30,7 @@ class Choices:
     summed: bool = False
     rated: bool = False
     bare: bool = False
+    comments: bool = False
     marks: tuple[tuple[int, int], ...] = ()
 
     def row(self, row: AnswerRow, words: Words) -> AnswerRow:

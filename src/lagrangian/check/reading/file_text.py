@@ -9,6 +9,7 @@ from __future__ import annotations
 import codecs
 import re
 
+from lagrangian.check.reading.notebook_file import of_notebook
 from lagrangian.errors import ParseError, Place
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.read import MAX_BYTES, decode
@@ -31,7 +32,15 @@ _MANY = 0.3
 
 
 def decode_answer(data: bytes, name: str) -> str:
-    """Return the text of an answer's file; raises `ParseError` with its place if it is no text that can be told."""
+    """Return the text of an answer's file, of a notebook that of its cells; raises `ParseError` with its place if it is
+    no text that can be told."""
+    text = _text(data, name)
+    found = of_notebook(text)
+    return text if found is None else found
+
+
+def _text(data: bytes, name: str) -> str:
+    """The text of a file."""
     if len(data) > MAX_BYTES:
         raise _too_large(name)
     for mark, encoding in _MARKED:

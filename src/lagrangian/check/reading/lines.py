@@ -21,7 +21,6 @@ from lagrangian.check.reading.line_forms import (
     is_aside,
     is_general,
     is_rate_of,
-    listed_names,
     made_line,
     matrix_rows,
     says_constant,
@@ -31,11 +30,12 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
+from lagrangian.check.reading.named_products import with_named_products
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.own_values import amounts_to
-from lagrangian.check.reading.parts import left_out, tells, without_parts
+from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
     generalized_force,
@@ -84,7 +84,7 @@ class Lines:
 
         Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
         """
-        self._statements = statements
+        self._statements = statements = with_named_products(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
         complete = self._complete()
@@ -128,8 +128,7 @@ class Lines:
         new = [x for x in sorted(listed) if not self._explains(x)]
         if error.code != "E701" or not new:
             return False
-        written = " ".join(self._statements[i].source.text.split())
-        self.names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
+        tell_general(self._statements[i].source, new, self.names)
         return True
 
     def _explains(self, written: str) -> bool:
@@ -316,8 +315,9 @@ class Lines:
         if 2 in rates and self.names.occurs(token) == 1 and value.shape == (len(names), 1):  # qdd = [a; b]
             pairs = zip([c.symbol.diff(time, 2) for c in self.model.coordinates], value, strict=True)
             return [made_line("equation", a, b, None, side, side, reader) for a, b in pairs]
-        self._used_nowhere(subject, reader)
-        if self.names.occurs(token) > 1 and not self._is_used_as_matrix(token):
+        if not (acts := value.shape == (len(names),) * 2 or value.has(*(u.symbol for u in self.model.inputs))):
+            self._used_nowhere(subject, reader)
+        if (acts or self.names.occurs(token) > 1) and not self._is_used_as_matrix(token):
             self._not_judged(reader, f"no equation uses this matrix {token}")
         return entries_of(token, value, side, reader)
 

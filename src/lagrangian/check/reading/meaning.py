@@ -122,7 +122,7 @@ class Meaning(ExpressionReader):
                     fix="give the answer in shorter pieces",
                     code="E703",
                 )
-            self.names.derivatives[value, by] = value.diff(by)
+            self.names.derivatives[value, by] = _slope(value, by)
         return self.names.derivatives[value, by]
 
     def _partial(self, node: Node) -> sp.Expr:
@@ -367,3 +367,8 @@ class ReadingBudget:
 
 def _shape(shape: Any) -> str:
     return shape if isinstance(shape, str) else f"a matrix of {shape[0]} × {shape[1]}"
+
+
+def _slope(value: Value, by: sp.Expr) -> Value:
+    """The derivative of a value, entry by entry of a matrix."""
+    return value.applyfunc(lambda x: bounded.diff(x, by)) if isinstance(value, MatrixBase) else bounded.diff(value, by)

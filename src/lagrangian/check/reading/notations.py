@@ -23,16 +23,14 @@ from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.programs.functions import without_functions
-from lagrangian.check.reading.programs.marks import told_comments, without_program_marks, without_terminators
+from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
 from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
-from lagrangian.check.reading.programs.quotes import without_quotes
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
-from lagrangian.check.reading.programs.unrolled import unrolled
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
@@ -84,7 +82,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     typed_in = without_crossed_out(without_terminators(without_maxima(_copied(text))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
-    prompted = with_columns(with_whole_matrices(unrolled(without_quotes(without_prompts(shown)))))
+    prompted = with_columns(with_whole_matrices(without_prompts(shown)))
     code = without_code(prompted, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:
@@ -99,7 +97,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)
-    tagless = with_primes_as_slopes(tagless, names.changes, latex=latex)
+    tagless = with_primes_as_slopes(tagless, taken, names.changes, latex=latex)
     tagless = with_own_functions(tagless, lambda name: key(name) in own, names.changes, names.notes, latex=latex)
     if "\\" not in text and "$" not in text:  # F_{12} cos(w t) is no LaTeX
         tagless = tagless.sub(_BRACED_INDEX, lambda m: f"_{m[1]}").sub(_BRACED_POWER, lambda m: f"^({m[1]})")
@@ -125,8 +123,6 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = without_programs(without_functions(said, of), names.changes, taken)
-    if not LATEX.search(plain.text):
-        names.notes |= dict.fromkeys(told_comments(plain.text))
     return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)
 
 

@@ -8,9 +8,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
+import sympy as sp
+
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.arguments import dependents
+from lagrangian.check.reading.braces import with_round_brackets
 from lagrangian.check.reading.bullets import Bullets
+from lagrangian.check.reading.carried_out.stated import carried_out
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.indexed import counted_names, without_indices
@@ -18,7 +22,7 @@ from lagrangian.check.reading.latex.formula import LatexParser
 from lagrangian.check.reading.latex.macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex.rows import beside_mathematics, latex_rows
 from lagrangian.check.reading.latex.variants import with_variants_apart
-from lagrangian.check.reading.line_forms import together
+from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import without_markup
@@ -27,6 +31,7 @@ from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
+from lagrangian.check.reading.programs.marks import told_comments, with_comments_read
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
@@ -41,6 +46,7 @@ from lagrangian.check.reading.side_remarks import told_remarks, without_side_rem
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.check.reading.subjects import MULTIPLIERS
+from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
@@ -51,6 +57,9 @@ MAX_ANSWER = 60_000
 
 LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
+
+CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
+"""The note on a program whose lines are not read as they stand."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -93,6 +102,30 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
+    program = carried_out(text, model)
+    if program is None:
+        return _declared(text, model, place)
+
+    def by_steps() -> Answer:
+        found = _declared(program, model, place)
+        return replace(found, notes=(CARRIED_OUT, *found.notes))
+
+    typed: Answer | ParseError
+    try:
+        typed = _declared(text, model, place)
+    except ParseError as error:
+        typed = error
+    if isinstance(typed, ParseError) or typed.doubt is not None:
+        try:
+            return by_steps()
+        except ParseError:
+            if isinstance(typed, ParseError):
+                raise typed from None
+    return replace(typed, others=(*typed.others, by_steps))
+
+
+def _declared(text: str, model: Model, place: Place | None) -> Answer:
+    """The content of an answer, in whose sentences names of the system may be renamed."""
     said = declarations(text, model)
     if not said.names:
         found = _parsed(said.text, model, place)
@@ -164,17 +197,43 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
 
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
-    """The answer in one reading; those that are less likely are added to ``others``."""
+    """The answer in one reading; those that are less likely are added to ``others``.
+
+    Comments with equations of motion are read where no other line states one.
+    """
+    try:
+        found = _read_as(text, model, place, reading, others)
+    except ParseError as error:
+        if reading.comments or error.code == "E703" or not any(told_comments(plainer(text))):
+            raise
+        try:
+            return _read_as(text, model, place, replace(reading, comments=True), [])
+        except ParseError:
+            raise error from None
+    if not found.commented or reading.comments or any(accelerates(sp.sympify(x.residual)) for x in found.equations):
+        return found
+    return _read_as(text, model, place, replace(reading, comments=True), [])
+
+
+def _read_as(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
+    """The answer in one reading, without comments unless they are to be read."""
     given, lines = text, Lines(model)
     remarks = without_side_remarks(text, model, lines.names.known)
     text = remarks.text if reading.bare else text
     typed = Source(plainer(text), "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
-    rated, plain = called.text != plain.text, called if reading.rated else plain
+    rated = called.text != plain.text
+    plain, comments = _with_comments(called if reading.rated else plain, reading)
     text = without_markup(plain.text)
     latex = bool(LATEX.search(text))
-    text = text if latex else dots_in_letters(plain_format(text), [c.name for c in model.coordinates], model.symbols)
+    text = (
+        text
+        if latex
+        else dots_in_letters(
+            plain_format(with_round_brackets(text)), [c.name for c in model.coordinates], model.symbols
+        )
+    )
     bullets, signed = Bullets(text, partial(_has_no_minus, lines)), text
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
@@ -203,26 +262,31 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
         if reading == LIKELIEST and lines.failed:
             others += marked_readings(marked(), lines.failed)
     _check_number(rows if _states_anything(made, lines) else [], source, written)
-    again = [partial(_answer, given, model, place, x, []) for x in others]
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
-    notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *doubtful)
+    notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)
     said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
-    unread = frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)}
     return Answer(
         made,
         "latex" if latex else "text",
         tuple(lines.names.unknown.values()),
         notes,
         said,
-        unread,
+        frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)},
         remarks.said,
-        tuple(again),
+        tuple(partial(_answer, given, model, place, x, []) for x in others),
         together(lines.doubts) if lines.doubts else None,
         bool(lines.lacking),
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
+        bool(comments),
     )
+
+
+def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:
+    """An answer, in which comments with equations of motion are read if they are to be, and notes about these."""
+    told = [] if LATEX.search(plain.text) else list(told_comments(plain.text, read=reading.comments))
+    return with_comments_read(plain) if told and reading.comments else plain, told
 
 
 def _rows(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from lagrangian.read.letters import GREEK, key, undotted
 from lagrangian.read.scope import Scope
@@ -67,6 +68,13 @@ class AnswerScope(Scope):
             super(AnswerScope, self).meanings(word[:k])[0] and super(AnswerScope, self).meanings(word[k:])[0]
             for k in range(1, len(word))
         )
+
+
+def meant(written: str, names: Iterable[str]) -> list[str]:
+    """The names that ``written`` may be, spelled in another way or shortened."""
+    listed, letter = list(names), _letter(written)
+    same = [x for x in listed if key(x) == key(written)]
+    return same or [x for x in listed if letter is not None and _letter(x) == letter]
 
 
 def _letter(name: str) -> tuple[str, str] | None:

@@ -40,7 +40,8 @@ CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
 
 _REST = re.compile(
-    r"\b(?:at rest|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique)"
+    r"\b(?:at rest|hover|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
+    r"|(?<!the )rest\b(?=[^\w\n]{0,3}(?:with|where|when|if|for|position|requires|needs|means|:)))"
     r"|gleichgewicht",
     re.IGNORECASE,
 )

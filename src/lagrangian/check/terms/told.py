@@ -188,8 +188,11 @@ class _Sums:
     def _by_whole(self, written: sp.Expr, whole: Sequence[int]) -> Pair:
         """What was written where right terms belong; where these are a product of it, it is told as such."""
         right = cast("sp.Expr", sp.Add(*[self.theirs[j].expr for j in whole]))
-        if written != 0 and _is_simple(times := bounded.cancel(right / written)):
-            right = cast("sp.Expr", times * written)
+        sums = written.has(sp.Add) + right.has(sp.Add)
+        if written != 0 and sums != 1:
+            times = cast("sp.Expr", right / written)
+            times = bounded.cancel(times) if sums else times
+            right = cast("sp.Expr", times * written) if _is_simple(times) else right
         return Pair(written, right, cast("sp.Expr", sp.Add(*[self.right[j] for j in whole])))
 
     def _pair(self, written: sp.Expr, right: sp.Expr) -> Pair:

@@ -21,6 +21,7 @@ from lagrangian.check.explain.changes.scales import scales
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.changes.slopes import AtomSlopes
 from lagrangian.check.explain.changes.sums import SumChanges
+from lagrangian.check.explain.changes.turning import TurningChanges
 from lagrangian.check.explain.changes.work import WorkChanges
 from lagrangian.check.reference import Reference
 from lagrangian.derive import Derived
@@ -223,6 +224,7 @@ def _every(sites: Sites) -> Iterator[LocalChange]:
     yield from letters.factors([*parts, *(w for w in wholes if w.element is not None), *terms, *rows])
     yield from GeometryChanges(sites, letters.lengths).changes()
     yield from deflections.changes()
+    yield from TurningChanges(sites).changes()
     yield from SumChanges(sites, letters.lengths).changes()
     yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
 

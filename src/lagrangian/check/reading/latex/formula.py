@@ -129,8 +129,9 @@ class LatexParser(LatexFractions):
             sign = self.take()
             return node("signed", sign.start, leaf("SIGN", "-", sign.start), self._argument())
         if self.next.kind in _BEGINS - {"(", "["}:
-            if self.next.kind == "letters" and len(self.next.text) > 1:
+            if self.next.kind == "letters":  # \frac m2 is m/2 beside a mass m2
                 self._cut(1)
+                return name((letter := self.take()).text, letter.start)
             return self._atom()
         raise self.stopped(True)
 

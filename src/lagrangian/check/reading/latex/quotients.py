@@ -10,6 +10,7 @@ from lark import Tree
 from lagrangian.check.reading.latex.symbols import LatexSymbols
 from lagrangian.check.reading.nodes import inside, leaf, node
 from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.read.letters import key
 
 _ENERGIES = frozenset("TVLDℒ")
 CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -153,11 +154,15 @@ class LatexFractions(LatexSymbols):
         return made
 
     def _is_partial(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
-        """Whether a fraction is ∂L/∂ẋ, or dL/dẋ of an energy."""
+        """Whether a fraction is ∂L/∂ẋ, dL/dẋ of an energy, or dI/dθ of a quantity of the answer's own by what moves."""
         if top[0].kind == bottom[0].kind == "partial":
             return True
         over, under = ("".join(x.text for x in part if x.kind not in "{}") for part in (top, bottom))
-        return over[:1] == under[:1] == "d" and over[1:] in _ENERGIES and len(under) > 1 and not self.known(over)
+        if over[:1] != "d" or under[:1] != "d" or len(under) == 1 or self.known(over):
+            return False
+        what = over[1:].partition("(")[0]
+        own = key(what) in self.names.scope.taken and not self.names.scope.meanings(what)[0]
+        return over[1:] in _ENERGIES or (own and not self.known(under) and self.names.changes(under[1:]))
 
     def _partial_fraction(self, token: AnswerToken) -> Tree:
         energy = self._after_d()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from lark import Tree
 
 from lagrangian.check.reading.arguments import written
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.nodes import leaf, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.derivatives import CLOSING, PlainDerivatives
@@ -50,12 +51,13 @@ class PlainCalls(PlainDerivatives):
         return listed and self.tokens[end + 1 : end + 2] != [] and self.tokens[end + 1].kind == "="
 
     def _of_column(self) -> bool:
-        """Whether the bracket that is next only holds the column of coordinates, as in M(q) q'' and C(q, q')."""
+        """Whether the next bracket only holds the column of coordinates, as in M(q) q'', C(q, q') and C(q, qdot)."""
         at = self.i + 1
         while self.tokens[at].kind in ("name", "primes", ","):
             token = self.tokens[at]
+            stems = {undotted(token.text)[0], *(stem for _, stem in spelled_rates(token.text))}
             if token.kind == "name" and (
-                undotted(token.text)[0] not in ("q", "xi", "ξ") or self.words.names.scope.meanings(token.text)[0]
+                not stems & {"q", "xi", "ξ"} or self.words.names.scope.meanings(token.text)[0]
             ):
                 return False
             at += 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -154,6 +155,8 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     split = [
         piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",", words=words)
     ]
+    begin = {row.start for row in rows}  # labels behind commas: of A: x' = a, of B: y' = b
+    split = [x if x.start in begin else replace(x, text=before(x.text, words, numbers)) for x in split]
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
     found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
     if len(found) > 1:

@@ -14,10 +14,11 @@ dz(2) = (F - k*z(1))/m          without the function's first line
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.shortened import meant
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass, field
 
@@ -67,7 +68,7 @@ MOST = 60
 """The most rates among which that of a state is sought."""
 _COMMENT = re.compile(r"(?:(?<!\\)[#%]|//)(?P<said>[^\n]*)")
 _STATE = rf"(?P<name>{_NAME}['’′]{{0,2}})"
-_ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}"
+_ONE_STATE = rf"(?<!\w)STATE{_INDEX}[ \t]*+(?:=|:|is)[ \t]*+{_STATE}(?P<rate>[ \t]*+(?:dot|prime|rate)(?!\w))?"
 _LISTED_STATES = r"(?<!\w)STATE[ \t]*+(?:=|:|is)[ \t]*+[\[(](?P<names>[^\[\]()]*+)[\])]"
 
 
@@ -81,6 +82,11 @@ class _Function:
     others: Sequence[str] = ()
     """Its other arguments, such as a list of parameters."""
 
+    def listed(self) -> re.Pattern[str]:
+        """What begins the list of all rates."""
+        given = rf"^[ \t]*+{self.out}[ \t]*=[ \t]*(?P<list>{_LIST})"
+        return _RETURNED if self.out is None else re.compile(given, re.MULTILINE)
+
 
 def without_functions(written: TracedText, coordinates: Sequence[str]) -> TracedText:
     """Return an answer in which a function that returns the rates of a state is a list of equations."""
@@ -92,7 +98,9 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     if len(headers) != 1 and loose is None and not (not headers and returns):
         return written
     function = loose or _function(text, headers)
-    function.names = _commented(text, function.state, coordinates) | function.names
+    said = _commented(text, function.state, coordinates)
+    of = _coordinates_said(function.names, said, coordinates)
+    function.names = said | function.names
     rates = {name: rate for name in function.names.values() if (rate := _spelled_out(name, coordinates)) != name}
     if rates:  # dy = z(4) is y', not d y
         function.names = {i: rates.get(name, name) for i, name in function.names.items()}
@@ -105,15 +113,18 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     states = [name or default[i] for i, name in enumerate(names)]
     if len(function.names) > 1 and set(function.names) == set(range(len(function.names))):
         states = states[: len(function.names)]  # the current and not the charge
-    order = [name for name in states if name in coordinates]
-    if set(order) == set(coordinates):
-        written = written.edited(apart(list(_solved(text, order))))
+    read = [of.get(name) or next(iter(meant(name, coordinates)), name) for name in states]
+    order = [name for name in read if name in coordinates]
+    whole = sorted(order) == sorted(coordinates)
+    solved = [f"{name}''" for name in order] if whole else list(_rates_of_speeds(text, function, states))
+    if solved:
+        written = written.edited(apart(list(_solved(text, solved, in_order=order == [*coordinates]))))
         text, headers = written.text, list(_HEADER.finditer(written.text))
     edits: list[Edit] = [(m.start(), m.end(), "") for m in headers]
     edits += [(m.start(), m.end(), "") for m in _NOTHING.finditer(text)]
     unpacked = {function.state, *function.others}
-    edits += [(m.start(), m.end(), "") for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
-    edits += [(m.start(), m.end(), "") for m in _INDEXED.finditer(text) if m["of"] == function.state]
+    edits += [(*m.span(), _said(m, of)) for m in _UNPACKED.finditer(text) if m["of"] in unpacked]
+    edits += [(*m.span(), _said(m, of)) for m in _INDEXED.finditer(text) if m["of"] == function.state]
     if function.state is not None:
         edits += _indices(text, function.state, states)
     if function.out is not None:
@@ -122,14 +133,49 @@ def without_functions(written: TracedText, coordinates: Sequence[str]) -> Traced
     return written.edited(apart(edits))
 
 
-def _solved(text: str, order: Sequence[str]) -> Iterator[Edit]:
-    """The second derivatives of the coordinates, in their order as states, in the place of accelerations that a program
-    solves for."""
+def _coordinates_said(names: Mapping[int, str], said: Mapping[int, str], coordinates: Sequence[str]) -> dict[str, str]:
+    """The coordinates that comments say unpacked names to be, each one name alone: p = z(1), where z(1) is phi."""
+    own = {i: name for i, name in names.items() if said.get(i) in coordinates}
+    rates = {name for name in own.values() for _, stem in spelled_rates(name) if meant(stem, coordinates)}
+    known = {x for name in names.values() for x in meant(name, coordinates)}
+    taken = [said[i] for i in own]
+    return {
+        name: said[i]
+        for i, name in own.items()
+        if taken.count(said[i]) == 1 and said[i] not in known and name not in rates
+    }
+
+
+def _said(unpacked: re.Match[str], of: dict[str, str]) -> str:
+    """What unpacked names are of which a comment says that they are coordinates: p = phi; nothing for others."""
+    groups = unpacked.groupdict()
+    names = [x.strip() for x in (groups.get("names") or groups["name"]).split(",")]
+    return "".join(f"{name} = {of[name]};" for name in names if name in of)
+
+
+def _rates_of_speeds(text: str, function: _Function, states: Sequence[str]) -> Iterator[str]:
+    """The rates that accelerations are, one by one, in the list of all rates: [v, w, acc[0], acc[1]] says v' and w'."""
+    match, listed = _ACCELERATIONS.search(text), function.listed().search(text)
+    spans = _entries(text, listed.end("list") - 1) if match is not None and listed is not None else None
+    if match is None or spans is None or len(spans) != len(states):
+        return
+    entry = re.compile(rf"{re.escape(match['name'].strip('()'))}{_INDEX}")
+    found = {
+        _place(m): x
+        for x, span in zip(states, spans, strict=True)
+        if (m := entry.fullmatch(text[slice(*span)].strip()))
+    }
+    if set(found) == set(range(len(found))):
+        yield from (f"{found[k]}'" for k in range(len(found)))
+
+
+def _solved(text: str, rates: Sequence[str], *, in_order: bool) -> Iterator[Edit]:
+    """The rates of speeds, in the order of the states, in the place of accelerations that a program solves for; qdd
+    remains where the order is that of the system."""
     match = _ACCELERATIONS.search(text)
     if match is None:
         return
-    rates = [f"{name}''" for name in order]
-    if match["column"] is None:
+    if match["column"] is None or not in_order:
         yield *match.span("name"), f"[{'; '.join(rates)}]"
     name = match["name"].strip("()")
     for entry in re.finditer(rf"(?<!\w){name}{_INDEX}", text):
@@ -156,8 +202,9 @@ def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:
     others = [x.partition("=")[0].partition(":")[0].strip() for x in listed]
     unpacked = [m for m in _UNPACKED.finditer(text) if not others or m["of"] in others]
     indexed = [m for m in _INDEXED.finditer(text) if m["of"] in others]
+    used = [x for x in others if re.search(rf"(?<!\w){re.escape(x)}{_INDEX}", text)]
     state = next((m["of"] for m in (*unpacked, *indexed)), None) or next(
-        (x for x in others if x not in ("t", "")), None
+        (x for x in (*used, *others) if x not in ("t", "")), None
     )
     out = next((m["out"] or m["given"] for m in headers), None)
     found = _Function(state, _named(text) if out is None else _spellings(out))
@@ -210,10 +257,13 @@ def _commented(text: str, state: str | None, coordinates: Sequence[str]) -> dict
     if state is None:
         return {}
     found: dict[int, str] = {}
-    for comment in _COMMENT.finditer(text):
-        for match in re.finditer(_ONE_STATE.replace("STATE", state), comment["said"]):
-            found[_place(match)] = match["name"]
-        for match in re.finditer(_LISTED_STATES.replace("STATE", state), comment["said"]):
+    said = [m["said"] for m in _COMMENT.finditer(text)]
+    listing = rf"(?:^|;)[ \t]*+({_LISTED_STATES.replace('STATE', state)})[ \t]*+(?=[.,;]|$)"
+    said += [m[1] for m in re.finditer(listing, text, re.MULTILINE)]  # a comment that became a statement
+    for comment in said:
+        for match in re.finditer(_ONE_STATE.replace("STATE", state), comment):
+            found[_place(match)] = match["name"] + ("'" if match["rate"] else "")
+        for match in re.finditer(_LISTED_STATES.replace("STATE", state), comment):
             listed = [
                 x.strip() for x in re.split("[,;]" if re.search("[,;]", match["names"]) else r"\s", match["names"])
             ]
@@ -262,8 +312,7 @@ def _rates(text: str, function: _Function, states: Sequence[str]) -> Iterator[Ed
 
 def _returned(text: str, function: _Function, states: Sequence[str]) -> Iterator[Edit]:
     """The equations in the place of a list that is returned: each entry is the rate of its state."""
-    given = re.compile(rf"^[ \t]*+{function.out}[ \t]*=[ \t]*(?P<list>{_LIST})", re.MULTILINE)
-    for match in (_RETURNED if function.out is None else given).finditer(text):
+    for match in function.listed().finditer(text):
         spans = _entries(text, match.end("list") - 1)
         if spans is None or len(spans) != len(states):
             continue

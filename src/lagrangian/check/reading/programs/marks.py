@@ -59,6 +59,12 @@ _ANSWERED = re.compile(
 """What MATLAB answers to the name of a quantity: simplify(S.xdd) ⏎ ans = …"""
 _TRANSPOSED = re.compile(r"(?<=[\w)\]])\.['’]")
 _DIAGONAL = re.compile(r"(?<!\w)diag\([ \t]*\[(?P<entries>[^\[\]()=\n]{1,300})\][ \t]*\)")
+_BLOCK = re.compile(r"(?:^[ \t]*+(?:[#%]+|//(?=\s))[^\n]*+(?:\n|\Z))++", re.MULTILINE)
+"""Lines below each other that are comments."""
+_BEHIND = re.compile(r"(?<=\S)[ \t]++(?P<mark>[#%]++|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
+"""A comment behind a statement."""
+_LED = re.compile(r"(?<![\w/])dd(?=[^\W\d])")
+"""The letters in front of an acceleration, ddx."""
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
 _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
 
@@ -88,11 +94,40 @@ def _shown_of_time(match: re.Match[str], taken: Callable[[str], bool]) -> str:
     return "" if match["states"] else f"{match['name']} = "
 
 
-def told_comments(text: str) -> Iterator[str]:
-    """What to say about comments and headings that hold an equation of motion."""
-    for match in islice(_WHOLE_LINE_COMMENT.finditer(text), MOST):
-        if "=" in match["said"] and len(match["said"]) < LONGEST and carries(match["said"]):
-            yield f"'{' '.join(match.group().split())}' was not judged: it is a comment."
+def told_comments(text: str, *, read: bool = False) -> Iterator[str]:
+    """What to say about comments and headings that hold an equation of motion, and that are ``read`` or not."""
+    why = "was read, though it is a comment: no other line states an equation of motion"
+    whole = [m for block in _blocks(text) for m in block if _moves(m["said"])]
+    for match in sorted((*whole, *_behind(text)), key=lambda m: m.start()):
+        yield f"'{' '.join(match.group().split())}' {why if read else 'was not judged: it is a comment'}."
+
+
+def with_comments_read(written: TracedText) -> TracedText:
+    """Return an answer in which what comments say is no comment, where an equation of motion stands there."""
+    marks = (m for block in _blocks(written.text) for m in block)
+    edits = [(m.start(), m.start("said"), " " * (m.start("said") - m.start())) for m in marks]
+    return written.edited((*edits, *((*m.span("mark"), ";") for m in _behind(written.text))))
+
+
+def _behind(text: str) -> Iterator[re.Match[str]]:
+    """The comments behind statements in which an equation of motion stands."""
+    for match in islice(_BEHIND.finditer(text), MOST):
+        above = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
+        if "=" in match["said"] and _moves(match["said"]) and not _WHOLE_LINE_COMMENT.match(above):
+            yield match
+
+
+def _blocks(text: str) -> Iterator[list[re.Match[str]]]:
+    """The comments below each other in which an equation of motion stands."""
+    for block in islice(_BLOCK.finditer(text), MOST):
+        lines = list(islice(_WHOLE_LINE_COMMENT.finditer(text, *block.span()), MOST))
+        if any("=" in m["said"] for m in lines) and any(_moves(m["said"]) for m in lines):
+            yield lines
+
+
+def _moves(said: str) -> bool:
+    """Whether an equation of motion may stand in a comment."""
+    return len(said) < LONGEST and carries(_LED.sub("''", said))
 
 
 def without_terminators(written: TracedText) -> TracedText:

@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator
 from itertools import islice
 
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
+from lagrangian.check.reading.programs.handles import without_handles
 from lagrangian.check.reading.programs.sessions import MOST, closes
 from lagrangian.check.reading.programs.slices import with_states_one_by_one
 from lagrangian.check.reading.prose.words import function_of
@@ -28,7 +29,12 @@ _RATE = rf"{_WORD}['’′]{{0,2}}"
 _CALL = r"(?:\w{1,8}\.)?(?:array|asarray|Matrix|MutableDenseMatrix|ImmutableDenseMatrix|ImmutableMatrix)\("
 _ARRAY = re.compile(rf"(?<![\w.\\{{]){_CALL}(?=\s*+\[)")
 _MATRIX = re.compile(rf"^[ \t]*+({_NAME})[ \t]*+=[ \t]*+(?:\[|diag\(|{_CALL})", re.MULTILINE)
-_MARK = re.compile(r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)")
+_MARK = re.compile(
+    r"[\[\]]|\n[ \t]*+\n|(?P<more>\.\.\.[ \t]*+(?:%[^\n]*+)?\n)"
+    r"|(?<=[\w)\]'])(?P<row>[ \t]*+(?:%[^\n]*+)?\n[ \t]*+(?=[\w(\[-]))"
+)
+_MATLAB = re.compile(r"^[ \t]*+function[ \t]|=[ \t]*+@\(", re.MULTILINE)
+"""A function of MATLAB, in which the end of a line ends a row of a matrix."""
 _FACTOR = r"[^\W\d]\w{0,23}+|\([^()\n=]{1,200}\)"
 _SOLVED = re.compile(
     rf"(?<![\w.])(?P<left>{_NAME}['’′]{{0,2}}(?:[ \t]*+,[ \t]*+{_NAME}){{0,8}})[ \t]*+=[ \t]*+(?:"
@@ -39,6 +45,11 @@ _SOLVED = re.compile(
     r"(?=[ \t]*+(?:$|[;#%]|[ \t]{2})))",
     re.MULTILINE,
 )
+_RETURNED = re.compile(
+    rf"^(?P<before>[ \t]*+)return[ \t]++(?=(?:(?:\w{{1,6}}\.){{0,3}}(?:solve|inv)\(|{_NAME}\.(?:inv|LUsolve)\())",
+    re.MULTILINE,
+)
+"""What returns the accelerations for which it solves: return np.linalg.solve(M, f)."""
 _JULIA = re.compile(r"\bModelingToolkit\b|\bDifferential\(|@(?:variables|parameters|mtkmodel)\b|(?<!\w)D\(D\(")
 _EQUATES = re.compile(r"(?<=\S)[ \t]+~[ \t]+(?=\S)")
 """The sign of an equation of Julia, also in a list."""
@@ -68,9 +79,10 @@ LONGEST = 400
 def with_whole_matrices(written: TracedText) -> TracedText:
     """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
     written = written.sub(_EQUATES, lambda m: " = ") if _JULIA.search(written.text) else written
-    written = with_states_one_by_one(written.edited(_continued(written.text)))
+    written = with_states_one_by_one(without_handles(written.edited(_continued(written.text))))
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
+    written = written.sub(_RETURNED, lambda m: f"{m['before']}qdd = ") if given else written
     return written.sub(_SOLVED, lambda m: _product(m, given)) if given else written
 
 
@@ -104,13 +116,13 @@ def with_equations_in_comments(written: TracedText, taken: Callable[[str], bool]
 
 
 def _continued(text: str) -> Iterator[Edit]:
-    """Blanks for the marks with which a line of a matrix goes on below."""
-    depth = 0
+    """Blanks for the marks with which a line of a matrix goes on below, and semicolons for the ends of rows."""
+    depth, rows = 0, _MATLAB.search(text) is not None
     for match in _MARK.finditer(text):
         mark = match.group()
-        if match["more"]:
-            if depth:
-                yield *match.span(), " "
+        if match["more"] or match["row"]:
+            if depth and (match["more"] or rows):
+                yield *match.span(), " " if match["more"] else "; "
         else:
             depth = depth + 1 if mark == "[" else max(0, depth - 1) if mark == "]" else 0
 

@@ -4,7 +4,8 @@ T⏎ Out[2]: $\frac{m \dot{x}^{2}}{2}$            $T = \frac{m \dot{x}^{2}}{2}$ 
 Out[3]: $m \ddot{x} - F$                        $m \ddot{x} - F = 0$                an expression that is zero
 LM.forcing⏎ Out[4]: Matrix([[u], [v]])          forcing = Matrix([[u], [v]])            a matrix
 P = Matrix([x, 0])   V = m*g*P[1]               P = [x, 0]   V = m*g*(0)
-v.dot(v)                                        abs(v)^2
+v = P.diff(t)   v[0]                            v = P.diff(t)   (x).diff(t)
+v.dot(v)   (v.T*v)[0]                           abs(v)^2
 """
 
 from __future__ import annotations
@@ -42,7 +43,16 @@ _ACCELERATES = re.compile(r"\\ddot(?![a-z])|d\^\{?2\}?\s?\}?\s?\{\s?d\s?t")
 _COLUMN = re.compile(
     rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?P<call>(?:\w{{1,6}}\.)?(?:Matrix|array)\()(?=\[)", re.MULTILINE
 )
-_SQUARE = re.compile(rf"(?<![\w.])(?P<of>{_NAME})\.dot\((?P=of)\)")
+_DERIVED = re.compile(
+    rf"^[ \t]*+(?P<name>{_NAME})[ \t]*+=[ \t]*+(?:(?P<of>{_NAME})\.diff\(t\)"
+    rf"|(?:\w{{1,6}}\.)?diff\((?P<by>{_NAME}), ?t\))[ \t]*+(?:$|#)",
+    re.MULTILINE,
+)
+"""The rate of a column."""
+_SQUARE = re.compile(
+    rf"(?<![\w.])(?P<of>{_NAME})\.dot\((?P=of)\)"
+    rf"|\((?P<row>{_NAME})\.(?:T|transpose\(\)) ?[*@] ?(?P=row)\)\[0(?:, ?0)?\]"
+)
 _SPEED = re.compile(rf"({_NAME}) - ({_NAME}'|Derivative\({_NAME}\(t\), t\))")
 _SPEEDS = re.compile(rf"^[ \t]*+(?P<list>\[{_SPEED.pattern}(?:, {_SPEED.pattern}){{0,9}}\])[ \t]*+$", re.MULTILINE)
 """Kane's kinematic equations, which are zero: [u1 - x', u2 - theta']."""
@@ -103,18 +113,27 @@ def _matrix(text: str, match: re.Match[str]) -> str:
 def with_columns(written: TracedText) -> TracedText:
     """Return an answer in which columns of Python are lists, and their entries stand where an index names them."""
     text, edits = written.text, list[Edit]()
+    columns: dict[str, list[str]] = {}
     for match in islice(_COLUMN.finditer(text), MOST):
         end = closes(text, match.end("call") - 1)
         entries = list(_entries(text, match.end(), closes(text, match.end())))
         if end < 0 or not entries or any("[" in x or len(x) > LONGEST for x in entries):
             continue
-        name = match["name"]
-        if len(re.findall(rf"^[ \t]*+{name}[ \t]*+=(?!=)", text, re.MULTILINE)) > 1:
-            continue
+        if _is_given_once(match["name"], text):
+            edits += [(*match.span("call"), ""), (end, end + 1, "")]
+            columns[match["name"]] = entries
+    for match in islice(_DERIVED.finditer(text), MOST):
+        if (of := columns.get(match["of"] or match["by"])) is not None and _is_given_once(match["name"], text):
+            columns[match["name"]] = [f"({x}).diff(t)" for x in of]
+    for name, entries in columns.items():
         indexed = [m for m in re.finditer(rf"(?<![\w.]){name}\[(\d)\](?![ \t]*+=)", text) if int(m[1]) < len(entries)]
-        edits += [(*match.span("call"), ""), (end, end + 1, "")]
         edits += [(*m.span(), f"({entries[int(m[1])]})") for m in islice(indexed, MOST)]
-    return written.edited(apart(edits)).sub(_SQUARE, lambda m: f"abs({m['of']})^2")
+    return written.edited(apart(edits)).sub(_SQUARE, lambda m: f"abs({m['of'] or m['row']})^2")
+
+
+def _is_given_once(name: str, text: str) -> bool:
+    """Whether only one statement gives a name its value."""
+    return len(re.findall(rf"^[ \t]*+{name}[ \t]*+=(?!=)", text, re.MULTILINE)) == 1
 
 
 def _entries(text: str, start: int, end: int) -> Iterator[str]:

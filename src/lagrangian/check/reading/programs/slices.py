@@ -51,7 +51,7 @@ _INDEX = re.compile(r"\((\d{1,2})\)|\[(\d{1,2})\]")
 _HEADER = re.compile(r"^[ \t]*+(?:function|def)[ \t]", re.MULTILINE)
 _ASSIGNED = re.compile(r"[ \t]*+(?:=(?!=)|[(\[])")
 _END = re.compile(r"[ \t)]*+(?:$|[;#%])", re.MULTILINE)
-_COLUMN = "qdd"
+COLUMN = "qdd"
 """The name of accelerations that are solved for."""
 _DEEPEST, _LONGEST, MOST = 3, 40, 60
 """The largest depth of lists in each other, the most entries of one, and the most statements of a kind."""
@@ -70,7 +70,7 @@ def with_states_one_by_one(written: TracedText) -> TracedText:
     for name in _names(text, used):
         index = _INDEX.match(text, name.end())
         place = "" if index is None else f"({_entry(index, from_one=from_one) + 1})"
-        edits.append((name.start(), (index or name).end(), f"{_COLUMN}{place}"))
+        edits.append((name.start(), (index or name).end(), f"{COLUMN}{place}"))
     return written.edited(apart(edits))
 
 
@@ -128,7 +128,7 @@ def _lists(text: str, solved: Iterable[str], *, from_one: bool) -> Iterator[Edit
         last = _solution(entries[-1]) if entries else ""
         if not last and entries and entries[-1].lstrip("*") not in solved:
             continue
-        above = f"{match['indent']}{_COLUMN} = {last}\n" if last else ""
+        above = f"{match['indent']}{COLUMN} = {last}\n" if last else ""
         said = ", ".join([*known, *_accelerations(len(known))])
         to = match["to"].replace("(:)", "").replace(".=", "=")
         yield match.start(), end + 1, f"{above}{match['indent']}{to}[{said}]"
@@ -141,7 +141,7 @@ def _put(text: str, solved: Iterable[str], *, from_one: bool) -> Iterator[Edit]:
         last = _solution(said)
         given = _accelerations(len(to)) if last or said in solved else _places(said, from_one=from_one)
         if to and len(to) == len(given):
-            above = [f"{_COLUMN} = {last}"] if last else []
+            above = [f"{COLUMN} = {last}"] if last else []
             lines = [*above, *(f"{a} = {b}" for a, b in zip(to, given, strict=True))]
             yield *match.span(), "\n".join(f"{match['indent']}{line}" for line in lines)
 
@@ -154,7 +154,7 @@ def _solution(entry: str) -> str:
 
 def _accelerations(count: int) -> list[str]:
     """The entries of the column of accelerations."""
-    return [f"{_COLUMN}({k + 1})" for k in range(count)]
+    return [f"{COLUMN}({k + 1})" for k in range(count)]
 
 
 def _flat(inside: str, deepest: int) -> Iterator[str]:

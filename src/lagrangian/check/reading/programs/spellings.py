@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from itertools import islice
 
 from lagrangian.check.reading.prose.words import REWRITES, function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -24,17 +23,12 @@ _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _MODULE = re.compile(
     r"(?<![\w.])(?:np|numpy|jnp|math|Math|cmath|sp|sy|sym|sympy|smp|ca|casadi|mp|mpmath|torch|onp)\.(?P<name>[A-Za-z]\w*)"
 )
-_ALIAS = re.compile(
-    r"^[ \t]*+import[ \t]++(?:sympy|numpy|jax\.numpy|casadi|mpmath)[ \t]++as[ \t]++(?P<name>\w{1,12}+)", re.MULTILINE
-)
-"""What a program calls a module."""
-MOST_MODULES = 5
-"""The most modules of a program whose names are looked for."""
 _CALLED = {
     "array": "Matrix",
     "matrix": "Matrix",
     "asarray": "Matrix",
     "ImmutableMatrix": "Matrix",
+    **{x: x for x in ("simplify", "expand", "factor", "trigsimp", "together", "cancel")},
     **{x: x for x in ("pi", "diff", "Derivative", "Matrix", "Eq", "Rational", "pow", "power", "square", "Symbol")},
 }
 _REWRITTEN = re.compile(rf"(?<=[\w)'′])\s?\.\s?(?:{'|'.join(sorted(REWRITES))}|doit)\(\s*\)")
@@ -126,7 +120,6 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
 
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
-    modules = {m["name"] for m in islice(_ALIAS.finditer(written.text), MOST_MODULES)}
     written = written.sub(_LINE_OF_CODE, lambda m: "")
     if _is_mixed(written.text):
         written = written.sub(_PLAIN_DOTS, lambda m: m["of"] + "'" * len(m["dots"])).sub(_COMMAND, lambda m: m["word"])
@@ -137,8 +130,6 @@ def without_programs(written: TracedText, moves: Callable[[str], bool], taken: C
     if from_typst:
         written = _without_typst(written)
     written = written.sub(_TYPE, lambda m: m.group() if m.group().split()[-1] == "let" else "").sub(_MODULE, _bare)
-    if modules:
-        written = written.sub(re.compile(rf"(?<![\w.])(?:{'|'.join(modules)})\.(?P<name>[A-Za-z]\w*)"), _bare)
     written = written.sub(_REWRITTEN, lambda m: "")
     written = written.sub(_SUBSCRIPT, lambda m: f"{m['of']}_{m['index']}")
     written = written.sub(_SECOND, lambda m: "''").sub(_FIRST, lambda m: "'")

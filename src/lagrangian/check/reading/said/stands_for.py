@@ -22,6 +22,8 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import SPELLED, key
 
 _NAME = r"[^\W\d]\w{0,15}+"
+MOST_LETTERS = 3
+"""The most letters of a product without signs in the value of a name."""
 _PAIR = rf"{_NAME}[ \t]*+=[ \t]*+{_NAME}"
 _PAIRS = rf"{_PAIR}(?:[ \t]*+(?:,|;|and|und|et)[ \t]*+{_PAIR})*+"
 _COMMENT = re.compile(
@@ -112,6 +114,13 @@ _BY = re.compile(
     rf"[ \t]++(?:by|as)[ \t]++(?P<new>{_NAME})(?![\w'’′(])",
     re.IGNORECASE,
 )
+_FOR_SUM = re.compile(
+    rf"(?<!\w)(?:with|mit|write|writing|using|abbreviating)[ \t]++(?:the[ \t]{_WORD}[ \t])?(?P<new>{_NAME})[ \t]++"
+    r"(?:for|für)[ \t]++(?P<value>(?=[^,;:=\n]{0,60}?[-−+*/·²³^])[^\s,;:=][^,;:=\n]{1,100}?)"
+    r"(?=[ \t]++(?:the|we|I|our|this|it|die|der|das|wird|ist|is|becomes?|gives?)[ \t]|[ \t]*(?:[,;:]|\.(?=\s|$)|$))",
+    re.MULTILINE | re.IGNORECASE,
+)
+"""A name in the place of its value: With I for A + m l² the Lagrangian is …"""
 _LISTED = rf"{_NAME}(?:[ \t]*(?:,|and|und)[ \t]*{_NAME}){{0,7}}"
 _RATES = re.compile(
     rf"(?<![\w.*/^+])(?P<names>{_LISTED})[ \t]*"
@@ -145,16 +154,29 @@ def _with_listed_states(written: TracedText) -> TracedText:
     return written.edited(edits)
 
 
+def _is_word(name: str, text: str) -> bool:
+    """Whether a name is a word that stands only once: and therefore the gimbal with -tau."""
+    return (
+        len(name) > 3 and name.isalpha() and name not in SPELLED.values() and len(re.findall(rf"\b{name}\b", text)) == 1
+    )
+
+
 def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
     """Return an answer in plain text in which a value behind the words for a new name is a statement, or a
     rate in brackets behind them."""
     written = _with_listed_states(written)
     edits: list[Edit] = []
-    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _IS_RATE, _BY):
+    for form in (_VALUED, _IS_VALUE, _IN_BRACKETS, _IS_RATE, _BY, _FOR_SUM):
         for match in form.finditer(written.text):
             spoken = match.groupdict().get("words") or ""
-            names = [x for x in re.findall(r"[^\W\d]\w*", match["value"]) if function_of(x) is None]
-            if not names or not all(map(taken, names)) or any(map(taken, [match["new"], *spoken.split()])):
+            names = [x for x in re.findall(r"[^\W\d_²³]\w*", match["value"]) if function_of(x) is None]
+            if (
+                not names
+                or not all(_is_product(x, taken) for x in names)
+                or any(map(taken, [match["new"], *spoken.split()]))
+            ):
+                continue
+            if _is_word(match["new"], written.text):
                 continue
             if "end" in form.groupindex:  # a long value keeps its places
                 edits.append((match.start(), match.start("value"), f"; {match['new']} = "))
@@ -162,6 +184,12 @@ def with_stated_values(written: TracedText, taken: Callable[[str], bool]) -> Tra
             else:
                 edits.append((*match.span(), f"; {match['new']} = {match['value']};"))
     return written.edited(apart(edits))
+
+
+def _is_product(name: str, taken: Callable[[str], bool]) -> bool:
+    """Whether letters are a name of the system, perhaps with a power, or a few such names: l², ml²."""
+    bare = name.rstrip("²³")
+    return taken(bare) or (len(bare) <= MOST_LETTERS and all(map(taken, bare)))
 
 
 def with_stated_rates(

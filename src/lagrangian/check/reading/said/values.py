@@ -164,7 +164,10 @@ def _items(sentence: str, names: dict[str, str], words: Words, *, latex: bool) -
         written = sentence[start:end].strip()
         at = end
         bare = key(re.sub(r"[\\{}\s]", "", written)) if latex else key(written)
-        if stated or _COMPARED.match(sentence, end):
+        directed = written.startswith("+") or (
+            written.startswith(("-", "−")) and before[-1:] in (("in",), ("along",))
+        )  # in -x
+        if stated or directed or _COMPARED.match(sentence, end):
             yield _Item("other", written, before)
         elif bare in names:
             yield _Item("name", bare, before)

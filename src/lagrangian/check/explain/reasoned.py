@@ -1,0 +1,75 @@
+"""Why an energy or a speed that a definition has wrong may have come out so: T_rod = ½ J φ̇², without ½mv²."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from lagrangian.check.align import LARGEST
+from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.explain.line_mistakes import without_constant
+from lagrangian.check.explain.meant import owner_of
+from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
+from lagrangian.check.explain.search import singles
+from lagrangian.check.explain.second_choices import distinct
+from lagrangian.check.explain.spoken import in_words
+from lagrangian.check.explain.term_said import with_reason
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import text
+
+KINETIC = "kinetic_of_body"
+REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
+"""What is wrong in the quantities of which it is said why they may have come out so."""
+STEP = 2
+"""The step of the kinetic energy."""
+MOST_LIKELY = 2.0
+"""A mistake that costs more is no reason that is told."""
+ALIKE = 0.1
+"""The largest difference of the costs of two reasons of which neither is the likelier."""
+
+
+def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
+    """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one."""
+    mistake = said.mistake
+    if mistake.name not in REASONED or mistake.element is None:
+        return mistake
+    values = CompiledExpressions([said.T, said.V]).at(pool.truth.states)
+    values[1] = without_constant(values[1])
+    if not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return mistake
+    V: Array = pool.kept("V but constants", lambda: without_constant(pool.V))
+    told = [t for e in singles(pool, [pool.T, V], values) for t in e.told if t.cost <= MOST_LIKELY]
+    reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
+    own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
+    if not own:
+        return mistake
+    cost, first = own[0]
+    others = distinct([x for other, x in own[1:] if other <= cost + ALIKE and x.why != first.why], [first])
+    either = text(*first.what.parts, " Or: ", *others[0].what.parts) if others else first.what
+    return replace(mistake, what=with_reason(mistake.what, replace(first, what=either)).what, why=first.why)
+
+
+def _is_of(mistake: Mistake, title: str) -> bool:
+    """Whether a mistake is made in an element, or in its weight."""
+    return mistake.element == title or title in str(mistake.what)
+
+
+def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
+    """The mistakes, with those in wrong energies of bodies that nothing else uses in front, in place of what else would
+    be said of these energies."""
+    wrong = [f.line for f in findings if f.line.kind == "definition" and f.status is Status.WRONG and not f.follows]
+    wrong = [x for x in wrong if not any(str(m.what).startswith(f"Line {x.number} is ") for m in told)]
+    pairs = [(p, owner) for x in wrong if (owner := owner_of(x.name or "", truth.model)) for p in said_of(truth, x)]
+    said = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]
+    titles = [p.mistake.element for p in said]
+    own = (reasoned(pool_of(truth), p) for p in said)
+    return (*own, *(m for m in told if m.step != STEP or m.element not in titles))
+
+
+def _is_term(possible: Possible) -> bool:
+    """Whether a mistake is nothing but a wrong term, which the formulas show as well."""
+    return possible.change is not None and possible.change.site.single

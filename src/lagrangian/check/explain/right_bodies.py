@@ -1,0 +1,38 @@
+"""Which mistakes were not made, as the kinetic energy of a body that an answer states by itself is right.
+
+T_A = ½ m ẋ²  right:  neither the ½ of T_A nor "the ½ of every kinetic energy" is missing, whatever is wrong elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.quantities import quantities_of
+from lagrangian.check.explain.said_wrongly import right_quantities
+from lagrangian.check.verdict import AnsweredLine
+
+
+def against_bodies(pool: Pool, lines: Sequence[AnsweredLine]) -> set[int]:
+    """The possible mistakes, by their identity, that would change the energy of a body that is right."""
+    truth = pool.truth
+    said = {q.owner for x in lines if x.kind == "definition" for q in right_quantities(truth, x) if q.kind == "kinetic"}
+    if not said:
+        return set()
+    s = quantities_of(truth).of
+    letters = {e: s.kinetic(e).free_symbols for e in s.model.elements if e.ledger == "T*"}
+    others = set[Any]().union(*(x for e, x in letters.items() if e not in said))
+    own = set[Any]().union(*(letters.get(e, set[Any]()) for e in said)) - others
+    shown = [pool.all[k] for k in np.flatnonzero(np.abs(pool.T).max(axis=1) > 1e-9)]
+    return {id(p) for p in shown if p.element in said or not _letters(pool, p).isdisjoint(own)}
+
+
+def _letters(pool: Pool, possible: Possible) -> set[Any]:
+    """The letters in what a mistake adds to T*."""
+    if possible.change is not None:
+        atoms = pool.sites.ring.atoms
+        return {atoms[a] for m in possible.change.effect.T for a, _ in m}
+    return set(possible.wrong.variant.T.free_symbols) if possible.wrong is not None else set()

@@ -1,0 +1,397 @@
+"""The values of the expressions of a program on symbols: operations, calls, entries."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Sequence
+from itertools import islice
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import UndefinedFunction
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian import bounded
+from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
+from lagrangian.check.reading.carried_out.values import (
+    MOST_ENTRIES,
+    MOST_STEPS,
+    TIME,
+    UNKNOWN,
+    AbandonedError,
+    BoundMethod,
+    Equation,
+    Fields,
+    Inverse,
+    Opaque,
+    OwnFunction,
+    Routine,
+    State,
+    Value,
+    added,
+    is_scalar,
+    listed,
+    matrix,
+    number,
+    over,
+    power,
+    scalar,
+    times,
+)
+from lagrangian.records import dataclass, field
+
+MOST_WORK = 200_000
+"""The most operations of all results of a program together."""
+DEEPEST = 8
+"""How deep functions may call each other."""
+_OUTSIDE = frozenset(
+    ["np", "numpy", "sp", "sympy", "math", "me", "mechanics", "scipy", "plt", "jnp", "cmath", "la", "linalg", "physics"]
+)
+
+
+@dataclass(eq=False)
+class Shown:
+    """What a program states: a value under a name, or shown without one, by the line of the program."""
+
+    line: int
+    name: str | None
+    value: Value
+    shown: bool = False
+
+
+class ReturnedError(Exception):
+    """A function of the program returns a value."""
+
+    def __init__(self, value: Value) -> None:
+        self.value = value
+
+
+@dataclass(eq=False)
+class Evaluator:
+    """Finds the values of expressions; ``matlab``: indices are in round brackets and from 1, A @ b is A\\b."""
+
+    matlab: bool
+    known: Callable[[str], bool] = lambda name: False
+    """Whether a name is a parameter or an input of the system: what it is given, a number or the name of a function,
+    does not take its place."""
+    stated: list[Shown] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)
+    """The names whose values were used."""
+    called: set[str] = field(default_factory=set)
+    solved: dict[sp.Symbol, tuple[MatrixBase, MatrixBase, tuple[sp.Symbol, ...]]] = field(default_factory=dict)
+    """For unknowns of linear equations A x = b: A, b and x."""
+    aliases: dict[sp.Symbol, str] = field(default_factory=dict)
+    """The names that entries of a state were given."""
+    functions: dict[str, OwnFunction] = field(default_factory=dict)
+    outer: dict[str, Value] = field(default_factory=dict)
+    """The names of the program outside of its functions."""
+    steps: int = 0
+    work: int = 0
+    """The operations of all results together."""
+    depth: int = 0
+
+    def carry_out(self, body: Sequence[ast.stmt], names: dict[str, Value]) -> None:
+        """Carry out statements, which `Interpreter` does."""
+        raise NotImplementedError
+
+    def count(self) -> None:
+        """Count a step; raise if they are too many."""
+        self.steps += 1
+        if self.steps > MOST_STEPS:
+            raise AbandonedError
+
+    def flat(self, value: Value) -> list[Value]:
+        """The entries of a list or a matrix, or a value alone."""
+        return listed(value) if isinstance(value, (list, tuple, MatrixBase)) else [value]
+
+    # -- values ------------------------------------------------------------------------------------------------------
+
+    def value(self, node: ast.expr, names: dict[str, Value]) -> Value:
+        """The value of an expression."""
+        self.count()
+        if isinstance(node, ast.Constant):
+            return _constant(node.value)
+        if isinstance(node, ast.Name):
+            return self._named(node.id, names)
+        if isinstance(node, ast.BinOp):
+            return self._kept(self.operated(node.op, self.value(node.left, names), self.value(node.right, names)))
+        if isinstance(node, ast.UnaryOp):
+            inner = self.value(node.operand, names)
+            return inner if isinstance(inner, Opaque) else self._signed(node.op, inner)
+        if isinstance(node, (ast.List, ast.Tuple)):
+            return [self.value(x, names) for x in node.elts]
+        if isinstance(node, ast.Dict):
+            return {
+                self.value(k, names): self.value(v, names) for k, v in zip(node.keys, node.values, strict=True) if k
+            }
+        if isinstance(node, ast.Attribute):
+            return self._attribute(node, names)
+        if isinstance(node, ast.Call):
+            return self._kept(self._call(node, names))
+        if isinstance(node, ast.Subscript):
+            return self._entry(self.value(node.value, names), node.slice, names)
+        if isinstance(node, (ast.ListComp, ast.GeneratorExp)):
+            return self._comprehended(node, names)
+        if isinstance(node, ast.Lambda):
+            return OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
+        if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
+            return Equation(scalar(self.value(node.left, names)), scalar(self.value(node.comparators[0], names)))
+        if isinstance(node, ast.JoinedStr):
+            return ""
+        raise AbandonedError
+
+    def _kept(self, value: Value) -> Value:
+        """A result, whose operations are counted."""
+        parts = value.flat() if isinstance(value, MatrixBase) else [value] if isinstance(value, sp.Expr) else []
+        self.work += sum(map(bounded.size, parts))
+        if self.work > MOST_WORK:
+            raise AbandonedError
+        return value
+
+    def _named(self, name: str, names: dict[str, Value]) -> Value:
+        self.used.add(name)
+        if name in names:
+            return names[name]
+        if name in self.functions:
+            return self.functions[name]
+        if name in _OUTSIDE:
+            return UNKNOWN
+        if name == "pi":
+            return sp.pi
+        if name == "t":
+            return TIME
+        return sp.Symbol(name)
+
+    def _signed(self, op: ast.unaryop, value: Value) -> Value:
+        if not isinstance(op, (ast.USub, ast.UAdd)):
+            raise AbandonedError
+        return times(sp.Integer(-1 if isinstance(op, ast.USub) else 1), value)
+
+    def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
+        """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
+        if isinstance(a, Opaque) or isinstance(b, Opaque):
+            return UNKNOWN
+        if isinstance(op, (ast.Add, ast.Sub)):
+            return added(a, b, 1 if isinstance(op, ast.Add) else -1)
+        if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
+            return self._solution(matrix(a), matrix(b))
+        if isinstance(op, (ast.Mult, ast.MatMult)):
+            if isinstance(a, Inverse):
+                return self._solution(a.matrix, matrix(b))
+            return times(a, b)
+        if isinstance(op, ast.Div):
+            return over(a, b)
+        if isinstance(op, ast.Pow):
+            return power(a, b)
+        raise AbandonedError
+
+    def _solution(self, A: MatrixBase, b: MatrixBase) -> MatrixBase:
+        """The column x of A x = b, as unknowns."""
+        n = A.shape[0]
+        if A.shape != (n, n) or b.shape != (n, 1):
+            raise AbandonedError
+        unknowns = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n))
+        self.solved |= dict.fromkeys(unknowns, (A, b, unknowns))
+        return sp.Matrix(unknowns)
+
+    def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
+        of = self.value(node.value, names)
+        if isinstance(of, Opaque):
+            return sp.pi if node.attr == "pi" else Routine(node.attr)
+        if isinstance(of, Routine):
+            return Routine(node.attr)  # np.linalg.solve
+        free = isinstance(of, sp.Symbol) and (self.matlab or not hasattr(of, node.attr))
+        if isinstance(of, Fields) or free:
+            return sp.Symbol(node.attr)  # p.m
+        if node.attr == "T" and isinstance(of, (MatrixBase, list)):
+            made = matrix(of)
+            return made.T if isinstance(of, MatrixBase) else made
+        if isinstance(of, Equation) and node.attr in ("lhs", "rhs"):
+            return of.left if node.attr == "lhs" else of.right
+        return BoundMethod(of, node.attr)
+
+    def _comprehended(self, node: ast.ListComp | ast.GeneratorExp, names: dict[str, Value]) -> list[Value]:
+        if len(node.generators) != 1 or node.generators[0].ifs:
+            raise AbandonedError
+        inner = dict(names)
+        found: list[Value] = []
+        for x in self.iterated(node.generators[0].iter, names):
+            self._bind(node.generators[0].target, x, inner)
+            found.append(self.value(node.elt, inner))
+        return found
+
+    def _bind(self, target: ast.expr, value: Value, names: dict[str, Value]) -> None:
+        if isinstance(target, ast.Name):
+            names[target.id] = value
+        elif isinstance(target, ast.Tuple):
+            for one, part in zip(target.elts, listed(value), strict=False):
+                self._bind(one, part, names)
+        else:
+            raise AbandonedError
+
+    def iterated(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
+        """What a loop goes through: a list, range(…), zip(…), enumerate(…)."""
+        if isinstance(node, ast.Call) and (called := called_name(node.func)) in ("range", "zip", "enumerate"):
+            given = [self.value(x, names) for x in node.args]
+            if called == "range":
+                found: list[Value] = [sp.Integer(k) for k in islice(range(*map(number, given)), MOST_ENTRIES + 1)]
+            elif called == "zip":
+                found = [list(x) for x in zip(*map(listed, given), strict=False)]
+            else:
+                found = [[sp.Integer(k), x] for k, x in enumerate(listed(given[0]))]
+        else:
+            found = listed(self.value(node, names))
+        if len(found) > MOST_ENTRIES:
+            raise AbandonedError
+        return found
+
+    # -- calls -------------------------------------------------------------------------------------------------------
+
+    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+        called = called_name(node.func)
+        if isinstance(node.func, ast.Name) and called not in names and called not in self.functions:
+            of: Value = Routine(called)
+        else:
+            of = self.value(node.func, names)
+        if isinstance(of, Routine) and of.name in (*SHOWN, *SOLVING):
+            given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
+            if of.name == "solve" and len(given) == 2 and _is_square(given[0]):
+                return self._solution(matrix(given[0]), matrix(given[1]))
+            if of.name in SOLVING and given:
+                self.stated += [Shown(node.lineno, None, v, True) for v in self.flat(given[0])]
+            return UNKNOWN
+        if isinstance(of, State) or (self.matlab and isinstance(of, (MatrixBase, list))):
+            return self._entry(
+                of, ast.Tuple(list(node.args), ast.Load()) if len(node.args) > 1 else node.args[0], names
+            )
+        given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
+        options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
+        if isinstance(of, OwnFunction):
+            return self.function(of, given)
+        if isinstance(of, BoundMethod):
+            return self._method(of, given)
+        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Opaque):
+            return applied(of, given)
+        if isinstance(of, Routine):
+            return self._routine(of.name, given, options, node)
+        return UNKNOWN
+
+    def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
+        if any(isinstance(x, Opaque) for x in given):
+            return UNKNOWN
+        if self.matlab and isinstance(node.func, ast.Name) and given and not options:
+            found = routine(name, given, options, matlab=True)
+            if isinstance(found, Opaque) and list(given) == [TIME]:
+                return sp.Symbol(name)  # tau(t), a function that the program does not hold
+            if isinstance(found, Opaque) and all(isinstance(x, sp.Integer) for x in given):
+                return State(name).entry(number(given[0]))  # z(2), where nothing says what z is
+            return found
+        return routine(name, given, options) if given or name in ("Function",) else UNKNOWN
+
+    def function(self, of: OwnFunction, given: Sequence[Value]) -> Value:
+        """The value of a function of the program."""
+        self.called.add(of.name)
+        if self.known(of.name) and list(given) == [TIME]:
+            return sp.Symbol(of.name)  # an input, of which the program has an example
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise AbandonedError
+        names = dict(zip(of.arguments, given, strict=False))
+        try:
+            if isinstance(of.body, ast.expr):
+                return self.value(of.body, {**self.outer, **names})
+            inner = {**self.outer, **names}
+            self.carry_out(of.body, inner)
+            return inner.get(of.out or "", UNKNOWN)
+        except ReturnedError as returned:
+            return returned.value
+        finally:
+            self.depth -= 1
+
+    def _method(self, of: BoundMethod, given: Sequence[Value]) -> Value:
+        value, name = of.of, of.name
+        if isinstance(value, Opaque):
+            return UNKNOWN
+        if name == "subs":
+            return replaced(value, pairs_of(given))
+        if name in ("LUsolve", "solve", "gauss_jordan_solve", "LDLsolve", "cholesky_solve") and given:
+            return self._solution(matrix(value), matrix(given[0]))
+        if name in ("append", "extend") and isinstance(value, list):
+            value.append(given[0]) if name == "append" else value.extend(listed(given[0]))
+            return UNKNOWN
+        if name == "reshape":
+            return value
+        if name == "col" and isinstance(value, MatrixBase):
+            return value[:, number(given[0])]
+        if name == "row" and isinstance(value, MatrixBase):
+            return value[number(given[0]), :]
+        made = routine(name, [value, *given], {})
+        if isinstance(made, Opaque):
+            raise AbandonedError
+        return made
+
+    def _entry(self, of: Value, at: ast.expr, names: dict[str, Value]) -> Value:
+        """An entry or a part of a list, a matrix or a state."""
+        if isinstance(of, Opaque):
+            return UNKNOWN
+        if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(at, ast.Constant) and isinstance(at.value, str):
+            return sp.Symbol(at.value)
+        if isinstance(of, dict):
+            return of.get(self.value(at, names), UNKNOWN)
+        first = int(self.matlab)
+        if isinstance(of, State):
+            if isinstance(at, ast.Slice):
+                start = self._bound(at.lower, names, 0, first)
+                if at.upper is None:
+                    raise AbandonedError
+                return [of.entry(k + 1) for k in range(start, number(self.value(at.upper, names)))]
+            return of.entry(number(self.value(at, names)) + 1 - first)
+        if isinstance(at, ast.Tuple) and isinstance(of, MatrixBase) and len(at.elts) == 2:
+            row, column = (x if isinstance(x, ast.Slice) else number(self.value(x, names)) - first for x in at.elts)
+            if isinstance(row, ast.Slice) and isinstance(column, ast.Slice):
+                return of
+            if isinstance(row, ast.Slice) or isinstance(column, ast.Slice):
+                return of[:, column] if isinstance(row, ast.Slice) else of[row, :]
+            return _of(of, row, column)
+        if isinstance(at, ast.Slice):
+            entries = listed(of)
+            start = self._bound(at.lower, names, 0, first)
+            end = self._bound(at.upper, names, len(entries), 0)
+            found = entries[start:end]
+            return sp.Matrix(found) if isinstance(of, MatrixBase) else found
+        entries = [of] if is_scalar(of) else listed(of)  # (v.T*v)[0]
+        k = number(self.value(at, names)) - first
+        if not -len(entries) <= k < len(entries):
+            raise AbandonedError
+        return entries[k]
+
+    def _bound(self, node: ast.expr | None, names: dict[str, Value], default: int, first: int) -> int:
+        return default if node is None else number(self.value(node, names)) - first
+
+
+def _of(of: MatrixBase, row: int, column: int) -> sp.Expr:
+    if not (-of.shape[0] <= row < of.shape[0] and -of.shape[1] <= column < of.shape[1]):
+        raise AbandonedError
+    return of[row, column]
+
+
+def _is_square(value: Value) -> bool:
+    """Whether a value is a square matrix, or rows of one."""
+    if isinstance(value, MatrixBase):
+        return value.shape[0] == value.shape[1]
+    return isinstance(value, list) and all(isinstance(x, list) and len(x) == len(value) for x in value)
+
+
+def _constant(value: Any) -> Value:
+    if isinstance(value, bool) or value is None or isinstance(value, complex):
+        return UNKNOWN
+    if isinstance(value, (int, float)):
+        if isinstance(value, int) and abs(value) > 10**30:
+            raise AbandonedError
+        return sp.Rational(str(value))
+    return value if isinstance(value, str) else UNKNOWN
+
+
+def called_name(node: ast.expr) -> str:
+    """The last name of what is called: print, sp.simplify."""
+    return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""

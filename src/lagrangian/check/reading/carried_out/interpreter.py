@@ -1,0 +1,137 @@
+"""Carries out the syntax tree of a program on symbols: assignments, functions, loops over lists."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable
+
+import sympy as sp
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.check.reading.carried_out.evaluator import Evaluator, ReturnedError, Shown, called_name
+from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
+from lagrangian.check.reading.carried_out.values import (
+    MOST_ENTRIES,
+    UNKNOWN,
+    AbandonedError,
+    Opaque,
+    OwnFunction,
+    State,
+    Value,
+    listed,
+    matrix,
+    number,
+    scalar,
+)
+from lagrangian.errors import Error
+from lagrangian.records import dataclass
+
+
+@dataclass(eq=False)
+class Interpreter(Evaluator):
+    """Carries out a program, statement by statement."""
+
+    def run(self, tree: ast.Module) -> dict[str, Value]:
+        """Carry out a whole program; return its names."""
+        names: dict[str, Value] = {}
+        self.outer = names
+        self.carry_out(tree.body, names)
+        return names
+
+    # -- statements --------------------------------------------------------------------------------------------------
+
+    def carry_out(self, body: Iterable[ast.stmt], names: dict[str, Value]) -> None:
+        """Carry out statements in turn, with ``names`` that they may change."""
+        for statement in body:
+            self.count()
+            self._statement(statement, names)
+
+    def _statement(self, s: ast.stmt, names: dict[str, Value]) -> None:
+        if isinstance(s, (ast.Import, ast.ImportFrom)):
+            for alias in s.names if isinstance(s, ast.Import) else ():
+                names[alias.asname or alias.name.partition(".")[0]] = UNKNOWN
+        elif isinstance(s, ast.FunctionDef):
+            out = s.returns.value if isinstance(s.returns, ast.Constant) else None
+            made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
+            names[s.name] = self.functions[s.name] = made
+        elif isinstance(s, ast.Assign):
+            value = self.value(s.value, names)
+            for target in s.targets:
+                self._assign(target, value, names, s.lineno)
+        elif isinstance(s, ast.AnnAssign) and s.value is not None:
+            self._assign(s.target, self.value(s.value, names), names, s.lineno)
+        elif isinstance(s, ast.AugAssign):
+            before = self.value(ast.Name(getattr(s.target, "id", ""), ast.Load()), names)
+            self._assign(s.target, self.operated(s.op, before, self.value(s.value, names)), names, s.lineno)
+        elif isinstance(s, ast.Expr):
+            self._shown(s, names)
+        elif isinstance(s, ast.Return):
+            raise ReturnedError(self.value(s.value, names) if s.value is not None else UNKNOWN)
+        elif isinstance(s, ast.For):
+            for x in self.iterated(s.iter, names):
+                self._assign(s.target, x, names, s.lineno)
+                self.carry_out(s.body, names)
+        elif isinstance(s, ast.If) and isinstance(s.test, ast.Compare) and "__name__" in ast.dump(s.test):
+            self.carry_out(s.body, names)
+        elif not isinstance(s, (ast.Pass, ast.Global)):
+            raise AbandonedError
+
+    def _shown(self, s: ast.Expr, names: dict[str, Value]) -> None:
+        """A statement that is a value alone, or that prints some."""
+        call = s.value if isinstance(s.value, ast.Call) else None
+        called = "" if call is None else called_name(call.func)
+        if call is not None and (called in SHOWN or called in SOLVING):
+            for x in call.args:
+                value = self.value(x, names)
+                self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
+            return
+        value = self.value(s.value, names)
+        if not isinstance(s.value, ast.Constant):
+            self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
+
+    def _assign(self, target: ast.expr, value: Value, names: dict[str, Value], line: int) -> None:
+        if isinstance(target, (ast.Tuple, ast.List)):
+            if isinstance(value, State):
+                value = [value.entry(k + 1) for k in range(len(target.elts))]
+            elif isinstance(value, Opaque):
+                value = [UNKNOWN] * len(target.elts)
+            parts = listed(value)
+            if len(parts) != len(target.elts):
+                raise AbandonedError
+            for one, part in zip(target.elts, parts, strict=True):
+                self._assign(one, part, names, line)
+        elif isinstance(target, ast.Name):
+            given = isinstance(value, sp.Symbol) and not self.known(value.name) and "[" not in value.name
+            if isinstance(value, sp.Expr) and (value.is_number or given) and self.known(target.id):
+                value = sp.Symbol(target.id)
+            names[target.id] = value
+            if isinstance(value, sp.Symbol) and "[" in value.name:
+                self.aliases.setdefault(value, target.id)
+            self.stated.append(Shown(line, target.id, value))
+        elif isinstance(target, ast.Subscript) or (self.matlab and isinstance(target, ast.Call)):
+            self._put(target, value, names)
+        elif not isinstance(target, ast.Attribute):
+            raise AbandonedError
+
+    def _put(self, target: ast.Subscript | ast.Call, value: Value, names: dict[str, Value]) -> None:
+        """An entry of a list or a column gets a value; in MATLAB a column grows."""
+        held = target.value if isinstance(target, ast.Subscript) else target.func
+        places = [target.slice] if isinstance(target, ast.Subscript) else target.args
+        places = [x for p in places for x in (p.elts if isinstance(p, ast.Tuple) else [p])]
+        if not isinstance(held, ast.Name) or not 0 < len(places) <= 2:
+            raise AbandonedError
+        at = [number(self.value(x, names)) - int(self.matlab) for x in places]
+        if not all(0 <= k < MOST_ENTRIES for k in at):
+            raise AbandonedError
+        before = names.get(held.id)
+        made = matrix(before) if isinstance(before, (list, tuple, MatrixBase)) and len(before) else sp.zeros(0, 0)
+        flat = len(at) == 1 and made.shape[0] == 1
+        row, column = (0, at[0]) if flat else (at[0], at[1] if len(at) > 1 else 0)
+        larger = sp.zeros(max(made.shape[0], row + 1), max(made.shape[1], column + 1))
+        larger[: made.shape[0], : made.shape[1]] = made
+        larger[row, column] = scalar(value)
+        names[held.id] = larger
+
+
+TROUBLES = (AbandonedError, Error, ValueError, TypeError, IndexError, KeyError, ZeroDivisionError, AttributeError)
+"""What may come of a program that is carried out and does not make sense."""

@@ -1,0 +1,194 @@
+"""Writes a program in MATLAB or Octave as one in Python's syntax, line by line, to be carried out on symbols.
+
+function dx = f(t, x)     def f(t, x) -> "dx":         [a, b; c d]   Matrix([[a, b], [c, d]])
+@(t, z) z(2)              (lambda t, z: z(2))          A \\ b         A @ b
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lagrangian.check.reading.carried_out.values import AbandonedError
+
+_TOKEN = re.compile(
+    r"(?P<number>(?:\d++\.?\d*+|\.\d++)(?:[eE][+-]?\d++)?)|(?P<name>[^\W\d]\w*+)|(?P<string>\"[^\"\n]*+\")"
+    r"|(?P<op>==|~=|<=|>=|&&|\|\||\.\^|\.\*|\./|\.\\|\.['’]|[-+*/\\^=<>&|~:!])"
+    r"|(?P<mark>[()\[\]{},;.'’@])|(?P<space>[ \t]++)"
+)
+_HEADER = re.compile(
+    r"function[ \t]++(?:(?:(?P<out>[^\W\d]\w*+)|\[[ \t]*+(?P<first>[^\W\d]\w*+)[^\]\n]*+\])[ \t]*+=[ \t]*+)?"
+    r"(?P<name>[^\W\d][\w.]*+)[ \t]*+(?:\((?P<given>[^()\n]*+)\))?[ \t]*+;?[ \t]*+\Z"
+)
+_KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", "elseif", "case", "otherwise", "catch"])
+_DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
+_SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
+_ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\d, \t]++)\)[ \t]*+=(?!=)")
+_OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not "}
+
+
+def in_python(text: str) -> str:
+    """Return the program in Python's syntax, with the same lines; `AbandonedError` if it has branches or loops."""
+    lines = _joined([_without_comment(x) for x in text.split("\n")])
+    made: list[str] = []
+    indent = 0
+    for line in lines:
+        bare = line.strip()
+        if not bare or _DROPPED.fullmatch(line):
+            made.append("")
+            continue
+        if bare.split("(")[0].split()[0].rstrip(",;") in _KEYWORDS:
+            raise AbandonedError
+        if (header := _HEADER.fullmatch(bare)) is not None:
+            given = [("_" if x.strip() in ("~", "") else x.strip()) for x in (header["given"] or "").split(",")]
+            given = [x if x != "_" else f"unused{k}" for k, x in enumerate(given)]
+            out = header["out"] or header["first"]
+            named = header["name"].replace(".", "_")
+            made.append(f"def {named}({', '.join(given)}) -> {out!r}:" if out else f"def {named}({', '.join(given)}):")
+            indent = 1
+        elif bare.rstrip(";,") in ("end", "endfunction", "return"):
+            made.append("")
+            indent = indent if bare.startswith("return") else 0
+        elif (syms := _SYMS.fullmatch(line)) is not None:
+            made.append(" " * indent + _declared(syms["names"]))
+        else:
+            made.append(" " * indent + "; ".join(_statement(x) for x in _statements(line)))
+    return "\n".join(_with_bodies(made)) + "\n"
+
+
+def _with_bodies(lines: list[str]) -> Iterator[str]:
+    for k, line in enumerate(lines):
+        following = next((x for x in lines[k + 1 :] if x.strip()), "")
+        yield line + " pass" if line.startswith("def ") and not following.startswith(" ") else line
+
+
+def _without_comment(line: str) -> str:
+    """A line up to its comment; a string keeps its signs."""
+    inside = False
+    for k, c in enumerate(line):
+        if c == '"' or (c == "'" and (inside or not line[:k].rstrip() or line[:k].rstrip()[-1] in "=,([{;")):
+            inside = not inside
+        elif not inside and (c == "%" or (c == "#" and not line[k + 1 : k + 2].isalnum())):
+            return line[:k]
+    return line
+
+
+def _joined(lines: list[str]) -> list[str]:
+    """The statements that go on over several lines, in brackets or behind …, on the last of their lines."""
+    made: list[str] = []
+    held, depth = "", 0
+    for line in lines:
+        going = line.rstrip().endswith("...")
+        bare = line.rstrip()[:-3] if going else line
+        depth += len(re.findall(r"[\[{(]", bare)) - len(re.findall(r"[\]})]", bare))
+        inside = depth > 0 and not going
+        held += bare + ("; " if inside and bare.strip() and not bare.rstrip().endswith((",", ";", "[", "(")) else " ")
+        if going or depth > 0:
+            made.append("")
+            continue
+        made.append(held.rstrip() if held.strip() else "")
+        held, depth = "", 0
+    return made
+
+
+def _declared(names: str) -> str:
+    """syms x(t) m: x is a function of time, m a symbol."""
+    found = re.findall(r"([^\W\d]\w*)(\(t\))?", names)
+    words = [(name, moving) for name, moving in found if name not in ("real", "positive", "t")]
+    parts = [f"{n} = {'dynamicsymbols' if moving else 'symbols'}({n!r})" for n, moving in words]
+    return "; ".join(parts) or "pass"
+
+
+def _statements(line: str) -> list[str]:
+    """The statements of a line, cut at ; and , outside of brackets."""
+    found, depth, start = [], 0, 0
+    for k, c in enumerate(line):
+        depth += (c in "([{") - (c in ")]}")
+        if c in ";," and depth <= 0:
+            found.append(line[start:k])
+            start = k + 1
+    found.append(line[start:])
+    return [x for x in found if x.strip()]
+
+
+def _statement(text: str) -> str:
+    """One statement: its tokens, with those of Python."""
+    out: list[str] = []
+    stack: list[str] = []
+    functions: list[int] = []
+    at, before = 0, ""
+    text = text.strip()
+    if (several := re.match(r"\[([\w,~ \t]+)\][ \t]*=(?!=)", text)) is not None:  # [t, z] = ode45(…)
+        targets = [x if x != "~" else "unused" for x in re.split(r"[\s,]+", several[1].strip())]
+        return f"{', '.join(targets)} = {_statement(text[several.end() :])}"
+    if (entry := _ENTRY.match(text)) is not None:  # M(1,2) = …
+        return f"{entry['name']}[{entry['at']}] = {_statement(text[entry.end() :])}"
+    while at < len(text):
+        match = _TOKEN.match(text, at)
+        if match is None:
+            raise AbandonedError
+        at, token, kind = match.end(), match.group(), match.lastgroup
+        inside = bool(stack) and stack[-1] == "["
+        if kind == "space":
+            if inside and _separates(before, text, at):
+                out.append(",")
+                before = ","
+            continue
+        if kind == "mark" and token in "'’":
+            if before and (before[-1].isalnum() or before[-1] in "_)]}'"):
+                out.append(".T")
+                before = ")"
+                continue
+            end = text.find(token, at)
+            if end < 0:
+                raise AbandonedError
+            token, at, kind = repr(text[at:end]), end + 1, "string"
+        if kind == "op" and token in (".'", ".’"):
+            token = ".T"
+        elif kind == "op" and token == ":" and stack:
+            raise AbandonedError
+        elif kind == "op":
+            token = _OPERATORS.get(token, token)
+        elif token == "@":
+            given = re.match(r"[ \t]*\(([\w, \t~]*)\)", text[at:])
+            if given is None:
+                token = ""  # ode45(@f, …)
+            else:
+                at += given.end()
+                listed = [x.strip() if x.strip() != "~" else "unused" for x in given[1].split(",") if x.strip()]
+                out.append(f"(lambda {', '.join(listed)}: ")
+                functions.append(len(stack))
+                before = "("
+                continue
+        elif token in "([{" and kind == "mark":
+            stack.append("[" if token == "[" else token)
+            token = "Matrix([[" if token == "[" else token
+        elif token in ")]}" and kind == "mark":
+            while functions and functions[-1] == len(stack):
+                functions.pop()
+                out.append(")")
+            if not stack:
+                raise AbandonedError
+            token = "]])" if stack.pop() == "[" else token
+            while out and token == "]])" and out[-1] in (",", "],["):
+                out.pop()
+        elif token == ";" and inside:
+            token = "],["
+            while out and out[-1] in (",", "],["):
+                out.pop()
+        elif token == "," and functions and functions[-1] == len(stack) and stack:
+            functions.pop()
+            out.append(")")
+        out.append(token)
+        before = token if token else before
+    return "".join(out) + ")" * len(functions)
+
+
+def _separates(before: str, text: str, at: int) -> bool:
+    """Whether a gap in a matrix is between two entries: [a b], [1 -x], but not [a - b]."""
+    rest = text[at:]
+    if not before or not rest or not (before[-1].isalnum() or before[-1] in "_)].T'\""):
+        return False
+    if rest[0] in "+-":
+        return len(rest) > 1 and not rest[1].isspace()
+    return rest[0].isalnum() or rest[0] in "_(.@" or rest[0] == "["

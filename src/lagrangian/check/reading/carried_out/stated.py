@@ -1,0 +1,209 @@
+"""What a program states, carried out on symbols: energies, equations, and the accelerations that it computes."""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+from collections.abc import Iterator, Sequence
+from functools import partial
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.matrices.matrixbase import MatrixBase
+from sympy.printing.str import StrPrinter
+
+from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
+from lagrangian.check.reading.carried_out.matlab import in_python
+from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
+from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Equation, Value, is_scalar, listed, scalar
+from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.shortened import AnswerScope
+from lagrangian.model import Model
+from lagrangian.read.scope import Scope
+from lagrangian.records import dataclass
+
+LONGEST_PROGRAM, DEEPEST = 20_000, 40
+"""The most characters of a program, and how deep brackets may stand in it."""
+LONGEST_LINE = 6_000
+"""The most characters of a statement."""
+_PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(", re.MULTILINE)
+_QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
+_MATLAB = re.compile(
+    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n]*\\[ \t]?\w[^\n]*;[ \t]*+$", re.MULTILINE
+)
+_MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
+_COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
+_ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
+_LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
+"""An entry of a column of the program, in a comment: eom(1) = …"""
+_ENERGIES = frozenset(["T", "V", "U", "L", "D"])
+_BARE = re.compile(r"[^\W\d]\w{0,30}")
+
+
+def carried_out(text: str, model: Model) -> str | None:
+    """Return what a program in Python or MATLAB states, each statement on the line where the program has it; None if it
+    is no such program, or states nothing that can be carried out.
+
+    Comments with accelerations stay as they are. Nothing is executed: the syntax tree is carried out on symbols.
+    """
+    matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
+    if len(text) > LONGEST_PROGRAM or (matlab and _MATLAB.search(text) is None) or _depth(text) > DEEPEST:
+        return None
+    bare = _MARKS.sub(lambda m: "" if "`" not in m.group() else "#", text)
+    scope = AnswerScope(Scope(model.symbols))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SyntaxWarning)
+            tree = ast.parse(in_python(bare) if matlab else bare)
+        run = Interpreter(matlab=matlab, known=lambda name: _is_constant(scope, name, model))
+        names = run.run(tree)
+        found = [*_statements(run, _Rates(model, scope)), *_of_states(run, names, text, model, scope)]
+    except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
+        return None
+    if not any(_ACCELERATES.search(x) for _, x in found):
+        return None
+    return _laid_out(text, found)
+
+
+def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
+    """Whether a name is a parameter or an input."""
+    found = scope.meanings(name)[0]
+    return any(x.name in found for x in (*model.parameters, *model.inputs))
+
+
+def _depth(text: str) -> int:
+    depth = most = 0
+    for c in text:
+        depth += (c in "([{") - (c in ")]}")
+        most = max(most, depth)
+    return most
+
+
+def _laid_out(text: str, found: Sequence[tuple[int, str]]) -> str:
+    """The statements on their lines, and the comments that hold accelerations."""
+    lines = text.split("\n")
+    said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    made = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+    for line, said in found:
+        at = min(max(line - 1, 0), len(made) - 1)
+        made[at] = f"{made[at]} ; {said}" if made[at] else said
+    return "\n".join(made)
+
+
+def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
+    """The energies and the equations that are assigned or shown; an equation that is used for another is none."""
+    told: set[str] = set()
+    last = {x.name: x for x in run.stated}
+    for one in (x for x in run.stated if x.name is None or last[x.name] is x):
+        if isinstance(one.value, str) and one.name is not None and _in_quotes(one.value):
+            yield one.line, one.value if "=" in one.value else f"{one.name} = {one.value}"
+            continue
+        final = one.shown or one.name not in run.used
+        for value in listed(one.value) if isinstance(one.value, (list, MatrixBase)) else [one.value]:
+            said = None
+            if isinstance(value, Equation):
+                said = f"{written(value.left)} = {written(value.right)}" if final else None
+            elif not isinstance(value, sp.Expr) or not value.args:
+                continue
+            elif one.name in _ENERGIES and rates.order(value) == 1:
+                said = f"{one.name} = {written(value)}"
+            elif final and rates.order(value) == 2:
+                said = f"{written(value)} = 0"
+            if said is not None and said not in told:
+                told.add(said)
+                yield one.line, said
+
+
+def _in_quotes(text: str) -> bool:
+    return 4 < len(text) < LONGEST_LINE and re.search(r"[\w)][ ]?(?:\*|\+|=|/|\^)", text) is not None
+
+
+def _of_states(
+    run: Interpreter, names: dict[str, Value], text: str, model: Model, scope: AnswerScope
+) -> Iterator[tuple[int, str]]:
+    """The accelerations that the functions of a program return, as equations of motion."""
+    for found in StateReader(run, text, model, scope).functions(names):
+        yield from ((found.line, said) for said in _equations(run, found))
+
+
+def _equations(run: Interpreter, found: StateFunction) -> Iterator[str]:
+    """The equations of one function: of unknowns that a program solves for, those that it solves."""
+    put = partial(_put, table=found.moving)
+    unknowns = {x: rate for rate, x in found.accelerations if x in run.solved}
+    done: set[Any] = set()
+    for rate, value in found.accelerations:
+        if value not in run.solved:
+            if value.free_symbols & run.solved.keys():
+                raise AbandonedError
+            yield f"{written(rate)} = {written(put(value))}"
+            continue
+        A, b, x = run.solved[cast("sp.Symbol", value)]
+        if x in done:
+            continue
+        done.add(x)
+        if not unknowns.keys() >= set(x):
+            raise AbandonedError
+        for k in range(A.shape[0]):
+            left = sp.Add(*[put(A[k, j]) * unknowns[x[j]] for j in range(A.shape[1])])
+            yield f"{written(left)} = {written(put(b[k]))}"
+
+
+def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    return cast("sp.Expr", scalar(value).xreplace(table))
+
+
+@dataclass(frozen=True, eq=False)
+class _Rates:
+    """Tells what moves: functions of time and their derivatives, coordinates and their rates in letters, thdd."""
+
+    model: Model
+    scope: AnswerScope
+
+    def order(self, value: sp.Expr) -> int:
+        """2 if accelerations stand in a value, 1 if something else in it moves, else 0."""
+        found = [d.derivative_count for d in value.atoms(sp.Derivative)]
+        found += [1 for _ in value.atoms(AppliedUndef)]
+        found += [self._in_letters(x.name) for x in value.atoms(sp.Symbol) if x != TIME]
+        return max([0, *(2 if k == 2 else 1 for k in found if k)])
+
+    def _in_letters(self, name: str) -> int:
+        coordinates = {c.name for c in self.model.coordinates}
+        if set(found := self.scope.meanings(name)[0]):
+            return int(bool(set(found) & coordinates))
+        orders = [k for k, stem in spelled_rates(name) if set(self.scope.meanings(stem)[0]) & coordinates]
+        return max([0, *orders])
+
+
+class _Printer(StrPrinter):
+    """Writes functions of time as names, and their derivatives with primes."""
+
+    def _print_Function(self, expr: Any) -> str:
+        if isinstance(expr, AppliedUndef):
+            if expr.args != (TIME,):
+                raise AbandonedError
+            return str(expr.func)
+        if isinstance(expr, sp.Abs):
+            return f"abs({self._print(expr.args[0])})"
+        return f"{expr.func.__name__}({', '.join(self._print(a) for a in expr.args)})"
+
+    def _print_Derivative(self, expr: Any) -> str:
+        if not isinstance(expr.expr, AppliedUndef) or set(expr.variables) != {TIME}:
+            raise AbandonedError
+        return f"{expr.expr.func}{chr(39) * len(expr.variables)}"
+
+    def _print_Symbol(self, expr: Any) -> str:
+        if _BARE.fullmatch(expr.name) is None:
+            raise AbandonedError
+        return expr.name
+
+
+def written(value: sp.Expr) -> str:
+    """An expression in the grammar of answers."""
+    if not is_scalar(value):
+        raise AbandonedError
+    made = _Printer().doprint(value)
+    if len(made) > LONGEST_LINE:
+        raise AbandonedError
+    return made

@@ -1,0 +1,178 @@
+"""Functions of a program that return the rates of a state, carried out with entries of this state as symbols."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import sympy as sp
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.routines import PLAIN
+from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Fields, OwnFunction, State, Value, listed
+from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.shortened import AnswerScope
+from lagrangian.model import Model
+from lagrangian.records import dataclass
+
+_NAME = re.compile(r"[^\W\d]\w{0,30}")
+
+
+@dataclass(frozen=True, eq=False)
+class StateFunction:
+    """What a function says: q̈ and its value, pair by pair, and what the entries of the state are."""
+
+    line: int
+    accelerations: list[tuple[sp.Expr, sp.Expr]]
+    moving: dict[sp.Symbol, sp.Expr]
+
+
+@dataclass(frozen=True, eq=False)
+class StateReader:
+    """Finds the functions of a program that was carried out that return rates of a state, or accelerations."""
+
+    run: Evaluator
+    text: str
+    model: Model
+    scope: AnswerScope
+
+    def functions(self, names: dict[str, Value]) -> Iterator[StateFunction]:
+        """The functions that nothing calls, and what they say of the motion."""
+        made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
+        for f in {id(f): f for f in made}.values():
+            if f.name and f.name in self.run.called:
+                continue
+            given = {name: _argument(f, name, self.run.matlab) for name in f.arguments}
+            rates = _rates(self.run.function(f, list(given.values())))
+            states = [x for x in given.values() if isinstance(x, State)]
+            if rates is None:
+                continue
+            found = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
+            if found is not None:
+                yield StateFunction(_line(f), *found)
+
+    def _of_arguments(self, arguments: Sequence[str], rates: Sequence[sp.Expr]) -> Any:
+        """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd)."""
+        coordinates = [c.name for c in self.model.coordinates]
+        named = [x for x in arguments if set(self.scope.meanings(x)[0]) & set(coordinates)]
+        if len(named) != len(rates) or len(rates) != len(coordinates):
+            return None
+        return [(sp.Function(x)(TIME).diff(TIME, 2), value) for x, value in zip(named, rates, strict=True)], {}
+
+    def _of_state(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Any:
+        """The pairs and the meaning of the entries of the first argument whose entries are among the rates."""
+        for state in states:
+            if not state.entries or any(k > len(rates) for k in state.entries):
+                continue
+            for k in range(len(rates)):
+                state.entry(k + 1)
+            if (found := self._as_motion(state, rates)) is not None:
+                pairs, table = found
+                for other in (x for x in states if x is not state):
+                    table |= self._of_inputs(other)
+                return pairs, table
+        return None
+
+    def _as_motion(self, state: State, rates: Sequence[sp.Expr]) -> Any:
+        places: dict[sp.Expr, int] = {x: k for k, x in state.entries.items()}
+        rate_of = {i + 1: places[x] for i, x in enumerate(rates) if x in places}
+        if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
+            return None
+        comments = self._in_comments(state.name)
+        coordinates = [c.name for c in self.model.coordinates]
+        pairs: list[tuple[sp.Expr, sp.Expr]] = []
+        table: dict[sp.Symbol, sp.Expr] = {}
+        for order, (i, j) in enumerate(rate_of.items()):
+            name = self.run.aliases.get(state.entries[i]) or comments.get(i)
+            if name is None and len(rate_of) == len(coordinates):
+                name = coordinates[order]
+            if name is None:
+                return None
+            q = sp.Function(name)(TIME)
+            table[state.entries[i]], table[state.entries[j]] = q, q.diff(TIME)
+            pairs.append((q.diff(TIME, 2), rates[j - 1]))
+        for k, x in state.entries.items():  # the rate of a coordinate that is left out because it is cyclic
+            if x in table:
+                continue
+            stem = self._rated(self.run.aliases.get(x) or comments.get(k) or "")
+            if stem is None:
+                return None
+            q = sp.Function(stem)(TIME)
+            table[x] = q.diff(TIME)
+            pairs.append((q.diff(TIME, 2), rates[k - 1]))
+        return (pairs, table) if pairs else None
+
+    def _rated(self, name: str) -> str | None:
+        """The coordinate whose rate a name is: psd of psi."""
+        coordinates = {c.name for c in self.model.coordinates}
+        found = [s for k, s in spelled_rates(name) if k == 1 and set(self.scope.meanings(s)[0]) & coordinates]
+        return found[0] if found else None
+
+    def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:
+        """What the entries of a vector of inputs are."""
+        comments, inputs = self._in_comments(other.name), [u.name for u in self.model.inputs]
+        found: dict[sp.Symbol, sp.Expr] = {}
+        for k, x in other.entries.items():
+            name = comments.get(k) or self.run.aliases.get(x) or (inputs[k - 1] if k <= len(inputs) else None)
+            if name is None:
+                raise AbandonedError
+            found[x] = sp.Symbol(name)
+        return found
+
+    def _in_comments(self, name: str) -> dict[int, str]:
+        """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi."""
+        form = re.compile(rf"(?<!\w){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]")
+        single = re.compile(
+            rf"(?<!\w){re.escape(name)}[(\[](\d)[)\]]\s*=\s*([^\W\d]\w*+)( ?(?:dot|rate|punkt)\b|['’])?(?![\w'/])"
+        )
+        found: dict[int, str] = {}
+        for comment in re.finditer(r"(?:[#%]|\"\"\")[^\n]*", self.text):
+            if (match := form.search(comment.group())) is not None:
+                words = [x for x in re.split(r"[\s,;]+", match["entries"].strip()) if x]
+                return {k + 1: x for k, x in enumerate(words) if _NAME.fullmatch(x)}
+            found |= {int(m[1]): f"{m[2]}dot" if m[3] else m[2] for m in single.finditer(comment.group())}
+        return found
+
+
+def _line(f: OwnFunction) -> int:
+    body = f.body if isinstance(f.body, ast.expr) else f.body[-1]
+    return body.end_lineno or body.lineno
+
+
+def _rates(value: Value) -> list[sp.Expr] | None:
+    """The entries of what a function returns; columns in a list are joined."""
+    if not isinstance(value, (list, tuple, MatrixBase)):
+        return None
+    found: list[Any] = []
+    for x in listed(value):
+        found += listed(x) if isinstance(x, (list, tuple, MatrixBase)) else [x]
+    return found if all(isinstance(x, sp.Expr) for x in found) else None
+
+
+def _argument(f: OwnFunction, name: str, matlab: bool) -> Value:
+    """What an argument is by its use: a state, parameters by name, or a number."""
+    body = [f.body] if isinstance(f.body, ast.expr) else f.body
+    nodes = [x for part in body for x in ast.walk(part)]
+    if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
+        return Fields()
+    indices = [x.slice for x in nodes if isinstance(x, ast.Subscript) and _is(x.value, name)]
+    if any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in indices):
+        return Fields()
+    calls = [x for x in nodes if isinstance(x, ast.Call)]
+    called = [x for x in calls if _is(x.func, name)]
+    unpacked = any(
+        isinstance(x, ast.Assign) and isinstance(x.targets[0], (ast.Tuple, ast.List)) and _is(x.value, name)
+        for x in nodes
+    )
+    own = [x for x in calls if not (isinstance(x.func, ast.Name) and x.func.id in PLAIN)]
+    whole = any(_is(a, name) for x in own for a in x.args) and name != "t" and matlab
+    if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
+        return State(name)
+    return TIME if name == "t" else sp.Symbol(name)
+
+
+def _is(node: ast.expr, name: str) -> bool:
+    return isinstance(node, ast.Name) and node.id == name

@@ -1,0 +1,224 @@
+"""The values of a program that is carried out on symbols, and the arithmetic with them, within bounds."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import sympy as sp
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian import bounded
+from lagrangian.records import dataclass, field
+
+Value: TypeAlias = Any
+"""A SymPy expression or matrix, a list, a dictionary, a string, or one of the classes below."""
+
+TIME = sp.Symbol("t")
+MOST_STEPS = 6_000
+"""The most parts of a program that are carried out."""
+LARGEST = 4_000
+"""The most operations of one value."""
+LARGEST_NUMBER = 10**60
+"""The largest number, and the largest denominator of one."""
+MOST_ENTRIES = 64
+"""The most entries of a matrix or a list."""
+HIGHEST = 12
+"""The highest power."""
+
+
+class AbandonedError(Exception):
+    """A program does something that has no meaning on symbols, or too much."""
+
+
+class Opaque:
+    """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
+
+
+UNKNOWN = Opaque()
+
+
+@dataclass(frozen=True, eq=False)
+class Routine:
+    """A function of a library by its name."""
+
+    name: str
+
+
+@dataclass(frozen=True, eq=False)
+class OwnFunction:
+    """A function of the program: the names of its arguments, and its body or its one expression."""
+
+    name: str
+    arguments: tuple[str, ...]
+    body: Sequence[ast.stmt] | ast.expr
+    out: str | None = None
+    """The name that holds the result, in MATLAB."""
+
+
+@dataclass(frozen=True, eq=False)
+class BoundMethod:
+    """A method of a value."""
+
+    of: Value
+    name: str
+
+
+@dataclass(frozen=True)
+class Equation:
+    """Two sides that a program sets equal."""
+
+    left: sp.Expr
+    right: sp.Expr
+
+
+@dataclass(frozen=True, eq=False)
+class Inverse:
+    """The inverse of a matrix, of which only products with columns are taken."""
+
+    matrix: MatrixBase
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """A structure of parameters, p.m or p["m"]: each field is the symbol with its name."""
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """The state of a system of first order: a vector of symbols of unknown length."""
+
+    name: str
+    entries: dict[int, sp.Symbol] = field(default_factory=dict)
+
+    def entry(self, index: int) -> sp.Symbol:
+        """The entry at a place that is counted from 1."""
+        if not 1 <= index <= MOST_ENTRIES:
+            raise AbandonedError
+        return self.entries.setdefault(index, sp.Symbol(f"{self.name}[{index}]"))
+
+
+def checked(value: Value) -> Value:
+    """Return a value that is no longer than what is carried out."""
+    if isinstance(value, MatrixBase):
+        if len(value) > MOST_ENTRIES or any(bounded.size(x) > LARGEST for x in value):
+            raise AbandonedError
+    elif isinstance(value, sp.Expr):
+        factor: Any = value.as_coeff_Mul()[0]
+        if bounded.size(value) > LARGEST or (factor.is_Rational and max(abs(factor.p), factor.q) > LARGEST_NUMBER):
+            raise AbandonedError
+    return value
+
+
+def number(value: Value) -> int:
+    """Return an integer as such."""
+    if isinstance(value, bool) or not isinstance(value, (int, sp.Integer)):
+        raise AbandonedError
+    return int(value)
+
+
+def listed(value: Value) -> list[Value]:
+    """Return the entries of a list or a matrix."""
+    if isinstance(value, MatrixBase):
+        return value.flat()
+    if isinstance(value, (list, tuple)):
+        return list(value)
+    raise AbandonedError
+
+
+def matrix(value: Value) -> MatrixBase:
+    """Return a matrix of a list of rows, or a column of a list."""
+    if isinstance(value, MatrixBase):
+        return value
+    rows = listed(value)
+    if not rows or len(rows) > MOST_ENTRIES:
+        raise AbandonedError
+    if all(isinstance(x, (list, tuple)) for x in rows):
+        if len({len(x) for x in rows}) != 1 or not rows[0]:
+            raise AbandonedError
+        if any(isinstance(y, MatrixBase) for x in rows for y in x):
+            return checked(
+                sp.Matrix.vstack(
+                    *[sp.Matrix.hstack(*[matrix(y) if not is_scalar(y) else matrix([y]) for y in x]) for x in rows]
+                )
+            )
+        return sp.Matrix([[scalar(y) for y in x] for x in rows])
+    if any(isinstance(x, MatrixBase) for x in rows):
+        return checked(sp.Matrix.vstack(*[matrix([x]) if is_scalar(x) else matrix(x) for x in rows]))
+    return sp.Matrix([scalar(x) for x in rows])
+
+
+def scalar(value: Value) -> sp.Expr:
+    """Return a single quantity."""
+    if isinstance(value, MatrixBase) and value.shape == (1, 1):
+        return value[0]
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return sp.Rational(str(value))
+    if not isinstance(value, sp.Expr):
+        raise AbandonedError
+    return value
+
+
+def is_scalar(value: Value) -> bool:
+    """Whether a value is a single quantity."""
+    return isinstance(value, sp.Expr) or (isinstance(value, (int, float)) and not isinstance(value, bool))
+
+
+def added(a: Value, b: Value, sign: int = 1) -> Value:
+    """a + b or a − b; lists are joined, and a number is added to every entry of a column."""
+    if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)) and sign > 0:
+        return [*a, *b]
+    if is_scalar(a) and is_scalar(b):
+        return checked(scalar(a) + sign * scalar(b))
+    a, b = (x if is_scalar(x) else matrix(x) for x in (a, b))
+    if is_scalar(a) or is_scalar(b) or a.shape != b.shape:
+        raise AbandonedError
+    return checked(a + sign * b)
+
+
+def times(a: Value, b: Value) -> Value:
+    """The product of numbers, and of matrices that fit; of two columns, entry by entry."""
+    if is_scalar(a) and is_scalar(b):
+        return checked(scalar(a) * scalar(b))
+    if is_scalar(a) or is_scalar(b):
+        factor, whole = (scalar(a), matrix(b)) if is_scalar(a) else (scalar(b), matrix(a))
+        return checked(whole * factor)
+    a, b = matrix(a), matrix(b)
+    if a.shape[1] == b.shape[0]:
+        made = checked(a * b)
+        return made[0] if made.shape == (1, 1) else made
+    if a.shape == b.shape:
+        return checked(a.multiply_elementwise(b))
+    raise AbandonedError
+
+
+def over(a: Value, b: Value) -> Value:
+    """A quotient by a single quantity."""
+    if scalar(b) == 0:
+        raise AbandonedError
+    return times(a, 1 / scalar(b))
+
+
+def power(a: Value, b: Value) -> Value:
+    """A power with a small exponent; of a matrix to −1, its inverse."""
+    exponent = scalar(b)
+    if isinstance(a, MatrixBase) and exponent == -1:
+        return Inverse(a)
+    if isinstance(a, MatrixBase) and len(a) > 1 and 1 in a.shape and exponent == 2:
+        return checked(a.applyfunc(lambda x: x**2))
+    base = scalar(a)
+    if exponent.is_number and (not exponent.is_Rational or abs(exponent) > HIGHEST):
+        raise AbandonedError
+    if base == 0 and exponent.is_negative:
+        raise AbandonedError
+    return checked(base**exponent)
+
+
+def slope(value: Value, by: Value) -> Value:
+    """The derivative by a symbol, a function of time or its rate."""
+    if isinstance(value, MatrixBase):
+        return value.applyfunc(lambda x: slope(x, by))
+    if not isinstance(by, sp.Expr) or not (by.is_Symbol or by.is_Function or isinstance(by, sp.Derivative)):
+        raise AbandonedError
+    return checked(bounded.diff(scalar(value), by))

@@ -1,0 +1,51 @@
+"""Derivatives of a function of a coordinate that an answer states, by this coordinate: dI/dθ after I(θ) = ….
+
+Oracle: the equations of the spherical pendulum. Every form has a wrong twin.
+"""
+
+import pytest
+
+from built_in import derivation
+
+LATEX = r"""$$I(\theta) = m L^2\sin^2\theta, \qquad SLOPE = 2 m L^2\sin\theta\cos\theta$$
+$$m L^2\ddot\theta - \frac12 SLOPE\,\dot\phi^2 + m g L\sin\theta = 0$$
+$$I(\theta)\ddot\phi + SLOPE\,\dot\theta\dot\phi = 0$$
+"""
+PLAIN = """I(theta) = m L^2 sin(theta)^2, SLOPE = 2 m L^2 sin(theta) cos(theta)
+m L^2 theta'' - 1/2 SLOPE phi'^2 + m g L sin(theta) = 0
+I(theta) phi'' + SLOPE theta' phi' = 0
+"""
+IN_LATEX = [
+    r"\frac{dI}{d\theta}",
+    r"\frac{dI(\theta)}{d\theta}",
+    r"\tfrac{\mathrm{d}I}{\mathrm{d}\theta}",
+    r"\frac{d}{d\theta}I(\theta)",
+    r"\frac{d}{d\theta}\left[I\right]",
+    r"(dI/d\theta)",
+    r"\frac{\partial I}{\partial\theta}",
+    "I'(\\theta)",
+]
+IN_TEXT = ["dI/dtheta", "(dI/dθ)", "dI(theta)/dtheta", "d/dtheta(I)", "d/dtheta I(theta)", "I'(theta)", "∂I/∂theta"]
+
+
+@pytest.mark.parametrize("slope", [*IN_LATEX, *IN_TEXT])
+def test_a_function_of_a_coordinate_is_differentiated_by_it(slope: str) -> None:
+    written = (LATEX if "\\" in slope else PLAIN).replace("SLOPE", slope)
+    verdict = derivation("spherical-pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+    half = r"\frac12" if "\\" in slope else "1/2"
+    for old, new in ((half, ""), (f"- {half}", f"+ {half}"), ("= 2 m L^2", "= m L^2")):
+        assert old in written
+        assert not derivation("spherical-pendulum").check(written.replace(old, new)).right
+
+
+def test_a_quantity_without_arguments_is_differentiated_by_a_coordinate() -> None:
+    written = LATEX.replace("SLOPE", r"\frac{dI}{d\theta}").replace(r"I(\theta)", "I")
+    assert derivation("spherical-pendulum").check(written).right
+    assert not derivation("spherical-pendulum").check(written.replace(r"\frac12", "")).right
+
+
+def test_the_time_derivative_of_a_function_is_no_slope() -> None:
+    written = PLAIN.replace("SLOPE theta'", "dI/dt").replace("SLOPE", "dI/dtheta")
+    assert derivation("spherical-pendulum").check(written).right
+    assert not derivation("spherical-pendulum").check(written.replace("dI/dt phi'", "dI/dt theta' phi'")).right

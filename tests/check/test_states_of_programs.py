@@ -1,0 +1,128 @@
+"""States of functions that return their rates: what a comment or an index says of them, and in which order they are.
+
+Oracle: the equations of the cart with a pole. Every form has a wrong twin.
+"""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+BY_INDEX = """function dz = rhs({arguments})
+% z = [x; theta; xdot; thetadot], F = force
+A = [M + m, m*l*cos(z(2)); m*l*cos(z(2)), J + m*l^2];
+f = [F - b*z(3) + m*l*sin(z(2))*z(4)^2; m*g*l*sin(z(2))];
+qdd = A\\f;
+dz = [z(3); z(4); qdd(1); qdd(2)];
+end
+"""
+NAMED = """function dz = rhs(t, z)
+{states}
+A = [M + m, m*l*cos({a}); m*l*cos({a}), J + m*l^2];
+h = [F - b*v + m*l*sin({a})*w^2; m*g*l*sin({a})];
+acc = A\\h;
+dz = [v; w; acc];
+end
+"""
+ANGLE_FIRST = """function dz = rhs(t, z)
+{states}
+A = [J + m*l^2, m*l*cos(theta); m*l*cos(theta), M + m];
+h = [m*g*l*sin(theta); F - b*v + m*l*sin(theta)*w^2];
+a = A\\h;
+dz = [w; v; a];
+end
+"""
+
+
+@pytest.mark.parametrize("arguments", ["~, z, F", "t, z, F", "tt, z", "z", "time, z, par"])
+def test_the_state_is_the_argument_with_an_index(arguments: str) -> None:
+    written = BY_INDEX.format(arguments=arguments)
+    assert derivation("cart-pole").check(written).right
+    for old, new in (
+        ("- b*z(3)", "- b*z(4)"),
+        ("; m*g*l*sin(z(2))", "; m*g*l*sin(z(1))"),
+        ("qdd(1); qdd(2)", "qdd(2); qdd(1)"),
+    ):
+        assert old in written
+        assert not derivation("cart-pole").check(written.replace(old, new)).right
+
+
+@pytest.mark.parametrize(
+    ("states", "a"),
+    [
+        ("x = z(1); th = z(2); v = z(3); w = z(4);", "th"),
+        ("p = z(1); a = z(2); v = z(3); w = z(4);  % z = [x; theta; x'; theta']", "a"),
+        ("% z = [x; theta; x'; theta']\np = z(1); a = z(2); v = z(3); w = z(4);", "a"),
+        ("p = z(1); a = z(2); v = z(3); w = z(4);  % position, angle and their rates", "a"),
+    ],
+    ids=["shortened", "comment behind", "comment above", "nothing said"],
+)
+def test_states_have_names_of_their_own(states: str, a: str) -> None:
+    written = NAMED.format(states=states, a=a)
+    assert derivation("cart-pole").check(written).right
+    for old, new in (("dz = [v; w", "dz = [w; v"), ("F - b*v", "F + b*v"), ("J + m*l^2]", "J + 2*m*l^2]")):
+        assert old in written
+        assert not right(written.replace(old, new))
+
+
+def test_accelerations_have_the_order_of_the_states() -> None:
+    for name in ("theta", "th"):
+        states = f"{name} = z(1); x = z(2); w = z(3); v = z(4);"
+        written = ANGLE_FIRST.format(states=states).replace("(theta)", f"({name})")
+        assert derivation("cart-pole").check(written).right
+        rows = written.replace("[J + m*l^2, m*l*cos", "[M + m, m*l*cos").replace(", M + m]", ", J + m*l^2]")
+        first, _, second = rows.partition("h = [")[2].partition("];")[0].partition("; ")
+        assert not right(rows.replace(f"{first}; {second}", f"{second}; {first}"))
+
+
+def test_a_comment_that_names_a_rate_in_words_says_nothing_of_the_coordinate() -> None:
+    written = """function dz = rhs(t, z)
+% states: z(1) = theta, z(2) = theta dot
+th = z(1); thd = z(2);
+thdd = -g/L*sin(th) - b/(m*L^2)*thd;
+dz = [thd; thdd];
+end
+"""
+    assert derivation("pendulum").check(written).right
+    assert derivation("pendulum").check(written.replace("thd ", "w ").replace("thd;", "w;")).right
+    assert not derivation("pendulum").check(written.replace("*thd;", "*th;")).right
+
+
+def test_rows_of_matlab_end_with_their_lines() -> None:
+    written = """function dz = rhs(t, z)
+% z = [x theta dx dtheta]
+A = [M + m, m*l*cos(z(2))   % first row
+     m*l*cos(z(2)), J + m*l^2];
+h = [F - b*z(3) + ...
+     m*l*sin(z(2))*z(4)^2
+     m*g*l*sin(z(2))];
+dz = [z(3)
+      z(4)
+      A\\h];
+end
+"""
+    assert right(written)
+    assert not right(written.replace("     m*g*l", "     -m*g*l*cos(z(2))"))
+    assert not right(written.replace("[z(3)\n      z(4)", "[z(4)\n      z(3)"))
+
+
+def test_functions_of_matlab_may_have_no_body() -> None:
+    written = """A = @(z) [M + m, m*l*cos(z(2)); m*l*cos(z(2)), J + m*l^2];
+h = @(z) [F - b*z(3) + m*l*sin(z(2))*z(4)^2; m*g*l*sin(z(2))];
+rhs = @(~, z) [z(3); z(4); A(z)\\h(z)];
+[t, z] = ode45(rhs, [0 10], [0; 0.1; 0; 0]);
+"""
+    assert right(written)
+    assert not right(written.replace("m*g*l", "m*g*l*z(2)"))
+    assert not right(written.replace("[z(3); z(4); A", "[z(4); z(3); A"))
+    acceleration = "f = @(t, z) [z(2); -g/L*sin(z(1)) - b/(m*L^2)*z(2)];"
+    assert derivation("pendulum").check(acceleration).right
+    assert not derivation("pendulum").check(acceleration.replace("-g", "g")).right
+
+
+def right(written: str) -> bool:
+    """Whether an answer is right; one that is refused is not."""
+    try:
+        return derivation("cart-pole").check(written).right
+    except ParseError:
+        return False
