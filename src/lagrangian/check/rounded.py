@@ -80,8 +80,11 @@ def is_rounded(number: sp.Expr, value: float) -> bool:
 
 def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     """Whether a sum is the right one, with numbers that may be rounded."""
-    meant, _ = _right_line(expr, lambda: [{k: x for k, x in _sums(bounded.expand(right)).items() if x}])
-    return bounded.expand(meant - right) == 0
+    meant = {k: x for k, x in _sums(bounded.expand(right)).items() if x}
+    own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
+    if own.keys() == meant.keys() and all(_is_finite(x) for x in (*own.values(), *meant.values())):
+        return all(_same(own[k], x) or _is_rounded_from(own[k], x) for k, x in meant.items())
+    return False
 
 
 def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]) -> tuple[sp.Expr, set[float]]:
