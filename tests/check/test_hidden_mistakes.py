@@ -3,6 +3,7 @@
 import pytest
 
 import lagrangian as lg
+from built_in import derivation
 
 ROWS = """(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F
 m l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0"""
@@ -140,3 +141,10 @@ def test_matrices_that_no_equation_uses_lack_it() -> None:
         assert CART.check(f"{ENERGIES}\n{said}").status == "incomplete"
     assert told(f"{ENERGIES}\nr_1 = (x, 0)")
     assert not CART.check(f"{ENERGIES}\n{matrix}\n{column}\nA q'' = f").right
+
+
+def test_a_comment_that_cannot_be_read_refuses_no_answer_that_can() -> None:
+    rows = "M = [m1, 0; m2, m2];\nf = [k*x2r - F; F - k*x2r];\n"
+    answer = f"% carts: M(q)*qdd = f\nT = m1*x1d^2/2 + m2*(x1d + x2rd)^2/2;\nV = k*x2r^2/2;\n{rows}qdd = M\\f;\n"
+    assert derivation("lecture-3b").check(answer).right
+    assert not derivation("lecture-3b").check(answer.replace("F - k", "F + k")).right

@@ -126,7 +126,7 @@ def _valued(
 ) -> Verdict:
     """The verdict on an answer in letters or, if that is not right, in numbers."""
     values = values_of(truth, written)
-    numbers = bool(values) and (in_numbers(truth, written) or in_numbers(truth, lines))
+    numbers = bool(values) and in_numbers(truth, written)
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE:
         return verdict

@@ -26,16 +26,15 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     said = [line.kind in _JUDGED or (line.kind == "equation" and line.expr.has(*accelerations)) for line in lines]
     numeric = [k for k, line in enumerate(lines) if said[k] and in_numbers(truth, [line])]
     lettered = [k for k in range(len(lines)) if k not in numeric]
-    whole, moved = (sum(lines[k].kind == "equation" for k in x) >= truth.n for x in (lettered, numeric))
+    whole, moved = (sum(lines[k].kind == "equation" and said[k] for k in x) >= truth.n for x in (lettered, numeric))
     numbers = [lines[k] for k in numeric]
     values = values_of(truth, numbers)
-    beside = any(said[k] for k in lettered)
     if (
         not numeric
-        or not beside
+        or not lettered
         or not (whole or moved)
         or not values
-        or any(x.expr.free_symbols - {time} for x in numbers)
+        or any(x.expr.free_symbols - {time} - truth.prescribed for x in numbers)
     ):
         return None
     first = judge(truth, [lines[k] for k in lettered])

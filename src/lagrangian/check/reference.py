@@ -53,6 +53,13 @@ class Reference:
         model = self.model
         return frozenset([time, *(x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs))])
 
+    @cached_property
+    def prescribed(self) -> frozenset[sp.Basic]:
+        """The parameters in prescribed motions, as A and Ω in φ = A sin Ωt."""
+        moves = {c.symbol for c in self.model.coordinates} | {u.symbol for u in self.model.inputs}
+        moving = [d.expression for d in self.model.definitions if d.moving and not d.expression.has(*moves)]
+        return frozenset[sp.Basic]().union(*(x.free_symbols for x in moving)) - {time}
+
     def _differences(self) -> list[sp.Expr]:
         return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]
 

@@ -80,8 +80,11 @@ def is_rounded(number: sp.Expr, value: float) -> bool:
 
 def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     """Whether a sum is the right one, with numbers that may be rounded."""
-    meant, _ = _right_line(expr, lambda: [_sums(bounded.expand(right))])
-    return bounded.expand(meant - right) == 0
+    meant = {k: x for k, x in _sums(bounded.expand(right)).items() if x}
+    own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
+    if own.keys() == meant.keys() and all(_is_finite(x) for x in (*own.values(), *meant.values())):
+        return all(_same(own[k], x) or _is_rounded_from(own[k], x) for k, x in meant.items())
+    return False
 
 
 def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]) -> tuple[sp.Expr, set[float]]:
@@ -95,7 +98,7 @@ def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Ex
         return expr, set()
     if any(_last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
         return _divided(expr, own, rights())
-    units = {abs(x): unit for x in numbers if (unit := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+    units: dict[Any, float] = {abs(x): u for x in numbers if (u := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
     for right in rights() if units else ():
         if right.keys() != own.keys():
             continue
@@ -165,9 +168,8 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
             few = list(own.items())[:MAX_COEFFICIENTS]
             found.update({a / b: x / y for a, x in few for b, y in few if y and a != b})
     found.update({value: float(value) for value in truth.values.values() if value.is_number})
-    held: set[sp.Basic] = set().union(*(d.expression.free_symbols for d in truth.model.definitions if d.moving))
-    if held & truth.values.keys():  # in the rows with prescribed motions in letters, the factors of these are numbers
-        left = {p: v for p, v in truth.values.items() if p not in held}
+    if truth.prescribed & truth.values.keys():  # where A and Ω stay letters, the factor of φ̈ is a number of its own
+        left = {p: v for p, v in truth.values.items() if p not in truth.prescribed}
         found |= {exact: value for value, exact in coefficients(truth_of(truth.derivation).with_values(left))}
     return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
 

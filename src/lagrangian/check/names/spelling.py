@@ -69,8 +69,11 @@ def not_there(model: Model, symbol: sp.Basic) -> Text:
 
 
 def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether an answer names no parameter but contains numbers that can only be values of parameters."""
-    known = {p.symbol for p in truth.model.parameters}
+    """Whether an answer names no parameter but contains numbers that can only be values of parameters.
+
+    It may name those of prescribed motions, as 454.43 φ̈ does when φ = A sin Ωt is written out.
+    """
+    known = {p.symbol for p in truth.model.parameters} - truth.prescribed
     numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
     plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
     return not any(line.expr.free_symbols & known for line in lines) and bool(numbers - plain_ones)

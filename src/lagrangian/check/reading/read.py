@@ -216,7 +216,10 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
             raise error from None
     if not found.commented or reading.comments or any(accelerates(sp.sympify(x.residual)) for x in found.equations):
         return found
-    return _read_as(text, model, place, replace(reading, comments=True), [])
+    try:
+        return _read_as(text, model, place, replace(reading, comments=True), [])
+    except ParseError:
+        return found
 
 
 def _read_as(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:

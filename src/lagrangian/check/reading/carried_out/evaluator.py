@@ -133,7 +133,8 @@ class Evaluator:
         if isinstance(node, (ast.ListComp, ast.GeneratorExp)):
             return self._comprehended(node, names)
         if isinstance(node, ast.Lambda):
-            return OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
+            made = OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
+            return self.functions.setdefault(f"line {node.lineno}, {node.col_offset}", made)
         if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
             return Equation(scalar(self.value(node.left, names)), scalar(self.value(node.comparators[0], names)))
         if isinstance(node, ast.JoinedStr):
