@@ -23,7 +23,7 @@ from lagrangian.check.reading.carried_out.values import (
     Equation,
     Fields,
     Inverse,
-    Opaque,
+    Outside,
     OwnFunction,
     Routine,
     State,
@@ -117,7 +117,7 @@ class Evaluator:
             return self._kept(self.operated(node.op, self.value(node.left, names), self.value(node.right, names)))
         if isinstance(node, ast.UnaryOp):
             inner = self.value(node.operand, names)
-            return inner if isinstance(inner, Opaque) else self._signed(node.op, inner)
+            return inner if isinstance(inner, Outside) else self._signed(node.op, inner)
         if isinstance(node, (ast.List, ast.Tuple)):
             return [self.value(x, names) for x in node.elts]
         if isinstance(node, ast.Dict):
@@ -170,13 +170,15 @@ class Evaluator:
 
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
-        if isinstance(a, Opaque) or isinstance(b, Opaque):
+        if isinstance(a, Outside) or isinstance(b, Outside):
             return UNKNOWN
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
             return self._solution(matrix(a), matrix(b))
         if isinstance(op, (ast.Mult, ast.MatMult)):
+            if isinstance(b, State) and isinstance(a, MatrixBase):
+                b = sp.Matrix([b.entry(k + 1) for k in range(a.shape[1])])
             if isinstance(a, Inverse):
                 return self._solution(a.matrix, matrix(b))
             return times(a, b)
@@ -197,7 +199,7 @@ class Evaluator:
 
     def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
         of = self.value(node.value, names)
-        if isinstance(of, Opaque):
+        if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
@@ -271,20 +273,20 @@ class Evaluator:
             return self.function(of, given)
         if isinstance(of, BoundMethod):
             return self._method(of, given)
-        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Opaque):
+        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Outside):
             return applied(of, given)
         if isinstance(of, Routine):
             return self._routine(of.name, given, options, node)
         return UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
-        if any(isinstance(x, Opaque) for x in given):
+        if any(isinstance(x, Outside) for x in given):
             return UNKNOWN
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
             found = routine(name, given, options, matlab=True)
-            if isinstance(found, Opaque) and list(given) == [TIME]:
+            if isinstance(found, Outside) and list(given) == [TIME]:
                 return sp.Symbol(name)  # tau(t), a function that the program does not hold
-            if isinstance(found, Opaque) and all(isinstance(x, sp.Integer) for x in given):
+            if isinstance(found, Outside) and all(isinstance(x, sp.Integer) for x in given):
                 return State(name).entry(number(given[0]))  # z(2), where nothing says what z is
             return found
         return routine(name, given, options) if given or name in ("Function",) else UNKNOWN
@@ -311,7 +313,7 @@ class Evaluator:
 
     def _method(self, of: BoundMethod, given: Sequence[Value]) -> Value:
         value, name = of.of, of.name
-        if isinstance(value, Opaque):
+        if isinstance(value, Outside):
             return UNKNOWN
         if name == "subs":
             return replaced(value, pairs_of(given))
@@ -327,13 +329,13 @@ class Evaluator:
         if name == "row" and isinstance(value, MatrixBase):
             return value[number(given[0]), :]
         made = routine(name, [value, *given], {})
-        if isinstance(made, Opaque):
+        if isinstance(made, Outside):
             raise AbandonedError
         return made
 
     def _entry(self, of: Value, at: ast.expr, names: dict[str, Value]) -> Value:
         """An entry or a part of a list, a matrix or a state."""
-        if isinstance(of, Opaque):
+        if isinstance(of, Outside):
             return UNKNOWN
         if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(at, ast.Constant) and isinstance(at.value, str):
             return sp.Symbol(at.value)

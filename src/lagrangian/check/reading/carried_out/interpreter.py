@@ -14,7 +14,7 @@ from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
     UNKNOWN,
     AbandonedError,
-    Opaque,
+    Outside,
     OwnFunction,
     State,
     Value,
@@ -96,7 +96,7 @@ class Interpreter(Evaluator):
         if isinstance(target, (ast.Tuple, ast.List)):
             if isinstance(value, State):
                 value = [value.entry(k + 1) for k in range(len(target.elts))]
-            elif isinstance(value, Opaque):
+            elif isinstance(value, Outside):
                 value = [UNKNOWN] * len(target.elts)
             parts = listed(value)
             if len(parts) != len(target.elts):

@@ -112,76 +112,105 @@ def _statements(line: str) -> list[str]:
 
 
 def _statement(text: str) -> str:
-    """One statement: its tokens, with those of Python."""
-    out: list[str] = []
-    stack: list[str] = []
-    functions: list[int] = []
-    at, before = 0, ""
+    """One statement, in Python's syntax."""
     text = text.strip()
     if (several := re.match(r"\[([\w,~ \t]+)\][ \t]*=(?!=)", text)) is not None:  # [t, z] = ode45(…)
         targets = [x if x != "~" else "unused" for x in re.split(r"[\s,]+", several[1].strip())]
         return f"{', '.join(targets)} = {_statement(text[several.end() :])}"
     if (entry := _ENTRY.match(text)) is not None:  # M(1,2) = …
         return f"{entry['name']}[{entry['at']}] = {_statement(text[entry.end() :])}"
-    while at < len(text):
-        match = _TOKEN.match(text, at)
-        if match is None:
-            raise AbandonedError
-        at, token, kind = match.end(), match.group(), match.lastgroup
-        inside = bool(stack) and stack[-1] == "["
+    return _Expression(text).written()
+
+
+class _Expression:
+    """An expression of MATLAB, token by token."""
+
+    def __init__(self, text: str) -> None:
+        self.text, self.at = text, 0
+        self.out: list[str] = []
+        self.stack: list[str] = []
+        """The brackets that are open."""
+        self.functions: list[int] = []
+        """How many brackets were open where each function without a name begins."""
+        self.before = ""
+
+    def written(self) -> str:
+        """The expression in Python's syntax."""
+        while self.at < len(self.text):
+            match = _TOKEN.match(self.text, self.at)
+            if match is None:
+                raise AbandonedError
+            self.at = match.end()
+            self._add(match.group(), str(match.lastgroup))
+        return "".join(self.out) + ")" * len(self.functions)
+
+    def _put(self, written: str, before: str | None = None) -> None:
+        self.out.append(written)
+        self.before = written or self.before if before is None else before
+
+    def _add(self, token: str, kind: str) -> None:
+        inside = bool(self.stack) and self.stack[-1] == "["
         if kind == "space":
-            if inside and _separates(before, text, at):
-                out.append(",")
-                before = ","
-            continue
-        if kind == "mark" and token in "'’":
-            if before and (before[-1].isalnum() or before[-1] in "_)]}'"):
-                out.append(".T")
-                before = ")"
-                continue
-            end = text.find(token, at)
-            if end < 0:
-                raise AbandonedError
-            token, at, kind = repr(text[at:end]), end + 1, "string"
-        if kind == "op" and token in (".'", ".’"):
-            token = ".T"
-        elif kind == "op" and token == ":" and stack:
-            raise AbandonedError
+            if inside and _separates(self.before, self.text, self.at):
+                self._put(",")
+        elif kind == "mark" and token in "'’":
+            self._quote(token)
         elif kind == "op":
-            token = _OPERATORS.get(token, token)
-        elif token == "@":
-            given = re.match(r"[ \t]*\(([\w, \t~]*)\)", text[at:])
-            if given is None:
-                token = ""  # ode45(@f, …)
-            else:
-                at += given.end()
-                listed = [x.strip() if x.strip() != "~" else "unused" for x in given[1].split(",") if x.strip()]
-                out.append(f"(lambda {', '.join(listed)}: ")
-                functions.append(len(stack))
-                before = "("
-                continue
-        elif token in "([{" and kind == "mark":
-            stack.append("[" if token == "[" else token)
-            token = "Matrix([[" if token == "[" else token
-        elif token in ")]}" and kind == "mark":
-            while functions and functions[-1] == len(stack):
-                functions.pop()
-                out.append(")")
-            if not stack:
+            if token == ":" and self.stack:
                 raise AbandonedError
-            token = "]])" if stack.pop() == "[" else token
-            while out and token == "]])" and out[-1] in (",", "],["):
-                out.pop()
+            self._put(".T" if token in (".'", ".’") else _OPERATORS.get(token, token))
+        elif token == "@":
+            self._function()
+        elif token in "([{" and kind == "mark":
+            self.stack.append(token)
+            self._put("Matrix([[" if token == "[" else token)
+        elif token in ")]}" and kind == "mark":
+            self._close(token)
         elif token == ";" and inside:
-            token = "],["
-            while out and out[-1] in (",", "],["):
-                out.pop()
-        elif token == "," and functions and functions[-1] == len(stack) and stack:
-            functions.pop()
-            out.append(")")
-        out.append(token)
-        before = token if token else before
-    return "".join(out) + ")" * len(functions)
+            self._strip()
+            self._put("],[")
+        else:
+            if token == "," and self.functions and self.functions[-1] == len(self.stack) and self.stack:
+                self.functions.pop()
+                self.out.append(")")
+            self._put(token)
+
+    def _quote(self, mark: str) -> None:
+        """A transpose behind a value, else a string."""
+        if self.before and (self.before[-1].isalnum() or self.before[-1] in "_)]}'"):
+            self._put(".T", ")")
+            return
+        end = self.text.find(mark, self.at)
+        if end < 0:
+            raise AbandonedError
+        self._put(repr(self.text[self.at : end]))
+        self.at = end + 1
+
+    def _function(self) -> None:
+        """A function without a name, @(t, z) …; the mark alone in front of the name of one."""
+        given = re.match(r"[ \t]*\(([\w, \t~]*)\)", self.text[self.at :])
+        if given is None:
+            return
+        self.at += given.end()
+        listed = [x.strip() if x.strip() != "~" else "unused" for x in given[1].split(",") if x.strip()]
+        self.functions.append(len(self.stack))
+        self._put(f"(lambda {', '.join(listed)}: ", "(")
+
+    def _close(self, token: str) -> None:
+        while self.functions and self.functions[-1] == len(self.stack):
+            self.functions.pop()
+            self.out.append(")")
+        if not self.stack:
+            raise AbandonedError
+        if self.stack.pop() == "[":
+            self._strip()
+            token = "]])"
+        self._put(token)
+
+    def _strip(self) -> None:
+        """Take off what separates nothing at the end of a row."""
+        while self.out and self.out[-1] in (",", "],["):
+            self.out.pop()
 
 
 def _separates(before: str, text: str, at: int) -> bool:

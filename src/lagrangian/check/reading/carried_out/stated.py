@@ -28,7 +28,7 @@ LONGEST_PROGRAM, DEEPEST = 20_000, 40
 """The most characters of a program, and how deep brackets may stand in it."""
 LONGEST_LINE = 6_000
 """The most characters of a statement."""
-_PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(", re.MULTILINE)
+_PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
     r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n]*\\[ \t]?\w[^\n]*;[ \t]*+$", re.MULTILINE

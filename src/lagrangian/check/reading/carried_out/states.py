@@ -169,6 +169,8 @@ def _argument(f: OwnFunction, name: str, matlab: bool) -> Value:
     )
     own = [x for x in calls if not (isinstance(x.func, ast.Name) and x.func.id in PLAIN)]
     whole = any(_is(a, name) for x in own for a in x.args) and name != "t" and matlab
+    products = [x for x in nodes if isinstance(x, ast.BinOp) and isinstance(x.op, (ast.Mult, ast.MatMult))]
+    whole = whole or any(_is(x.left, "A") and _is(x.right, name) for x in products)  # A*y
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
         return State(name)
     return TIME if name == "t" else sp.Symbol(name)

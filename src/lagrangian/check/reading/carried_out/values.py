@@ -32,11 +32,11 @@ class AbandonedError(Exception):
     """A program does something that has no meaning on symbols, or too much."""
 
 
-class Opaque:
+class Outside:
     """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
 
 
-UNKNOWN = Opaque()
+UNKNOWN = Outside()
 
 
 @dataclass(frozen=True, eq=False)

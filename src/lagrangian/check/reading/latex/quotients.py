@@ -54,7 +54,7 @@ class LatexFractions(LatexSymbols):
             return
         for end in range(min(over + 6, len(self.tokens) - 1), over + 1, -1):
             top, bottom = self.tokens[self.i : over], self.tokens[over + 1 : end]
-            if _differential_of_time(bottom):
+            if _differential_of_time(bottom) or self._is_slope(top, bottom):
                 opened, closed = (AnswerToken(x, x, self.next.start, self.next.start) for x in "{}")
                 frac = replace(opened, kind="frac", text="frac")
                 self.tokens[self.i : end] = [frac, opened, *top, closed, opened, *bottom, closed]
@@ -158,11 +158,20 @@ class LatexFractions(LatexSymbols):
         if top[0].kind == bottom[0].kind == "partial":
             return True
         over, under = ("".join(x.text for x in part if x.kind not in "{}") for part in (top, bottom))
-        if over[:1] != "d" or under[:1] != "d" or len(under) == 1 or self.known(over):
+        energy = over[:1] == under[:1] == "d" and over[1:] in _ENERGIES and len(under) > 1 and not self.known(over)
+        return energy or self._is_slope(top, bottom)
+
+    def _is_slope(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
+        """Whether a fraction is the slope dI/dφ of an energy or of another quantity of the answer's own."""
+        over, under = (
+            "".join(x.text for x in part if x.kind not in ("{", "}", "accent")).replace("'", "")
+            for part in (top, bottom)
+        )
+        of, by = over[1:].partition("(")[0], under[1:]
+        if not over[:1] == under[:1] == "d" or not self.names.changes(by) or self.known(over) or self.known(under):
             return False
-        what = over[1:].partition("(")[0]
-        own = key(what) in self.names.scope.taken and not self.names.scope.meanings(what)[0]
-        return over[1:] in _ENERGIES or (own and not self.known(under) and self.names.changes(under[1:]))
+        own = key(of) in self.names.scope.taken and not self.names.scope.meanings(of)[0]
+        return own or of in _ENERGIES
 
     def _partial_fraction(self, token: AnswerToken) -> Tree:
         energy = self._after_d()
