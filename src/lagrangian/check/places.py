@@ -177,7 +177,8 @@ def _is_small(truth: Reference, expr: sp.Expr) -> bool:
         return False
     size = sp.Dummy()
     scaled = cast("sp.Expr", bare.xreplace({x: size * x for x in sizes}))
-    return all(bounded.expand(x.xreplace({size: sp.S.Zero})) == 0 for x in (scaled, scaled.diff(size)))
+    orders = (cast("sp.Expr", x.xreplace({size: sp.S.Zero})) for x in (scaled, bounded.diff(scaled, size)))
+    return all(bounded.expand(x) == 0 for x in orders)
 
 
 def _functions(expr: sp.Expr, symbols: Iterable[AppliedUndef]) -> list[Any]:
