@@ -22,6 +22,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
+from lagrangian.check.constraints.counted_together import counted_together
 from lagrangian.check.constraints.determined import accelerations_determined, ends_right
 from lagrangian.check.constraints.in_rates import in_coordinates
 from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
@@ -115,6 +116,10 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
         tried.append(_checked(truth, read.lines, hint))
         if tried[-1].right and _as_read(truth, read):
             return tried[-1]
+    if not any(found.right for found in tried):
+        for put, told in counted_together(truth, lines):
+            if (found := _checked(truth, put, hint)).right:
+                return replace(found, notes=(*found.notes, *told))
     if not tried:
         return _checked(truth, lines, hint)
     if opposite := next((found for found in tried if found.right), None):

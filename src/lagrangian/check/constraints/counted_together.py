@@ -1,0 +1,68 @@
+"""Coordinates that an answer counts from the same place, x = R φ, where a constraint says only ẋ = R φ̇.
+
+The equations then hold with R φ in place of x, or x/R in place of φ, wherever these stand without a rate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.model import time
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import Text, text
+
+MOST = 6
+"""The most ways in which coordinates are counted together."""
+
+
+def counted_together(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> Iterator[tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]]:
+    """The lines with one coordinate of every such constraint in others, and how they are counted then.
+
+    A coordinate is replaced only where an equation or an energy has it without a rate.
+    """
+    ways: list[dict[Any, sp.Expr]] = [{}]
+    for table in _relations(truth):
+        ways = [{**way, q: x} for way in ways for q, x in table.items() if not any(x.has(k) or q == k for k in way)]
+    for way in ways[:MOST]:
+        put = tuple(_with(line, way) for line in lines)
+        if way and any(a is not b for a, b in zip(put, lines, strict=True)):
+            yield put, tuple(text("This counts ", q, " and the others so that ", q, " = ", x, ".") for q, x in way.items())
+
+
+def _relations(truth: Reference) -> Iterator[dict[Any, sp.Expr]]:
+    """For every constraint on velocities with constant factors, each of its coordinates in the others."""
+    coordinates = truth.model.coordinates
+    for row in rows_of(truth.model):
+        if row.position is not None:
+            continue
+        c = truth.expand(row.rate)
+        factors = {k.symbol: bounded.diff(c, k.rate) for k in coordinates}
+        factors = {q: a for q, a in factors.items() if a != 0}
+        whole = sp.Add(*[a * k.rate for k in coordinates for q, a in factors.items() if q == k.symbol])
+        moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
+        if len(factors) > 1 and not moving and bounded.expand(c - whole) == 0:
+            yield {
+                q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in factors.items() if r != q]))
+                for q, a in factors.items()
+            }
+
+
+def _with(line: AnsweredLine, way: Mapping[Any, sp.Expr]) -> AnsweredLine:
+    """A line with others in place of coordinates without a rate; the same line if it has none of them."""
+    if line.kind in ("definition", "identity", "statement", "given"):
+        return line
+    held = {d: sp.Dummy() for d in line.expr.atoms(sp.Derivative)}
+    bare = cast("sp.Expr", line.expr.xreplace(held))
+    if not bare.has(*way) or not held and line.kind == "equation":
+        return line
+    back = {dummy: d for d, dummy in held.items()}
+    return replace(line, expr=cast("sp.Expr", bare.xreplace(dict(way)).xreplace(back)))
