@@ -121,6 +121,20 @@ IN_STEPS = SOLVE_IVP.replace(
 
 ADDED_UP = IN_AN_EQUATION.replace("T = M*x.diff(t)**2/2 + m*", "T = M*x.diff(t)**2/2\nT += m*")
 
+OPEN = r"""A = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2];
+f = [F - b*xd + m*l*thetad^2*sin(theta); ...
+     m*g*l*sin(theta)];
+acc = A\f;   % acc(1) = xdd, acc(2) = thetadd
+"""
+
+COMPARED = (
+    IN_AN_EQUATION.replace("print(Eq(", "e1 = Eq(", 1)
+    .replace("print(Eq(", "e2 = Eq(", 1)
+    .replace("F - b*x.diff(t)))", "F - b*x.diff(t))")
+    .replace(", 0))", ", 0)")
+)
+COMPARED += "print(simplify(LagrangesMethod(L, [x, th]).form_lagranges_equations() - Matrix([e1.lhs, e2.lhs])))\n"
+
 QUOTED = """T = "1/2*M*xd**2 + 1/2*m*(xd**2 + 2*l*xd*thetad*cos(theta) + l**2*thetad**2) + 1/2*J*thetad**2"
 eq1 = "(M + m)*xdd + m*l*thetadd*cos(theta) - m*l*thetad**2*sin(theta) = F - b*xd"
 eq2 = "m*l*xdd*cos(theta) + (J + m*l**2)*thetadd - m*g*l*sin(theta) = 0"
@@ -134,6 +148,8 @@ PROGRAMS = {
     "anonymous functions": (ANONYMOUS, "m*g*l*sin", "-m*g*l*sin"),
     "entry by entry": (ENTRIES, "f(2,1) = m", "f(2,1) = -m"),
     "symbols of MATLAB": (SYMBOLIC, "V = m*g*yp", "V = -m*g*yp"),
+    "accelerations in the open": (OPEN, "F - b*xd", "F + b*xd"),
+    "compared with what another computes": (COMPARED, "F - b*x.diff(t)", "F + b*x.diff(t)"),
     "rates in letters": (IN_LETTERS, "- m*g*l*cos", "+ m*g*l*cos"),
     "an input by a function": (IN_STEPS, "F(t) - b*xd", "F(t) + b*xd"),
     "a sum in steps": (ADDED_UP, "T += m", "T += 2*m"),

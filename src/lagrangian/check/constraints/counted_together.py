@@ -35,7 +35,10 @@ def counted_together(
     for way in ways[:MOST]:
         put = tuple(_with(line, way) for line in lines)
         if way and any(a is not b for a, b in zip(put, lines, strict=True)):
-            yield put, tuple(text("This counts ", q, " and the others so that ", q, " = ", x, ".") for q, x in way.items())
+            yield (
+                put,
+                tuple(text("This counts ", q, " and the others so that ", q, " = ", x, ".") for q, x in way.items()),
+            )
 
 
 def _relations(truth: Reference) -> Iterator[dict[Any, sp.Expr]]:
@@ -62,7 +65,7 @@ def _with(line: AnsweredLine, way: Mapping[Any, sp.Expr]) -> AnsweredLine:
         return line
     held = {d: sp.Dummy() for d in line.expr.atoms(sp.Derivative)}
     bare = cast("sp.Expr", line.expr.xreplace(held))
-    if not bare.has(*way) or not held and line.kind == "equation":
+    if not bare.has(*way) or (not held and line.kind == "equation"):
         return line
     back = {dummy: d for d, dummy in held.items()}
     return replace(line, expr=cast("sp.Expr", bare.xreplace(dict(way)).xreplace(back)))

@@ -55,7 +55,9 @@ class Interpreter(Evaluator):
             made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
             names[s.name] = self.functions[s.name] = made
         elif isinstance(s, ast.Assign):
+            before = set(self.used)
             value = self.value(s.value, names)
+            self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
             for target in s.targets:
                 self._assign(target, value, names, s.lineno)
         elif isinstance(s, ast.AnnAssign) and s.value is not None:
@@ -78,11 +80,13 @@ class Interpreter(Evaluator):
 
     def _shown(self, s: ast.Expr, names: dict[str, Value]) -> None:
         """A statement that is a value alone, or that prints some."""
+        before = set(self.used)
         call = s.value if isinstance(s.value, ast.Call) else None
         called = "" if call is None else called_name(call.func)
         if call is not None and (called in SHOWN or called in SOLVING):
             for x in call.args:
                 value = self.value(x, names)
+                self.used = before if isinstance(value, Outside) else self.used
                 self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
             return
         before = set(self.used)

@@ -31,8 +31,10 @@ LONGEST_LINE = 6_000
 _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
-    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n]*\\[ \t]?\w[^\n]*;[ \t]*+$", re.MULTILINE
+    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
+    re.MULTILINE,
 )
+_LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot|\[|\()")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
 _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
@@ -49,7 +51,9 @@ def carried_out(text: str, model: Model) -> str | None:
     Comments with accelerations stay as they are. Nothing is executed: the syntax tree is carried out on symbols.
     """
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
-    if len(text) > LONGEST_PROGRAM or (matlab and _MATLAB.search(text) is None) or _depth(text) > DEEPEST:
+    if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
+        return None
+    if matlab and (_MATLAB.search(text) is None or _LATEX.search(text) is not None):
         return None
     bare = _MARKS.sub(lambda m: "" if "`" not in m.group() else "#", text)
     scope = AnswerScope(Scope(model.symbols))
@@ -129,8 +133,20 @@ def _of_states(
     run: Interpreter, names: dict[str, Value], text: str, model: Model, scope: AnswerScope
 ) -> Iterator[tuple[int, str]]:
     """The accelerations that the functions of a program return, as equations of motion."""
-    for found in StateReader(run, text, model, scope).functions(names):
+    reader = StateReader(run, text, model, scope)
+    for found in reader.functions(names):
         yield from ((found.line, said) for said in _equations(run, found))
+    for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
+        solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
+        if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
+            continue
+        called = reader.in_comments(one.name)
+        rates = [sp.Symbol(called[k + 1]) for k in range(len(solved)) if k + 1 in called]
+        if not rates and len(solved) == len(model.coordinates):
+            rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
+        if len(rates) == len(solved):
+            found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
+            yield from ((one.line, said) for said in _equations(run, found))
 
 
 def _equations(run: Interpreter, found: StateFunction) -> Iterator[str]:

@@ -81,7 +81,7 @@ class StateReader:
         rate_of = {i + 1: places[x] for i, x in enumerate(rates) if x in places}
         if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
             return None
-        comments = self._in_comments(state.name)
+        comments = self.in_comments(state.name)
         coordinates = [c.name for c in self.model.coordinates]
         pairs: list[tuple[sp.Expr, sp.Expr]] = []
         table: dict[sp.Symbol, sp.Expr] = {}
@@ -113,7 +113,7 @@ class StateReader:
 
     def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:
         """What the entries of a vector of inputs are."""
-        comments, inputs = self._in_comments(other.name), [u.name for u in self.model.inputs]
+        comments, inputs = self.in_comments(other.name), [u.name for u in self.model.inputs]
         found: dict[sp.Symbol, sp.Expr] = {}
         for k, x in other.entries.items():
             name = comments.get(k) or self.run.aliases.get(x) or (inputs[k - 1] if k <= len(inputs) else None)
@@ -122,7 +122,7 @@ class StateReader:
             found[x] = sp.Symbol(name)
         return found
 
-    def _in_comments(self, name: str) -> dict[int, str]:
+    def in_comments(self, name: str) -> dict[int, str]:
         """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi."""
         form = re.compile(rf"(?<!\w){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]")
         single = re.compile(

@@ -201,6 +201,8 @@ def _function(text: str, headers: Sequence[re.Match[str]]) -> _Function:
     ]
     others = [x.partition("=")[0].partition(":")[0].strip() for x in listed]
     unpacked = [m for m in _UNPACKED.finditer(text) if not others or m["of"] in others]
+    if any(m["julia"] for m in headers):  # f!(du, u, p, t): the parameters are unpacked, too
+        unpacked.sort(key=lambda m: others.index(m["of"]))
     indexed = [m for m in _INDEXED.finditer(text) if m["of"] in others]
     used = [x for x in others if re.search(rf"(?<!\w){re.escape(x)}{_INDEX}", text)]
     state = next((m["of"] for m in (*unpacked, *indexed)), None) or next(

@@ -37,9 +37,25 @@ _NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?!
 """A name alone in front of an equals sign."""
 
 
+_BEHIND = re.compile(
+    r"(?<=\S)[ \t]{3,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]?:[ \t]+(?:[^\W\d_]{2,24}[ \t,]{1,3}){2}[^\n=]*+$",
+    re.MULTILINE,
+)
+"""What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
+
+
 def without_legend(written: TracedText) -> TracedText:
-    """Return an answer without the parts that only say how rates are spelled."""
-    return written.sub(_LEGEND, lambda m: " " * len(m.group()))
+    """Return an answer without the parts that only say how rates are spelled, or what a name on the line means."""
+    return written.sub(_LEGEND, _blank).sub(_BEHIND, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
+
+
+def _blank(match: re.Match[str]) -> str:
+    return " " * len(match.group())
+
+
+def _line_of(match: re.Match[str]) -> str:
+    """The line up to a match."""
+    return match.string[match.string.rfind("\n", 0, match.start()) + 1 : match.start()]
 
 
 def is_remark(text: str) -> bool:
