@@ -38,7 +38,8 @@ _NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?!
 
 
 _BEHIND = re.compile(
-    r"(?<=\S)[ \t]{3,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]?:[ \t]+(?:[^\W\d_]{2,24}[ \t,]{1,3}){2}[^\n=]*+$",
+    r"(?<=\S)[ \t]{3,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]?:[ \t]+"
+    r"(?:[^\W\d_]{2,24}[ \t,]{1,3}){2}[^\n=]*+$",
     re.MULTILINE,
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
