@@ -145,6 +145,7 @@ PROGRAMS = {
     "equations that are printed": (IN_AN_EQUATION, "F - b*x.diff(t)", "F + b*x.diff(t)"),
     "a function for solve_ivp": (SOLVE_IVP, "F - b*xd", "F + b*xd"),
     "a function in MATLAB": (MATLAB, "p.J + p.m*p.l^2", "p.J - p.m*p.l^2"),
+    "a column behind a stroke": (MATLAB.replace("A\\f", "A\\[f(1); f(2)]"), "p.J + p.m*p.l^2", "p.J - p.m*p.l^2"),
     "anonymous functions": (ANONYMOUS, "m*g*l*sin", "-m*g*l*sin"),
     "entry by entry": (ENTRIES, "f(2,1) = m", "f(2,1) = -m"),
     "symbols of MATLAB": (SYMBOLIC, "V = m*g*yp", "V = -m*g*yp"),

@@ -34,7 +34,7 @@ _MATLAB = re.compile(
     r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
     re.MULTILINE,
 )
-_LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot|\[|\()")
+_LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
 _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
