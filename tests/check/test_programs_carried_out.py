@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import lagrangian as lg
 from built_in import derivation
 from effort import at_most
 from lagrangian.check.reading.carried_out.stated import carried_out
@@ -163,6 +164,21 @@ def test_what_a_program_computes_is_judged(text: str, right: str, wrong: str) ->
     assert right in text
     assert derivation("cart-pole").check(text).right
     assert not derivation("cart-pole").check(text.replace(right, wrong)).right
+
+
+def test_a_state_space_may_have_any_matrix() -> None:
+    """The linear model of a cart on a spring: any letter may be that of the matrix."""
+    sys = lg.System("cart")
+    x = sys.coordinate("x")
+    m, k, b = sys.parameters("m k b")
+    sys.particle(m, at=sys.point("P", (x, 0)))
+    sys.spring(k, deflection=x)
+    sys.damper(b, deflection=x)
+    for name in ("A", "G"):
+        said = f"{name} = [0 1; -k/m -b/m];\nf = @(t,y) {name}*y;\n"
+        assert "x'' = -b*x'/m - k*x/m" in str(carried_out(said, sys.model))
+        assert sys.derive().check(said).right
+        assert not sys.derive().check(said.replace("-b/m", "b/m")).right
 
 
 def test_statements_stand_on_the_lines_of_the_program() -> None:

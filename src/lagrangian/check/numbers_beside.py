@@ -27,8 +27,8 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     numeric = [k for k, line in enumerate(lines) if said[k] and in_numbers(truth, [line])]
     known = {p.symbol for p in truth.model.parameters} - truth.prescribed
     if sum(lines[k].kind == "equation" for k in numeric) >= truth.n:  # V = 3/2 s² beside equations in numbers
-        bare = [k for k, x in enumerate(lines) if said[k] and not x.expr.free_symbols & known]
-        numeric = bare if {k for k in range(len(lines)) if said[k]} == set(bare) else numeric
+        judged = [k for k in range(len(lines)) if said[k]]
+        numeric = numeric if any(lines[k].expr.free_symbols & known for k in judged) else judged
     lettered = [k for k in range(len(lines)) if k not in numeric]
     whole, moved = (sum(lines[k].kind == "equation" and said[k] for k in x) >= truth.n for x in (lettered, numeric))
     numbers = [lines[k] for k in numeric]

@@ -48,9 +48,9 @@ def _relations(truth: Reference) -> Iterator[dict[Any, sp.Expr]]:
         if row.position is not None:
             continue
         c = truth.expand(row.rate)
-        factors = {k.symbol: bounded.diff(c, k.rate) for k in coordinates}
-        factors = {q: a for q, a in factors.items() if a != 0}
-        whole = sp.Add(*[a * k.rate for k in coordinates for q, a in factors.items() if q == k.symbol])
+        rates = {k.symbol: k.rate for k in coordinates if c.has(k.rate)}
+        factors = {q: bounded.diff(c, v) for q, v in rates.items()}
+        whole = sp.Add(*[a * rates[q] for q, a in factors.items()])
         moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
         if len(factors) > 1 and not moving and bounded.expand(c - whole) == 0:
             yield {

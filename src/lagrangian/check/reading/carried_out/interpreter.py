@@ -89,7 +89,6 @@ class Interpreter(Evaluator):
                 self.used = before if isinstance(value, Outside) else self.used
                 self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
             return
-        before = set(self.used)
         value = self.value(s.value, names)
         if called == "append" and call is not None and isinstance(call.func, ast.Attribute):
             self.used -= {getattr(call.func.value, "id", "")} - before  # a list that is filled is not used by that

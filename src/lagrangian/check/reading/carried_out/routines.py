@@ -11,6 +11,7 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.values import (
+    NAME,
     TIME,
     UNKNOWN,
     AbandonedError,
@@ -27,7 +28,6 @@ from lagrangian.check.reading.carried_out.values import (
     times,
 )
 
-_NAME = re.compile(r"[^\W\d]\w{0,30}")
 _RANGE = re.compile(r"([^\W\d]\w*?)\(?(\d)?:(\d)\)?")
 
 PLAIN: Mapping[str, Callable[..., Any]] = {
@@ -65,7 +65,7 @@ def names_in(text: Value) -> list[str]:
         bare = re.sub(r"[\\{}$]", "", word)
         if (several := _RANGE.fullmatch(bare)) is not None:
             found += [f"{several[1]}{k}" for k in range(int(several[2] or 0), int(several[3]))]
-        elif _NAME.fullmatch(bare):
+        elif NAME.fullmatch(bare):
             found.append(bare)
         elif bare:
             raise AbandonedError

@@ -17,7 +17,16 @@ from sympy.printing.str import StrPrinter
 from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
-from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Equation, Value, is_scalar, listed, scalar
+from lagrangian.check.reading.carried_out.values import (
+    NAME,
+    TIME,
+    AbandonedError,
+    Equation,
+    Value,
+    is_scalar,
+    listed,
+    scalar,
+)
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
@@ -41,7 +50,6 @@ _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\
 _LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
 """An entry of a column of the program, in a comment: eom(1) = …"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
-_BARE = re.compile(r"[^\W\d]\w{0,30}")
 
 
 def carried_out(text: str, model: Model) -> str | None:
@@ -215,7 +223,7 @@ class _Printer(StrPrinter):
         return f"{expr.expr.func}{chr(39) * len(expr.variables)}"
 
     def _print_Symbol(self, expr: Any) -> str:
-        if _BARE.fullmatch(expr.name) is None:
+        if NAME.fullmatch(expr.name) is None:
             raise AbandonedError
         return expr.name
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from typing import Any
 
 import sympy as sp
@@ -12,13 +12,20 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.routines import PLAIN
-from lagrangian.check.reading.carried_out.values import TIME, AbandonedError, Fields, OwnFunction, State, Value, listed
+from lagrangian.check.reading.carried_out.values import (
+    NAME,
+    TIME,
+    AbandonedError,
+    Fields,
+    OwnFunction,
+    State,
+    Value,
+    listed,
+)
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.records import dataclass
-
-_NAME = re.compile(r"[^\W\d]\w{0,30}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,10 +49,11 @@ class StateReader:
     def functions(self, names: dict[str, Value]) -> Iterator[StateFunction]:
         """The functions that nothing calls, and what they say of the motion."""
         made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
+        matrices = {name for name, x in names.items() if isinstance(x, MatrixBase)}
         for f in {id(f): f for f in made}.values():
             if f.name and f.name in self.run.called:
                 continue
-            given = {name: _argument(f, name, self.run.matlab) for name in f.arguments}
+            given = {name: _argument(f, name, matrices, self.run.matlab) for name in f.arguments}
             rates = _rates(self.run.function(f, list(given.values())))
             states = [x for x in given.values() if isinstance(x, State)]
             if rates is None:
@@ -132,7 +140,7 @@ class StateReader:
         for comment in re.finditer(r"(?:[#%]|\"\"\")[^\n]*", self.text):
             if (match := form.search(comment.group())) is not None:
                 words = [x for x in re.split(r"[\s,;]+", match["entries"].strip()) if x]
-                return {k + 1: x for k, x in enumerate(words) if _NAME.fullmatch(x)}
+                return {k + 1: x for k, x in enumerate(words) if NAME.fullmatch(x)}
             found |= {int(m[1]): f"{m[2]}dot" if m[3] else m[2] for m in single.finditer(comment.group())}
         return found
 
@@ -152,8 +160,8 @@ def _rates(value: Value) -> list[sp.Expr] | None:
     return found if all(isinstance(x, sp.Expr) for x in found) else None
 
 
-def _argument(f: OwnFunction, name: str, matlab: bool) -> Value:
-    """What an argument is by its use: a state, parameters by name, or a number."""
+def _argument(f: OwnFunction, name: str, matrices: Set[str], matlab: bool) -> Value:
+    """What an argument is by its use: a state, parameters by name, or a number; ``matrices`` are the program's."""
     body = [f.body] if isinstance(f.body, ast.expr) else f.body
     nodes = [x for part in body for x in ast.walk(part)]
     if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
@@ -170,7 +178,7 @@ def _argument(f: OwnFunction, name: str, matlab: bool) -> Value:
     own = [x for x in calls if not (isinstance(x.func, ast.Name) and x.func.id in PLAIN)]
     whole = any(_is(a, name) for x in own for a in x.args) and name != "t" and matlab
     products = [x for x in nodes if isinstance(x, ast.BinOp) and isinstance(x.op, (ast.Mult, ast.MatMult))]
-    whole = whole or any(_is(x.left, "A") and _is(x.right, name) for x in products)  # A*y
+    whole = whole or any(_is(x.right, name) and any(_is(x.left, A) for A in matrices) for x in products)  # A*y
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
         return State(name)
     return TIME if name == "t" else sp.Symbol(name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
@@ -16,6 +17,7 @@ Value: TypeAlias = Any
 """A SymPy expression or matrix, a list, a dictionary, a string, or one of the classes below."""
 
 TIME = sp.Symbol("t")
+NAME = re.compile(r"[^\W\d]\w{0,30}")
 MOST_STEPS = 6_000
 """The most parts of a program that are carried out."""
 LARGEST = 4_000
