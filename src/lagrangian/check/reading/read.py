@@ -256,12 +256,14 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
+    lines.names.relations.put = reading.put
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)
     finally:
         if reading == LIKELIEST and lines.failed:
             others += marked_readings(marked(), lines.failed)
+        others += [Choices(put=True)] if reading == LIKELIEST and lines.names.relations.asked else []
     _check_number(rows if _states_anything(made, lines) else [], source, written)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
