@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
 import sympy as sp
 
-from lagrangian.check.reading.answer import Answer, AnswerLine
+from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
@@ -261,9 +261,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     try:
         made = lines.read(statements, errors)
     finally:
-        if reading == LIKELIEST and lines.failed:
-            others += marked_readings(marked(), lines.failed)
-        others += [Choices(put=True)] if reading == LIKELIEST and lines.names.relations.asked else []
+        others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     _check_number(rows if _states_anything(made, lines) else [], source, written)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
@@ -284,6 +282,13 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         bool(comments),
     )
+
+
+def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:
+    """The other readings that only the lines of an answer show."""
+    yield from marked_readings(marked(), lines.failed) if lines.failed else ()
+    if lines.names.relations.asked:
+        yield Choices(put=True)
 
 
 def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:
