@@ -17,14 +17,14 @@ _TOKEN = re.compile(
     r"|(?P<mark>[()\[\]{},;.'’@])|(?P<space>[ \t]++)"
 )
 _HEADER = re.compile(
-    r"function[ \t]++(?:(?:(?P<out>[^\W\d]\w*+)|\[[ \t]*+(?P<first>[^\W\d]\w*+)[^\]\n]*+\])[ \t]*+=[ \t]*+)?"
+    r"function[ \t]++(?:(?:(?P<out>[^\W\d]\w*+)|\[(?P<several>[^\]\n]*+)\])[ \t]*+=[ \t]*+)?"
     r"(?P<name>[^\W\d][\w.]*+)[ \t]*+(?:\((?P<given>[^()\n]*+)\))?[ \t]*+;?[ \t]*+\Z"
 )
 _KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", "elseif", "case", "otherwise", "catch"])
 _DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
 _SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
 _ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\d, \t]++)\)[ \t]*+=(?!=)")
-_OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not "}
+_OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not ", ":": "//"}
 
 
 def in_python(text: str) -> str:
@@ -42,7 +42,7 @@ def in_python(text: str) -> str:
         if (header := _HEADER.fullmatch(bare)) is not None:
             given = [("_" if x.strip() in ("~", "") else x.strip()) for x in (header["given"] or "").split(",")]
             given = [x if x != "_" else f"unused{k}" for k, x in enumerate(given)]
-            out = header["out"] or header["first"]
+            out = header["out"] or ",".join(re.findall(r"\w+", header["several"] or ""))
             named = header["name"].replace(".", "_")
             made.append(f"def {named}({', '.join(given)}) -> {out!r}:" if out else f"def {named}({', '.join(given)}):")
             indent = 1
@@ -156,7 +156,7 @@ class _Expression:
         elif kind == "mark" and token in "'’":
             self._quote(token)
         elif kind == "op":
-            if token == ":" and self.stack:
+            if token == ":" and self.stack and re.match(r"[ \t]*+\w++[ \t]*+[,)]", self.text[self.at :]) is None:
                 raise AbandonedError
             self._put(".T" if token in (".'", ".’") else _OPERATORS.get(token, token))
         elif token == "@":

@@ -49,6 +49,12 @@ _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
 _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
 _LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
 """An entry of a column of the program, in a comment: eom(1) = …"""
+_COMMENTED = re.compile(r"[#%][^\n]*+")
+_MEANS = re.compile(
+    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ]"
+    r"(?P<of>[^\W\d]\w{0,24})(?![\w'’(*/+-])"
+)
+"""What a comment says of a name: R is r."""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
@@ -81,7 +87,19 @@ def carried_out(text: str, model: Model) -> str | None:
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):
         return None
-    return _laid_out(text, found)
+    return _laid_out(text, [*_renamed(run, text, found, scope, model), *found])
+
+
+def _renamed(
+    run: Interpreter, text: str, found: Sequence[tuple[int, str]], scope: AnswerScope, model: Model
+) -> Iterator[tuple[int, str]]:
+    """What symbols in statements are that the system does not have: coordinates, by subs(…) or by a comment."""
+    coordinates = {c.name for c in model.coordinates}
+    said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)} | run.renamed
+    for name, of in said.items():
+        used = any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", x) for _, x in found)
+        if used and not scope.meanings(name)[0] and set(scope.meanings(of)[0]) & coordinates:
+            yield 1, f"{name} = {of}"
 
 
 def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
@@ -117,7 +135,7 @@ def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
         if isinstance(one.value, str) and one.name is not None and _in_quotes(one.value):
             yield one.line, one.value if "=" in one.value else f"{one.name} = {one.value}"
             continue
-        final = one.shown or one.name not in run.used
+        final = (one.shown or one.name not in run.used) and one.of not in run.sides
         for value in listed(one.value) if isinstance(one.value, (list, MatrixBase)) else [one.value]:
             said = None
             if isinstance(value, Equation):
@@ -143,7 +161,7 @@ def _of_states(
     """The accelerations that the functions of a program return, as equations of motion."""
     reader = StateReader(run, text, model, scope)
     for found in reader.functions(names):
-        yield from ((found.line, said) for said in _equations(run, found))
+        yield from ((found.line, said) for said in _equations(run, found, len(model.constraints)))
     for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
@@ -154,29 +172,30 @@ def _of_states(
             rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-            yield from ((one.line, said) for said in _equations(run, found))
+            yield from ((one.line, said) for said in _equations(run, found, len(model.constraints)))
 
 
-def _equations(run: Interpreter, found: StateFunction) -> Iterator[str]:
-    """The equations of one function: of unknowns that a program solves for, those that it solves."""
+def _equations(run: Interpreter, found: StateFunction, constraints: int) -> Iterator[str]:
+    """The equations of one function: of unknowns that a program solves for, those that it solves; as many of them as
+    there are ``constraints`` may be multipliers."""
     put = partial(_put, table=found.moving)
     unknowns = {x: rate for rate, x in found.accelerations if x in run.solved}
     done: set[Any] = set()
     for rate, value in found.accelerations:
         if value not in run.solved:
-            if value.free_symbols & run.solved.keys():
-                raise AbandonedError
-            yield f"{written(rate)} = {written(put(value))}"
+            yield f"{written(rate)} = {written(put(run.explicit(value)))}"
             continue
         A, b, x = run.solved[cast("sp.Symbol", value)]
         if x in done:
             continue
         done.add(x)
-        if not unknowns.keys() >= set(x):
+        others = [y for y in x if y not in unknowns]
+        if len(others) > constraints:
             raise AbandonedError
+        known = unknowns | {y: sp.Symbol(f"lambda_{k}") for k, y in enumerate(others, 1)}
         for k in range(A.shape[0]):
-            left = sp.Add(*[put(A[k, j]) * unknowns[x[j]] for j in range(A.shape[1])])
-            yield f"{written(left)} = {written(put(b[k]))}"
+            left = sp.Add(*[put(run.explicit(A[k, j])) * known[x[j]] for j in range(A.shape[1])])
+            yield f"{written(left)} = {written(put(run.explicit(b[k])))}"
 
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

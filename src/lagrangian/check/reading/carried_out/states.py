@@ -11,6 +11,7 @@ import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.layouts import Layouts
 from lagrangian.check.reading.carried_out.routines import PLAIN
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -54,11 +55,15 @@ class StateReader:
             if f.name and f.name in self.run.called:
                 continue
             given = {name: _argument(f, name, matrices, self.run.matlab) for name in f.arguments}
-            rates = _rates(self.run.function(f, list(given.values())))
+            value = self.run.function(f, list(given.values()))
+            several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
+            rates = _rates(several)
             states = [x for x in given.values() if isinstance(x, State)]
             if rates is None:
                 continue
             found = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
+            layouts = Layouts(self.run, self.model, self.scope, self.in_comments)
+            found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)
 
