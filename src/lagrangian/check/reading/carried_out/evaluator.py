@@ -74,6 +74,8 @@ class Evaluator:
     known: Callable[[str], bool] = lambda name: False
     """Whether a name is a parameter or an input of the system: what it is given, a number or the name of a function,
     does not take its place."""
+    states: int = 0
+    """How many entries a state has where a program says: up to the last."""
     stated: list[Shown] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
     """The names whose values were used."""
@@ -341,13 +343,15 @@ class Evaluator:
             return sp.Symbol(at.value)
         if isinstance(of, dict):
             return of.get(self.value(at, names), UNKNOWN)
+        if isinstance(of, Routine) and of.name == "r_":  # np.r_[v, a]
+            return [x for part in listed(self.value(at, names)) for x in self.flat(part)]
         first = int(self.matlab)
         if isinstance(of, State):
             if isinstance(at, ast.Slice):
                 start = self._bound(at.lower, names, 0, first)
-                if at.upper is None:
-                    raise AbandonedError
-                return [of.entry(k + 1) for k in range(start, number(self.value(at.upper, names)))]
+                end = self._bound(at.upper, names, self.states, 0)
+                found = [of.entry(k + 1) for k in range(start, end)]
+                return sp.Matrix(found) if self.matlab and found else found
             return of.entry(number(self.value(at, names)) + 1 - first)
         if isinstance(at, ast.Tuple) and isinstance(of, MatrixBase) and len(at.elts) == 2:
             row, column = (x if isinstance(x, ast.Slice) else number(self.value(x, names)) - first for x in at.elts)

@@ -15,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from sympy.printing.str import StrPrinter
 
 from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
+from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
@@ -40,7 +41,7 @@ LONGEST_LINE = 6_000
 _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
-    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
+    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
     re.MULTILINE,
 )
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
@@ -53,7 +54,7 @@ _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
 def carried_out(text: str, model: Model) -> str | None:
-    """Return what a program in Python or MATLAB states, each statement on the line where the program has it; None if it
+    """Return what a program in Python, MATLAB or Julia states, each statement on the line where the program has it; None if it
     is no such program, or states nothing that can be carried out.
 
     Comments with accelerations stay as they are. Nothing is executed: the syntax tree is carried out on symbols.
@@ -68,8 +69,10 @@ def carried_out(text: str, model: Model) -> str | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)
+            bare = in_matlab(bare) if matlab and is_julia(bare) else bare
             tree = ast.parse(in_python(bare) if matlab else bare)
-        run = Interpreter(matlab=matlab, known=lambda name: _is_constant(scope, name, model))
+        known = partial(_is_constant, scope, model=model)
+        run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates))
         names = run.run(tree)
         found = list(_statements(run, _Rates(model, scope)))
         try:
@@ -143,7 +146,7 @@ def _of_states(
     """The accelerations that the functions of a program return, as equations of motion."""
     reader = StateReader(run, text, model, scope)
     for found in reader.functions(names):
-        yield from ((found.line, said) for said in _equations(run, found))
+        yield from ((found.line, said) for said in _equations(run, found, reader))
     for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
@@ -154,13 +157,16 @@ def _of_states(
             rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-            yield from ((one.line, said) for said in _equations(run, found))
+            yield from ((one.line, said) for said in _equations(run, found, reader))
 
 
-def _equations(run: Interpreter, found: StateFunction) -> Iterator[str]:
-    """The equations of one function: of unknowns that a program solves for, those that it solves."""
+def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[str]:
+    """The equations of one function: of unknowns that a program solves for, those that it solves.
+
+    Unknowns that are no accelerations are multipliers, by the names that the program or its comments give them.
+    """
     put = partial(_put, table=found.moving)
-    unknowns = {x: rate for rate, x in found.accelerations if x in run.solved}
+    unknowns: dict[Any, sp.Expr] = {x: rate for rate, x in found.accelerations if x in run.solved}
     done: set[Any] = set()
     for rate, value in found.accelerations:
         if value not in run.solved:
@@ -172,11 +178,21 @@ def _equations(run: Interpreter, found: StateFunction) -> Iterator[str]:
         if x in done:
             continue
         done.add(x)
+        if len(x) > len(found.accelerations) and len(unknowns) == len(found.accelerations):
+            unknowns |= {one: name for one, name in _multipliers(run, x, reader) if one not in unknowns}
         if not unknowns.keys() >= set(x):
             raise AbandonedError
         for k in range(A.shape[0]):
             left = sp.Add(*[put(A[k, j]) * unknowns[x[j]] for j in range(A.shape[1])])
             yield f"{written(left)} = {written(put(b[k]))}"
+
+
+def _multipliers(run: Interpreter, x: Sequence[sp.Symbol], reader: StateReader) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
+    """Names for the unknowns of a system of linear equations that are no accelerations."""
+    columns = [s.name for s in run.stated if s.name and isinstance(s.value, MatrixBase) and s.value.flat() == list(x)]
+    called = {k: name for column in columns for k, name in reader.in_comments(column).items()}
+    for k, one in enumerate(x):
+        yield one, sp.Symbol(run.aliases.get(one) or called.get(k + 1) or f"lambda_{k + 1}")
 
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

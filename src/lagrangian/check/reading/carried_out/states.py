@@ -87,9 +87,9 @@ class StateReader:
     def _as_motion(self, state: State, rates: Sequence[sp.Expr]) -> Any:
         places: dict[sp.Expr, int] = {x: k for k, x in state.entries.items()}
         rate_of = {i + 1: places[x] for i, x in enumerate(rates) if x in places}
-        if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
-            return None
         comments = self.in_comments(state.name)
+        if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
+            return self._as_said(state, comments, rates)
         coordinates = [c.name for c in self.model.coordinates]
         pairs: list[tuple[sp.Expr, sp.Expr]] = []
         table: dict[sp.Symbol, sp.Expr] = {}
@@ -112,6 +112,17 @@ class StateReader:
             table[x] = q.diff(TIME)
             pairs.append((q.diff(TIME, 2), rates[k - 1]))
         return (pairs, table) if pairs else None
+
+    def _as_said(self, state: State, comments: dict[int, str], rates: Sequence[sp.Expr]) -> Any:
+        """What is said of the rates of a state whose first ones are no rates of positions: x' = x, which is not true."""
+        coordinates = [sp.Function(c.name)(TIME) for c in self.model.coordinates]
+        if len(rates) != 2 * len(coordinates):
+            return None
+        known = [*coordinates, *(q.diff(TIME) for q in coordinates)]
+        said = [self.run.aliases.get(state.entry(k + 1)) or comments.get(k + 1) for k in range(len(known))]
+        own = [sp.Function(x)(TIME) if x and NAME.fullmatch(x) else q for x, q in zip(said, coordinates, strict=False)]
+        table = dict(zip([state.entry(k + 1) for k in range(len(known))], [*own, *(q.diff(TIME) for q in own)], strict=True))
+        return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
     def _rated(self, name: str) -> str | None:
         """The coordinate whose rate a name is: psd of psi."""
