@@ -120,7 +120,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             continue
         for decides in own if other is answer else _deciding(derivation, other):
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
-            if verdict.right and wrong <= {(line.number, line.text) for line in decides.lines}:
+            needed = _of_comments(wrong) if other.program else wrong
+            if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
                 return _told(verdict, other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
@@ -130,9 +131,12 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     if again is not None:
         answer, decides = again.answer, again.decides
         verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=hint)
+    asked = unexplained(derivation, answer, verdict)
+    if (asked or (answer.doubt is not None and not verdict.right)) and (program := _program(answer)) is not None:
+        return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
-    if asked := unexplained(derivation, answer, verdict):
+    if asked:
         lines = without_names_of_equations(decides.lines, asked)
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
@@ -149,6 +153,19 @@ def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int,
     accelerations = [c.acceleration for c in derivation.model.coordinates]
     cases = {"case"} if derivation.multipliers else set[str]()
     return {(x.number, x.text) for x in wrong if x.beside and not (x.beside & cases and not x.expr.has(*accelerations))}
+
+
+def _program(answer: Answer) -> Answer | None:
+    """The reading in which an answer is a program that is carried out, if it is one and was not read so."""
+    try:
+        return next((x for other in answer.others[-1:] if (x := other()).program), None)
+    except ParseError:
+        return None
+
+
+def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:
+    """Those lines that are comments of a program; its statements say what they say when they are carried out."""
+    return {(number, text) for number, text in lines if text.lstrip().startswith(("%", "#", "//"))}
 
 
 def _wrong_together(verdict: check.Verdict) -> set[tuple[int, str]]:

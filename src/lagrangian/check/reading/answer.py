@@ -124,6 +124,8 @@ class Answer:
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
     commented: bool = field(default=False, repr=False, compare=False)
     """Whether comments hold equations of motion."""
+    program: bool = field(default=False, repr=False, compare=False)
+    """Whether these are the statements of a program that was carried out."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

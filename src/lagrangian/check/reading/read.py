@@ -107,7 +107,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
 
     def by_steps() -> Answer:
         found = _declared(program, model, place)
-        return replace(found, notes=(CARRIED_OUT, *found.notes))
+        return replace(found, notes=(CARRIED_OUT, *found.notes), program=True)
 
     typed: Answer | ParseError
     try:

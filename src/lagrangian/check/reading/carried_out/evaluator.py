@@ -31,9 +31,7 @@ from lagrangian.check.reading.carried_out.values import (
     State,
     Value,
     added,
-    checked,
     constant,
-    cramer,
     entry_of,
     equated,
     is_scalar,
@@ -64,6 +62,8 @@ class Evaluator:
     known: Callable[[str], bool] = lambda name: False
     """Whether a name is a parameter or an input of the system: what it is given, a number or the name of a function,
     does not take its place."""
+    states: int = 0
+    """How many entries a state has where a program says: up to the last."""
     stated: list[Shown] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
     """The names whose values were used."""
@@ -171,8 +171,6 @@ class Evaluator:
             return UNKNOWN
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
-        if isinstance(op, ast.FloorDiv) and self.matlab:  # 1:3
-            return [sp.Integer(k) for k in islice(range(number(a), number(b) + 1), MOST_ENTRIES)]
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
             return over(b, a)
         if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
@@ -197,14 +195,6 @@ class Evaluator:
         unknowns = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n))
         self.solved |= dict.fromkeys(unknowns, (A, b, unknowns))
         return sp.Matrix(unknowns)
-
-    def explicit(self, value: sp.Expr) -> sp.Expr:
-        """A value with unknowns of linear equations, in formulas, written out by Cramer's rule."""
-        for _ in range(DEEPEST):
-            if not (found := value.free_symbols & self.solved.keys()):
-                return value
-            value = checked(value.xreplace({x: cramer(x, *self.solved[x]) for x in found}))
-        raise AbandonedError
 
     def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
         if node.attr == "_t":
@@ -363,13 +353,15 @@ class Evaluator:
             return sp.Symbol(at.value)
         if isinstance(of, dict):
             return of.get(self.value(at, names), UNKNOWN)
+        if isinstance(of, Routine) and of.name == "r_":  # np.r_[v, a]
+            return [x for part in listed(self.value(at, names)) for x in self.flat(part)]
         first = int(self.matlab)
         if isinstance(of, State):
             if isinstance(at, ast.Slice):
                 start = self._bound(at.lower, names, 0, first)
-                if at.upper is None:
-                    raise AbandonedError
-                return [of.entry(k + 1) for k in range(start, number(self.value(at.upper, names)))]
+                end = self._bound(at.upper, names, self.states, 0)
+                found = [of.entry(k + 1) for k in range(start, end)]
+                return sp.Matrix(found) if self.matlab and found else found
             return of.entry(number(self.value(at, names)) + 1 - first)
         if isinstance(at, ast.Tuple) and isinstance(of, MatrixBase) and len(at.elts) == 2:
             row, column = (x if isinstance(x, ast.Slice) else number(self.value(x, names)) - first for x in at.elts)
@@ -385,10 +377,7 @@ class Evaluator:
             found = entries[start:end]
             return sp.Matrix(found) if isinstance(of, MatrixBase) else found
         entries = [of] if is_scalar(of) else listed(of)  # (v.T*v)[0]
-        place = self.value(at, names)
-        if isinstance(place, list):  # sol(1:2)
-            return sp.Matrix([entries[number(k) - first] for k in place])
-        k = number(place) - first
+        k = number(self.value(at, names)) - first
         if not -len(entries) <= k < len(entries):
             raise AbandonedError
         return entries[k]

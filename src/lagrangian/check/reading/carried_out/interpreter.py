@@ -132,6 +132,9 @@ class Interpreter(Evaluator):
         places = [x for p in places for x in (p.elts if isinstance(p, ast.Tuple) else [p])]
         if not isinstance(held, ast.Name) or not 0 < len(places) <= 2:
             raise AbandonedError
+        if len(places) == 1 and isinstance(places[0], ast.Slice):
+            self._put_several(held, places[0], value, names)
+            return
         at = [number(self.value(x, names)) - int(self.matlab) for x in places]
         if not all(0 <= k < MOST_ENTRIES for k in at):
             raise AbandonedError
@@ -143,6 +146,16 @@ class Interpreter(Evaluator):
         larger[: made.shape[0], : made.shape[1]] = made
         larger[row, column] = scalar(value)
         names[held.id] = larger
+
+    def _put_several(self, held: ast.Name, at: ast.Slice, value: Value, names: dict[str, Value]) -> None:
+        """The entries from one place to another get values: dz(1:2) = v."""
+        values, first = self.flat(value), int(self.matlab)
+        start = 0 if at.lower is None else number(self.value(at.lower, names)) - first
+        if at.upper is not None and number(self.value(at.upper, names)) - start != len(values):
+            raise AbandonedError
+        for k, one in enumerate(values):
+            place = ast.Subscript(held, ast.Constant(start + k + first), ast.Store())
+            self._put(place, one, names)
 
 
 TROUBLES = (AbandonedError, Error, ValueError, TypeError, IndexError, KeyError, ZeroDivisionError, AttributeError)

@@ -112,7 +112,8 @@ class Layouts:
         for y, yp in permutations(states, 2):
             pairs = {r: pair for r in rates if (pair := _rate_and_state(r, yp, y)) is not None}
             rate_of = dict(pairs.values())
-            if not rate_of or not yp.entries.keys() <= {*rate_of, *rate_of.values()}:
+            used = {k for k, x in yp.entries.items() if any(r.has(x) for r in rates)}
+            if not rate_of or not used <= {*rate_of, *rate_of.values()}:
                 continue
             names = self.comments(y.name) | {
                 k: self.run.aliases[x] for k, x in y.entries.items() if x in self.run.aliases
@@ -125,7 +126,8 @@ class Layouts:
                 q: Any = sp.Function(names.get(i) or coordinates[k])(TIME)
                 table |= {y.entry(i): q, y.entry(j): q.diff(TIME)}
                 table |= {yp.entry(i): q.diff(TIME), yp.entry(j): q.diff(TIME, 2)}
-            table |= {x: sp.Symbol(names.get(k, f"lambda_{k}")) for k, x in y.entries.items() if x not in table}
+            left = {k: x for k, x in y.entries.items() if x not in table and any(r.has(x) for r in rates)}
+            table |= {x: sp.Symbol(names.get(k, f"lambda_{k}")) for k, x in left.items()}
             return [(x.xreplace(table), sp.S.Zero) for x in rates if x not in pairs], table
         return None
 

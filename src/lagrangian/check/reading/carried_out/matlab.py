@@ -24,7 +24,9 @@ _KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", 
 _DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
 _SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
 _ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\d, \t]++)\)[ \t]*+=(?!=)")
-_OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not ", ":": "//"}
+_PLACE = r"[ \t]*+(?:\d*+[ \t]*+:[ \t]*+(?:\d++|end\b)?+|\d++)[ \t]*+"
+_PLACES = re.compile(rf"(?=[^()]*:){_PLACE}(?:,{_PLACE})?\)")
+_OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not "}
 
 
 def in_python(text: str) -> str:
@@ -156,11 +158,14 @@ class _Expression:
         elif kind == "mark" and token in "'’":
             self._quote(token)
         elif kind == "op":
-            if token == ":" and self.stack and re.match(r"[ \t]*+\w++[ \t]*+[,)]", self.text[self.at :]) is None:
+            if token == ":" and self.stack and self.stack[-1] != "slice":
                 raise AbandonedError
             self._put(".T" if token in (".'", ".’") else _OPERATORS.get(token, token))
         elif token == "@":
             self._function()
+        elif token == "(" and self._slices():
+            self.stack.append("slice")
+            self._put("[")
         elif token in "([{" and kind == "mark":
             self.stack.append(token)
             self._put("Matrix([[" if token == "[" else token)
@@ -169,6 +174,8 @@ class _Expression:
         elif token == ";" and inside:
             self._strip()
             self._put("],[")
+        elif token == "end" and self.stack and self.stack[-1] == "slice":
+            pass
         else:
             if token == "," and self.functions and self.functions[-1] == len(self.stack) and self.stack:
                 self.functions.pop()
@@ -202,10 +209,16 @@ class _Expression:
             self.out.append(")")
         if not self.stack:
             raise AbandonedError
-        if self.stack.pop() == "[":
+        opened = self.stack.pop()
+        if opened == "[":
             self._strip()
             token = "]])"
-        self._put(token)
+        self._put("]" if opened == "slice" else token, ")" if opened == "slice" else None)
+
+    def _slices(self) -> bool:
+        """Whether what stands in a bracket that was opened are places from one to another: z(3:4), A(:, 1)."""
+        places = _PLACES.match(self.text, self.at)
+        return bool(self.before) and (self.before[-1].isalnum() or self.before[-1] == "_") and places is not None
 
     def _strip(self) -> None:
         """Take off what separates nothing at the end of a row."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from functools import partial
 from typing import Any, cast
 
@@ -15,6 +15,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from sympy.printing.str import StrPrinter
 
 from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
+from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
@@ -23,6 +24,8 @@ from lagrangian.check.reading.carried_out.values import (
     AbandonedError,
     Equation,
     Value,
+    checked,
+    cramer,
     is_scalar,
     listed,
     scalar,
@@ -40,7 +43,7 @@ LONGEST_LINE = 6_000
 _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
-    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|=[ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
+    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
     re.MULTILINE,
 )
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
@@ -59,7 +62,7 @@ _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
 def carried_out(text: str, model: Model) -> str | None:
-    """Return what a program in Python or MATLAB states, each statement on the line where the program has it; None if it
+    """Return what a program in Python, MATLAB or Julia states, each statement on the line where the program has it; None if it
     is no such program, or states nothing that can be carried out.
 
     Comments with accelerations stay as they are. Nothing is executed: the syntax tree is carried out on symbols.
@@ -74,8 +77,10 @@ def carried_out(text: str, model: Model) -> str | None:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)
+            bare = in_matlab(bare) if matlab and is_julia(bare) else bare
             tree = ast.parse(in_python(bare) if matlab else bare)
-        run = Interpreter(matlab=matlab, known=lambda name: _is_constant(scope, name, model))
+        known = partial(_is_constant, scope, model=model)
+        run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates))
         names = run.run(tree)
         found = list(_statements(run, _Rates(model, scope)))
         try:
@@ -87,7 +92,14 @@ def carried_out(text: str, model: Model) -> str | None:
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):
         return None
-    return _laid_out(text, [*_renamed(run, text, found, scope, model), *found])
+    own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
+    foreign = {x for x in own if not _is_of_system(scope, x)}
+    return _laid_out(text, [*_renamed(run, text, found, scope, model), *found], foreign)
+
+
+def _is_of_system(scope: AnswerScope, name: str) -> bool:
+    """Whether a name is one of the system, or of a rate of it in letters."""
+    return any(scope.meanings(x)[0] for x in (name, *(stem for _, stem in spelled_rates(name))))
 
 
 def _renamed(
@@ -116,10 +128,11 @@ def _depth(text: str) -> int:
     return most
 
 
-def _laid_out(text: str, found: Sequence[tuple[int, str]]) -> str:
-    """The statements on their lines, and the comments that hold accelerations."""
+def _laid_out(text: str, found: Sequence[tuple[int, str]], foreign: Set[str]) -> str:
+    """The statements on their lines, and the comments that hold accelerations and no names of the program's own."""
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     made = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     for line, said in found:
         at = min(max(line - 1, 0), len(made) - 1)
@@ -161,7 +174,7 @@ def _of_states(
     """The accelerations that the functions of a program return, as equations of motion."""
     reader = StateReader(run, text, model, scope)
     for found in reader.functions(names):
-        yield from ((found.line, said) for said in _equations(run, found, len(model.constraints)))
+        yield from ((found.line, said) for said in _equations(run, found, reader))
     for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
@@ -172,30 +185,51 @@ def _of_states(
             rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-            yield from ((one.line, said) for said in _equations(run, found, len(model.constraints)))
+            yield from ((one.line, said) for said in _equations(run, found, reader))
 
 
-def _equations(run: Interpreter, found: StateFunction, constraints: int) -> Iterator[str]:
-    """The equations of one function: of unknowns that a program solves for, those that it solves; as many of them as
-    there are ``constraints`` may be multipliers."""
+def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[str]:
+    """The equations of one function: of unknowns that a program solves for, those that it solves.
+
+    Unknowns that are no accelerations are multipliers, by the names that the program or its comments give them.
+    """
     put = partial(_put, table=found.moving)
-    unknowns = {x: rate for rate, x in found.accelerations if x in run.solved}
+    unknowns: dict[Any, sp.Expr] = {x: rate for rate, x in found.accelerations if x in run.solved}
     done: set[Any] = set()
     for rate, value in found.accelerations:
         if value not in run.solved:
-            yield f"{written(rate)} = {written(put(run.explicit(value)))}"
+            yield f"{written(rate)} = {written(put(_explicit(run, value)))}"
             continue
         A, b, x = run.solved[cast("sp.Symbol", value)]
         if x in done:
             continue
         done.add(x)
-        others = [y for y in x if y not in unknowns]
-        if len(others) > constraints:
+        if len(x) > len(found.accelerations) and len(unknowns) == len(found.accelerations):
+            unknowns |= {one: name for one, name in _multipliers(run, x, reader) if one not in unknowns}
+        if not unknowns.keys() >= set(x):
             raise AbandonedError
-        known = unknowns | {y: sp.Symbol(f"lambda_{k}") for k, y in enumerate(others, 1)}
         for k in range(A.shape[0]):
-            left = sp.Add(*[put(run.explicit(A[k, j])) * known[x[j]] for j in range(A.shape[1])])
-            yield f"{written(left)} = {written(put(run.explicit(b[k])))}"
+            left = sp.Add(*[put(_explicit(run, A[k, j])) * unknowns[x[j]] for j in range(A.shape[1])])
+            yield f"{written(left)} = {written(put(_explicit(run, b[k])))}"
+
+
+def _explicit(run: Interpreter, value: sp.Expr) -> sp.Expr:
+    """A value with unknowns of linear equations, in formulas, written out by Cramer's rule."""
+    for _ in range(DEEPEST):
+        if not (found := value.free_symbols & run.solved.keys()):
+            return value
+        value = checked(value.xreplace({x: cramer(x, *run.solved[x]) for x in found}))
+    raise AbandonedError
+
+
+def _multipliers(
+    run: Interpreter, x: Sequence[sp.Symbol], reader: StateReader
+) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
+    """Names for the unknowns of a system of linear equations that are no accelerations."""
+    columns = [s.name for s in run.stated if s.name and isinstance(s.value, MatrixBase) and s.value.flat() == list(x)]
+    called = {k: name for column in columns for k, name in reader.in_comments(column).items()}
+    for k, one in enumerate(x):
+        yield one, sp.Symbol(run.aliases.get(one) or called.get(k + 1) or f"lambda_{k + 1}")
 
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Any
 
 import sympy as sp
@@ -51,10 +51,11 @@ class StateReader:
         """The functions that nothing calls, and what they say of the motion."""
         made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
         matrices = {name for name, x in names.items() if isinstance(x, MatrixBase)}
+        own = self.run.functions | {name: x for name, x in names.items() if isinstance(x, OwnFunction)}
         for f in {id(f): f for f in made}.values():
             if f.name and f.name in self.run.called:
                 continue
-            given = {name: _argument(f, name, matrices, self.run.matlab) for name in f.arguments}
+            given = {name: _argument(f, name, matrices, own, self.run.matlab) for name in f.arguments}
             value = self.run.function(f, list(given.values()))
             several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
             rates = _rates(several)
@@ -92,9 +93,9 @@ class StateReader:
     def _as_motion(self, state: State, rates: Sequence[sp.Expr]) -> Any:
         places: dict[sp.Expr, int] = {x: k for k, x in state.entries.items()}
         rate_of = {i + 1: places[x] for i, x in enumerate(rates) if x in places}
-        if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
-            return None
         comments = self.in_comments(state.name)
+        if len(set(rate_of.values())) != len(rate_of) or any(j in rate_of for j in rate_of.values()):
+            return self._as_said(state, comments, rates)
         coordinates = [c.name for c in self.model.coordinates]
         pairs: list[tuple[sp.Expr, sp.Expr]] = []
         table: dict[sp.Symbol, sp.Expr] = {}
@@ -117,6 +118,19 @@ class StateReader:
             table[x] = q.diff(TIME)
             pairs.append((q.diff(TIME, 2), rates[k - 1]))
         return (pairs, table) if pairs else None
+
+    def _as_said(self, state: State, comments: dict[int, str], rates: Sequence[sp.Expr]) -> Any:
+        """What is said of the rates of a state whose first ones are no rates of positions: x' = x, which is not true."""
+        coordinates = [sp.Function(c.name)(TIME) for c in self.model.coordinates]
+        if len(rates) != 2 * len(coordinates):
+            return None
+        known = [*coordinates, *(q.diff(TIME) for q in coordinates)]
+        said = [self.run.aliases.get(state.entry(k + 1)) or comments.get(k + 1) for k in range(len(known))]
+        own = [sp.Function(x)(TIME) if x and NAME.fullmatch(x) else q for x, q in zip(said, coordinates, strict=False)]
+        table = dict(
+            zip([state.entry(k + 1) for k in range(len(known))], [*own, *(q.diff(TIME) for q in own)], strict=True)
+        )
+        return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
     def _rated(self, name: str) -> str | None:
         """The coordinate whose rate a name is: psd of psi."""
@@ -165,8 +179,11 @@ def _rates(value: Value) -> list[sp.Expr] | None:
     return found if all(isinstance(x, sp.Expr) for x in found) else None
 
 
-def _argument(f: OwnFunction, name: str, matrices: Set[str], matlab: bool) -> Value:
-    """What an argument is by its use: a state, parameters by name, or a number; ``matrices`` are the program's."""
+def _argument(
+    f: OwnFunction, name: str, matrices: Set[str], own: Mapping[str, OwnFunction], matlab: bool, depth: int = 4
+) -> Value:
+    """What an argument is by its use: a state, parameters by name, or a number; ``matrices`` and ``own`` functions are
+    the program's."""
     body = [f.body] if isinstance(f.body, ast.expr) else f.body
     nodes = [x for part in body for x in ast.walk(part)]
     if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
@@ -180,8 +197,18 @@ def _argument(f: OwnFunction, name: str, matrices: Set[str], matlab: bool) -> Va
         isinstance(x, ast.Assign) and isinstance(x.targets[0], (ast.Tuple, ast.List)) and _is(x.value, name)
         for x in nodes
     )
-    own = [x for x in calls if not (isinstance(x.func, ast.Name) and x.func.id in PLAIN)]
-    whole = any(_is(a, name) for x in own for a in x.args) and name != "t" and matlab
+    passed = [
+        (x.func.id if isinstance(x.func, ast.Name) else "", k)
+        for x in calls
+        for k, a in enumerate(x.args)
+        if _is(a, name)
+    ]
+    to_own = [(own[to], k) for to, k in passed if to in own and depth and k < len(own[to].arguments)]
+    found = [_argument(g, g.arguments[k], matrices, own, matlab, depth - 1) for g, k in to_own if g is not f]
+    if (fields := next((x for x in found if isinstance(x, Fields)), None)) is not None:
+        return fields
+    whole = any(to not in PLAIN and to not in own for to, _ in passed) and name != "t" and matlab
+    whole = whole or any(isinstance(x, State) for x in found)
     products = [x for x in nodes if isinstance(x, ast.BinOp) and isinstance(x.op, (ast.Mult, ast.MatMult))]
     whole = whole or any(_is(x.right, name) and any(_is(x.left, A) for A in matrices) for x in products)  # A*y
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):

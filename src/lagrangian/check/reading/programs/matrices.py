@@ -17,7 +17,6 @@ from collections.abc import Callable, Iterator
 from itertools import islice
 
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
-from lagrangian.check.reading.programs.handles import without_handles
 from lagrangian.check.reading.programs.sessions import MOST, closes
 from lagrangian.check.reading.programs.slices import with_states_one_by_one
 from lagrangian.check.reading.prose.words import function_of
@@ -79,7 +78,7 @@ LONGEST = 400
 def with_whole_matrices(written: TracedText) -> TracedText:
     """Return an answer in which every matrix that is typed stands on one line, and none is inverted by a function."""
     written = written.sub(_EQUATES, lambda m: " = ") if _JULIA.search(written.text) else written
-    written = with_states_one_by_one(without_handles(written.edited(_continued(written.text))))
+    written = written.edited(_continued(written.text))
     written = written.edited(_arrays(written.text))
     given = set(_MATRIX.findall(written.text))
     written = written.sub(_RETURNED, lambda m: f"{m['before']}qdd = ") if given else written

@@ -1,0 +1,158 @@
+"""Writes functions of Julia as functions of MATLAB, line by line, to be carried out on symbols.
+
+function f!(du, u, p, t)     function du = f(u, p, t)        u[1]       u(1)          2m       2*m
+(; m, k) = p                 the parameters by their names   [a, b]     [a; b]        φ̇        phidot
+du .= (v, a)                 du = [v; a]                     return a   out = a
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterator
+
+from lagrangian.check.reading.carried_out.values import AbandonedError
+
+_NAME = r"[^\W\d]\w*+"
+_FUNCTION = re.compile(rf"^[ \t]*+function[ \t]++(?P<name>{_NAME})(?P<mark>!?)\((?P<given>[^\n]*+)", re.MULTILINE)
+_SHORT = re.compile(rf"^[ \t]*+(?P<name>{_NAME})\((?P<given>[\w ,]{{0,60}}+)\)[ \t]*+=(?!=)[ \t]*+", re.MULTILINE)
+"""A function in one line: f(q, v) = …"""
+_ARROW = re.compile(rf"(?:\((?P<given>[\w ,]{{1,60}}+)\)|(?P<one>\b{_NAME}))[ \t]*+->")
+_PARAMETERS = re.compile(
+    rf"^[ \t]*+(?:\([ \t]*+;[^()=\n]++\)|@unpack\b[^=\n]++)[ \t]*+=(?!=)[ \t]*+{_NAME}[ \t]*+$", re.MULTILINE
+)
+_UNPACKED = re.compile(
+    rf"^(?P<indent>[ \t]*+)(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME})++)[ \t]*+=(?!=)", re.MULTILINE
+)
+_WHOLE = re.compile(rf"^(?P<to>[ \t]*+{_NAME})(?:\[[ \t]*+:[ \t]*+\])?[ \t]*+\.=[ \t]*+(?P<bare>\()?", re.MULTILINE)
+_LEFT_OUT = re.compile(
+    r"^[ \t]*+(?:(?:using|import|export|const|plot|println|print|display)\b|@(?!unpack))[^\n]*+$", re.MULTILINE
+)
+_STRUCTURE = re.compile(r"[ \t]*+(?:@kwdef[ \t]++|Base\.@kwdef[ \t]++)?(?:mutable[ \t]++)?struct\b")
+_TYPE = re.compile(r"::[\w.{}]{1,60}+")
+_FACTOR = re.compile(r"(?<![\w.])(?P<number>\d++(?:\.\d++)?)(?=[^\W\d]|\()(?![eEf][-+]?\d)")
+_RETURNED = re.compile(r"^(?P<indent>[ \t]*+)return[ \t]++(?!nothing\b)(?=\S)", re.MULTILINE)
+_NOTHING = re.compile(r"^[ \t]*+(?:return[ \t]++)?nothing[ \t]*+;?[ \t]*+$", re.MULTILINE)
+_ENDS = re.compile(r"[ \t]*+(?:end|return)\b")
+_DOTTED = re.compile("(?<=\\w)[\u0307\u0308]")
+_PRIMES = re.compile(r"(?<=\w)[′″]")
+_IS_JULIA = re.compile(
+    rf"^[ \t]*+function[ \t]++{_NAME}!?\([^\n=]*+$|^[ \t]*+using[ \t]++[A-Z]|^[ \t]*+\([ \t]*+;[^()=\n]++\)[ \t]*+=",
+    re.MULTILINE,
+)
+RESULT = "result_of_it"
+"""The name of what a function returns that has none for it."""
+
+
+def is_julia(text: str) -> bool:
+    """Whether a program is in Julia: a function with its arguments alone, without what it returns in front."""
+    return _IS_JULIA.search(text) is not None
+
+
+def in_matlab(text: str) -> str:
+    """Return the program in MATLAB's syntax, with the same lines; `AbandonedError` if it has structures within others."""
+    text = _PRIMES.sub(lambda m: "dot" if m.group() == "′" else "ddot", _letters(text))
+    text = "\n".join(_without_structures([_commented(x) for x in text.split("\n")]))
+    text = _TYPE.sub("", _NOTHING.sub("", _PARAMETERS.sub("", _LEFT_OUT.sub("", text))))
+    text = _FUNCTION.sub(_header, text)
+    text = _SHORT.sub(lambda m: f"{m['name']} = @({m['given']}) ", text)
+    text = _ARROW.sub(lambda m: f"@({m['given'] or m['one']}) ", text)
+    text = _RETURNED.sub(lambda m: f"{m['indent']}{RESULT} = ", text)
+    text = _with_results(_FACTOR.sub(lambda m: f"{m['number']}*", text).split("\n"))
+    return _UNPACKED.sub(lambda m: f"{m['indent']}[{m['names']}] =", _brackets(text))
+
+
+def _letters(text: str) -> str:
+    """φ̇ as φdot, also where the letter and its dot are one character; ü stays."""
+    text = "".join(unicodedata.normalize("NFD", c) if c not in "äöüÄÖÜ" else c for c in text)
+    return unicodedata.normalize("NFC", _DOTTED.sub(lambda m: "dot" if m.group() == "\u0307" else "ddot", text))
+
+
+def _commented(line: str) -> str:
+    """A line whose comment, if it has one, begins as in MATLAB."""
+    code, mark, said = line.partition("#")
+    return f"{code}%{said}" if mark else line
+
+
+def _without_structures(lines: list[str]) -> list[str]:
+    """The lines without definitions of structures, which hold values of parameters."""
+    made: list[str] = []
+    inside = False
+    for line in lines:
+        if not inside and _STRUCTURE.match(line):
+            inside = re.search(r"\bend\b", line) is None
+            made.append("")
+        else:
+            made.append("" if inside else line)
+            inside = inside and re.match(r"[ \t]*+end\b", line) is None
+    return made
+
+
+def _header(match: re.Match[str]) -> str:
+    """The first line of a function; one with ! changes its first argument."""
+    listed = match["given"].partition("%")[0].rstrip()
+    if not listed.endswith(")"):
+        raise AbandonedError
+    given = [x.partition("=")[0].strip() for x in re.split(r"[,;]", re.sub(r"[()]", "", listed))]
+    given = [x for x in given if x]
+    out = given.pop(0) if match["mark"] and given else RESULT
+    return f"function {out} = {match['name']}({', '.join(given)})"
+
+
+def _with_results(lines: list[str]) -> str:
+    """The program in which a function returns what its last line says, if that is a value alone."""
+    function, last = False, -1
+    for k, line in enumerate(lines):
+        bare = line.partition("%")[0].strip()
+        if bare.startswith("function "):
+            function, last = f"function {RESULT} " in bare, -1
+        elif function and _ENDS.fullmatch(bare):
+            if last >= 0 and re.search(r"(?<![=<>~.])=(?!=)", lines[last].partition("%")[0]) is None:
+                lines[last] = f"{RESULT} = {lines[last].strip()}"
+            function = False
+        elif bare:
+            last = k
+    return "\n".join(lines)
+
+
+def _brackets(text: str) -> str:
+    """Indices in round brackets, and columns with semicolons: x[1] as x(1), [a, b] as [a; b], du .= (a, b) as a list."""
+    out: list[str] = []
+    open_: list[str] = []
+    whole = {m.end() - 1 for m in _WHOLE.finditer(text) if m["bare"]}
+    starts = {m.end("to") for m in _WHOLE.finditer(text)}
+    skipped = {k for m in _WHOLE.finditer(text) for k in range(m.end("to"), m.end() - bool(m["bare"]))}
+    rows = set(_with_rows(text))
+    comment = False
+    for k, c in enumerate(text):
+        comment = (comment or c == "%") and c != "\n"
+        if k in starts and not comment:
+            out.append(" = ")
+        if k in skipped and not comment:
+            continue
+        if comment or c not in "()[],":
+            out.append(c)
+        elif c in "([":
+            index = c == "[" and k > 0 and (text[k - 1].isalnum() or text[k - 1] in "_)]")
+            open_.append("[" if k in whole or (c == "[" and not index) else "(")
+            out.append(open_[-1])
+            open_[-1] += ";" * (k in rows)
+        elif c == ",":
+            out.append(";" if open_ and open_[-1] == "[" else c)
+        else:
+            if not open_:
+                raise AbandonedError
+            out.append("]" if open_.pop().startswith("[") else ")")
+    return "".join(out).replace(".+", "+").replace(".-", "-").replace(".=", "=")
+
+
+def _with_rows(text: str) -> Iterator[int]:
+    """Where brackets are opened that hold semicolons: rows whose entries may have commas, too."""
+    open_: list[int] = []
+    for k, c in enumerate(text):
+        if c in "([":
+            open_.append(k)
+        elif c in ")]" and open_:
+            open_.pop()
+        elif c == ";" and open_:
+            yield open_[-1]
