@@ -6,10 +6,10 @@ Oracle: the equations of the cart with a pole, and of a wheel that rolls. Every 
 from __future__ import annotations
 
 import pytest
+from test_forces_between_bodies import wheel
 
 from built_in import derivation
 from lagrangian import ParseError
-from test_forces_between_bodies import wheel
 
 COLUMNS = """function qdd = accel(q, qd, F, p)
 th = q(2);
