@@ -1,4 +1,4 @@
-"""Programs whose functions return accelerations alone or residuals, and names that comments or subs give to coordinates.
+"""Programs whose functions return accelerations or residuals, and names that comments or subs give to coordinates.
 
 Oracle: the equations of the cart with a pole, and of a wheel that rolls. Every form has a wrong twin.
 """

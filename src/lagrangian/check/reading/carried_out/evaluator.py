@@ -12,6 +12,8 @@ from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.carried_out.mechanics import combined, made
+from lagrangian.check.reading.carried_out.methods import Method, method
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
 from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
@@ -23,6 +25,7 @@ from lagrangian.check.reading.carried_out.values import (
     Equation,
     Fields,
     Inverse,
+    Mechanical,
     Outside,
     OwnFunction,
     ReturnedError,
@@ -31,6 +34,7 @@ from lagrangian.check.reading.carried_out.values import (
     State,
     Value,
     added,
+    called_name,
     constant,
     entry_of,
     equated,
@@ -74,6 +78,8 @@ class Evaluator:
     """For unknowns of linear equations A x = b: A, b and x."""
     aliases: dict[sp.Symbol, str] = field(default_factory=dict)
     """The names that entries of a state were given."""
+    methods: list[tuple[int, Method]] = field(default_factory=list)
+    """SymPy's methods that a program sets up."""
     renamed: dict[str, str] = field(default_factory=dict)
     """The functions of time in whose places a program puts symbols."""
     functions: dict[str, OwnFunction] = field(default_factory=dict)
@@ -163,12 +169,14 @@ class Evaluator:
     def _signed(self, op: ast.unaryop, value: Value) -> Value:
         if not isinstance(op, (ast.USub, ast.UAdd)):
             raise AbandonedError
-        return times(sp.Integer(-1 if isinstance(op, ast.USub) else 1), value)
+        return self.operated(ast.Mult(), sp.Integer(-1 if isinstance(op, ast.USub) else 1), value)
 
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
         if isinstance(a, Outside) or isinstance(b, Outside):
             return UNKNOWN
+        if isinstance(a, Mechanical) or isinstance(b, Mechanical):
+            return combined(op, a, b)
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
@@ -202,6 +210,8 @@ class Evaluator:
         of = self.value(node.value, names)
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
+        if isinstance(of, Mechanical):
+            return of.attribute(node.attr)
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
         free = isinstance(of, sp.Symbol) and (self.matlab or not hasattr(of, node.attr))
@@ -274,7 +284,8 @@ class Evaluator:
         if isinstance(of, OwnFunction):
             return self.function(of, given)
         if isinstance(of, BoundMethod):
-            return self._method(of, given)
+            own = isinstance(of.of, Mechanical)
+            return of.of.call(of.name, given, options) if own else self._method(of, given)
         if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Outside):
             return applied(of, given)
         if isinstance(of, Routine):
@@ -284,6 +295,9 @@ class Evaluator:
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
         if any(isinstance(x, Outside) for x in given):
             return UNKNOWN
+        if (of := made(name, given, options) or method(name, given, options)) is not None:
+            self.methods += [(node.lineno, of)] if isinstance(of, Method) else []
+            return of
         if name in ("subs", "Subs") and len(given) > 1:
             return self._replaced(given[0], pairs_of(given[1:]))
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
@@ -334,7 +348,7 @@ class Evaluator:
         if name in ("append", "extend") and isinstance(value, list):
             value.append(given[0]) if name == "append" else value.extend(listed(given[0]))
             return UNKNOWN
-        if name == "reshape":
+        if name == "reshape" or (name == "applyfunc" and not isinstance(given[0], OwnFunction)):
             return value
         if name == "col" and isinstance(value, MatrixBase):
             return value[:, number(given[0])]
@@ -384,8 +398,3 @@ class Evaluator:
 
     def _bound(self, node: ast.expr | None, names: dict[str, Value], default: int, first: int) -> int:
         return default if node is None else number(self.value(node, names)) - first
-
-
-def called_name(node: ast.expr) -> str:
-    """The last name of what is called: print, sp.simplify."""
-    return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""

@@ -8,7 +8,8 @@ from collections.abc import Iterable
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
-from lagrangian.check.reading.carried_out.evaluator import Evaluator, called_name
+from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
@@ -20,6 +21,7 @@ from lagrangian.check.reading.carried_out.values import (
     Shown,
     State,
     Value,
+    called_name,
     listed,
     matrix,
     number,
@@ -124,6 +126,8 @@ class Interpreter(Evaluator):
             self._put(target, value, names)
         elif not isinstance(target, ast.Attribute):
             raise AbandonedError
+        elif target.attr == "potential_energy" and isinstance(body := self.value(target.value, names), Mass):
+            body.potential = scalar(value)
 
     def _put(self, target: ast.Subscript | ast.Call, value: Value, names: dict[str, Value]) -> None:
         """An entry of a list or a column gets a value; in MATLAB a column grows."""

@@ -23,6 +23,7 @@ from lagrangian.check.reading.carried_out.values import (
     TIME,
     AbandonedError,
     Equation,
+    Shown,
     Value,
     checked,
     cramer,
@@ -143,8 +144,12 @@ def _laid_out(text: str, found: Sequence[tuple[int, str]], foreign: Set[str]) ->
 def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
     """The energies and the equations that are assigned or shown; an equation that is used for another is none."""
     told: set[str] = set()
+    hidden = [x for _, method in run.methods for x in method.hidden]
+    shown = [Shown(line, None, x, True) for line, method in run.methods for x in method.told]
     last = {x.name: x for x in run.stated}
-    for one in (x for x in run.stated if x.name is None or last[x.name] is x):
+    for one in (*shown, *(x for x in run.stated if x.name is None or last[x.name] is x)):
+        if any(one.value is x for x in hidden):
+            continue  # F_r and F_r* of Kane's method
         if isinstance(one.value, str) and one.name is not None and _in_quotes(one.value):
             yield one.line, one.value if "=" in one.value else f"{one.name} = {one.value}"
             continue

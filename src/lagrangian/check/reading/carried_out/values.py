@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -65,6 +65,18 @@ class BoundMethod:
 
     of: Value
     name: str
+
+
+class Mechanical:
+    """A frame, a vector, a point, a body or a method of SymPy's mechanics."""
+
+    def attribute(self, name: str) -> Value:
+        """Return the value of an attribute."""
+        raise NotImplementedError
+
+    def call(self, name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Value:
+        """Return the value of a method."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -285,3 +297,8 @@ def cramer(x: sp.Symbol, A: MatrixBase, b: MatrixBase, unknowns: Sequence[sp.Sym
     swapped = sp.Matrix(A)
     swapped[:, unknowns.index(x)] = b
     return checked(swapped.det(method="berkowitz") / sp.Matrix(A).det(method="berkowitz"))
+
+
+def called_name(node: ast.expr) -> str:
+    """The last name of what is called: print, sp.simplify."""
+    return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""

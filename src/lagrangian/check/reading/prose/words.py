@@ -156,8 +156,11 @@ class Words:
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
         named = named or self._is_component(word)
-        force = word in _FORCES and bool(self.names.model.constraints)
-        return named or force or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+        return named or self._is_force(word) or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+
+    def _is_force(self, word: str) -> bool:
+        """Whether a word is a short spelling of a multiplier, perhaps with a number, where there are constraints."""
+        return word.rstrip("0123456789_") in _FORCES and bool(self.names.model.constraints)
 
     def _is_component(self, word: str) -> bool:
         """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
@@ -202,6 +205,8 @@ class Words:
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
+        if word[-1].isdigit() and self._is_force(word):
+            return [word]  # lam1 is no l a m1
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
