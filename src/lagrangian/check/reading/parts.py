@@ -15,7 +15,6 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import start_of
 from lagrangian.check.reading.placeholders import ENERGIES
-from lagrangian.check.reading.programs.slices import COLUMN
 from lagrangian.quantities.source import Source
 
 _PARTS = "TVUEKPW"
@@ -64,10 +63,9 @@ def left_out(side: Tree, value: sp.Expr, reader: Meaning) -> None:
 
 
 def tell_general(source: Source, new: Sequence[str], names: Names) -> None:
-    """Tell that a statement is not judged, and because of which names; not of one that only the reading has put in."""
-    if COLUMN not in new or COLUMN in (source.at(0).text or ""):
-        written = " ".join(source.text.split())
-        names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
+    """Tell that a statement is not judged, and because of which names."""
+    written = " ".join(source.text.split())
+    names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
 
 
 def _new_in(value: sp.Expr, names: Names) -> set[sp.Basic]:

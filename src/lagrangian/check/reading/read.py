@@ -59,6 +59,7 @@ LONGEST_NAME = 3
 
 CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
 """The note on a program whose lines are not read as they stand."""
+COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -106,8 +107,13 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         return _declared(text, model, place)
 
     def by_steps() -> Answer:
-        found = _declared(program, model, place)
-        return replace(found, notes=(CARRIED_OUT, *found.notes), program=True)
+        try:
+            found, notes = _declared(program.text, model, place), (CARRIED_OUT,)
+        except ParseError:
+            if program.bare == program.text:
+                raise
+            found, notes = _declared(program.bare, model, place), (CARRIED_OUT, COMMENTS_LEFT_OUT)
+        return replace(found, notes=(*notes, *found.notes), program=True)
 
     typed: Answer | ParseError
     try:

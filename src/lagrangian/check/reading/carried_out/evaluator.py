@@ -84,6 +84,8 @@ class Evaluator:
     """For unknowns of linear equations A x = b: A, b and x."""
     aliases: dict[sp.Symbol, str] = field(default_factory=dict)
     """The names that entries of a state were given."""
+    lines: dict[sp.Expr, int] = field(default_factory=dict)
+    """The lines where values were assigned last."""
     functions: dict[str, OwnFunction] = field(default_factory=dict)
     outer: dict[str, Value] = field(default_factory=dict)
     """The names of the program outside of its functions."""

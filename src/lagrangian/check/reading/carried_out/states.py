@@ -73,6 +73,8 @@ class StateReader:
     def _of_state(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Any:
         """The pairs and the meaning of the entries of the first argument whose entries are among the rates."""
         for state in states:
+            if state.entries and len(rates) == len(self.model.coordinates) < max(state.entries):
+                return self._of_accelerations(state, rates)
             if not state.entries or any(k > len(rates) for k in state.entries):
                 continue
             for k in range(len(rates)):
@@ -83,6 +85,20 @@ class StateReader:
                     table |= self._of_inputs(other)
                 return pairs, table
         return None
+
+    def _of_accelerations(self, state: State, rates: Sequence[sp.Expr]) -> Any:
+        """The pairs of a function that returns accelerations alone, in the order of the coordinates in its state."""
+        names = {k: self.run.aliases.get(x) or "" for k, x in state.entries.items()}
+        called = {k: name for k, name in names.items() if name} | self.in_comments(state.name)
+        coordinates = {c.name for c in self.model.coordinates}
+        order = [k for k in sorted(called) if set(self.scope.meanings(called[k])[0]) & coordinates]
+        stems = {k: self._rated(name) for k, name in called.items() if k not in order}
+        if len(order) != len(rates) or not all(k in order or stems.get(k) for k in state.entries):
+            return None
+        moving = [sp.Function(called[k])(TIME) for k in order]
+        table = {state.entry(k): q for k, q in zip(order, moving, strict=True)}
+        table |= {state.entry(k): sp.Function(stem)(TIME).diff(TIME) for k, stem in stems.items() if stem}
+        return [(q.diff(TIME, 2), value) for q, value in zip(moving, rates, strict=True)], table
 
     def _as_motion(self, state: State, rates: Sequence[sp.Expr]) -> Any:
         places: dict[sp.Expr, int] = {x: k for k, x in state.entries.items()}
@@ -105,7 +121,7 @@ class StateReader:
         for k, x in state.entries.items():  # the rate of a coordinate that is left out because it is cyclic
             if x in table:
                 continue
-            stem = self._rated(self.run.aliases.get(x) or comments.get(k) or "")
+            stem = self._rated(self.run.aliases.get(x) or "") or self._rated(comments.get(k) or "")
             if stem is None:
                 return None
             q = sp.Function(stem)(TIME)
@@ -114,20 +130,28 @@ class StateReader:
         return (pairs, table) if pairs else None
 
     def _as_said(self, state: State, comments: dict[int, str], rates: Sequence[sp.Expr]) -> Any:
-        """What is said of the rates of a state whose first ones are no rates of positions: x' = x, which is not true."""
+        """What is said of a state whose first rates are no rates of positions: x' = x, which is not true."""
         coordinates = [sp.Function(c.name)(TIME) for c in self.model.coordinates]
         if len(rates) != 2 * len(coordinates):
             return None
         known = [*coordinates, *(q.diff(TIME) for q in coordinates)]
         said = [self.run.aliases.get(state.entry(k + 1)) or comments.get(k + 1) for k in range(len(known))]
         own = [sp.Function(x)(TIME) if x and NAME.fullmatch(x) else q for x, q in zip(said, coordinates, strict=False)]
-        table = dict(zip([state.entry(k + 1) for k in range(len(known))], [*own, *(q.diff(TIME) for q in own)], strict=True))
+        table = dict(
+            zip([state.entry(k + 1) for k in range(len(known))], [*own, *(q.diff(TIME) for q in own)], strict=True)
+        )
         return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
     def _rated(self, name: str) -> str | None:
-        """The coordinate whose rate a name is: psd of psi."""
+        """The coordinate whose rate a name is: psd of psi, and i where a comment says i = q'."""
         coordinates = {c.name for c in self.model.coordinates}
+        said = (
+            re.findall(rf"[#%][^\n]*?(?<!\w){re.escape(name)}[ ]?=[ ]?([^\W\d]\w*+)(?:['’]|[ ]?dot\b)", self.text)
+            if name
+            else []
+        )
         found = [s for k, s in spelled_rates(name) if k == 1 and set(self.scope.meanings(s)[0]) & coordinates]
+        found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
         return found[0] if found else None
 
     def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:
