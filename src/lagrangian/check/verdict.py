@@ -44,7 +44,8 @@ class AnsweredLine(Brief):
     right.
 
     ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
-    ``names``: the keys of the names in it as it is written.
+    ``names``: the keys of the names in it as it is written. ``senses``: what words say of forces in it; see
+    `reading.said.senses`.
     """
 
     kind: str
@@ -54,6 +55,7 @@ class AnsweredLine(Brief):
     text: str = ""
     beside: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
+    senses: frozenset[tuple[str, str, str]] = frozenset()
 
     @property
     def title(self) -> str:
@@ -146,6 +148,8 @@ class Finding(Brief):
     follows: bool = False
     elements: tuple[str, ...] = ()
     """The elements that add to the right equation, for a wrong one."""
+    clash: str = ""
+    """The line that it does not fit, where nothing says which of the two is right."""
 
     def told(self, hint: int) -> Text | None:
         """The note that a hint level allows: below 3, none of a wrong line with a formula beyond ±a name."""

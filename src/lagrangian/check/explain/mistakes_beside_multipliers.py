@@ -43,7 +43,7 @@ def named_beside_multipliers(
     again = {kept[j][0]: kept[k][0] for j, k in again.items()}
     kept = [x for x in kept if x[0] not in again]
     lines = [x for _, x in kept]
-    read = with_own_multipliers(truth, lines)
+    read = with_own_multipliers(truth, lines, clashes=not wrong)
     if read is None and not wrong:
         return verdict
     if read is None:
@@ -65,6 +65,8 @@ def named_beside_multipliers(
         k: replace(better[k], status=Status.WRONG, follows=follow and wrong[0].finding.line.number < k[0])
         for k in amiss
     }
+    for j, other in zip(read.clashing, read.clashing[::-1], strict=True):
+        better[kept[j][0]] = replace(better[kept[j][0]], clash=lines[other].title)
     better |= {k: replace(x.finding, follows=x.follows) for k, x in aside.items()}
     forces = [*(m.symbol for m in truth.derivation.multipliers.values()), *read.own]
     for k, f in zip(keys, verdict.findings, strict=True):
