@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Any
 
@@ -65,6 +66,18 @@ class AnsweredLine(Brief):
             letter = {"Xi": "Ξ", "p": "∂L/∂ξ̇", "p-rate": "d/dt ∂L/∂ξ̇", "slope": "∂L/∂ξ"}[self.kind]
             what = f"{letter} of {self.name}"
         return f"line {self.number}" + (f" ({what})" if what else "")
+
+
+def keys_of(lines: Sequence[AnsweredLine]) -> list[tuple[int, str, int]]:
+    """What identifies each line: its number, its text, and which it is of those that stand in the same text."""
+    seen: Counter[tuple[int, str, bool]] = Counter()
+    found: list[tuple[int, str, int]] = []
+    for line in lines:
+        judged = line.kind not in ("definition", "statement")
+        seen[line.number, line.text, judged] += 1
+        count = seen[line.number, line.text, judged]
+        found.append((line.number, line.text, count if judged else -count))
+    return found
 
 
 @dataclass(frozen=True)

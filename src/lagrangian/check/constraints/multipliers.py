@@ -6,6 +6,7 @@ multiplier is s = c λ, and c may depend on the position: λ x/√(x² + y²) is
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -33,6 +34,7 @@ MOST = 3
 MOST_SCALES = 8
 """The largest number of scales that are tried for one multiplier."""
 MOST_READINGS = 300
+_ZERO = re.compile(r"=[ ]?0[\s$.,;&}\\]{0,9}$")
 LONGEST = 60
 """The largest number of operations of the scale of a multiplier."""
 
@@ -85,7 +87,8 @@ def with_own_multipliers(
     fixed = [(_read(truth, lines, rows, x), k) for x, k in zip(stated, against, strict=True)]
     right, _ = min(fixed, key=lambda x: (len(x[0].mistakes) + x[1], x[1]), default=(None, 0))
     if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
-        return _beside_rivals(truth, right, lines, [x for x, _ in fixed if clashes])
+        doubtful = clashes and not any(_is_zero_of_positions(line) for line in lines)
+        return _beside_rivals(truth, right, lines, [x for x, _ in fixed if doubtful])
     found = _likeliest(truth, lines, rows, possible)
     rivals = (_read(truth, lines, rows, x) for x in possible) if clashes and len(found.mistakes) == 1 else ()
     return _beside_rivals(truth, found, lines, rivals)
@@ -181,6 +184,11 @@ def _of_stated(
         if c is not None and bounded.size(c) <= LONGEST and (c.is_number or c.has(*truth.derivation.coordinates)):
             yield from ({names[0]: (own[0], cast("sp.Expr", sign / c))} for sign in (1, -1))
             return
+
+
+def _is_zero_of_positions(line: AnsweredLine) -> bool:
+    """Whether a line states a constraint as f = 0, of which λ ∂f/∂ξ has a sign."""
+    return line.kind == "equation" and not line.expr.has(sp.Derivative) and _ZERO.search(line.text) is not None
 
 
 def _slope_ratio(truth: Reference, g: sp.Expr, x: Any) -> sp.Expr | None:
