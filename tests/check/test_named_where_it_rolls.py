@@ -73,3 +73,22 @@ def test_another_mistake_beside_a_wrong_sense_of_rolling_is_told() -> None:
     verdict = check("phi = -x/R", T, *TURNED, ROWS[0], ROWS[1].replace("m g l", "m g"))
     assert [f.follows for f in verdict.findings if not f.status.right] == [False, True, True, True, False]
     assert len(verdict.mistakes) == 2 and "does not hold for rolling" in str(verdict.mistakes[0].what)
+
+
+FORCED = (
+    "(M + m) x'' + m l cos(psi) psi'' - m l sin(psi) psi'^2 = F + H\nJ phi'' + k (x/R + psi) + c (phi' + psi') = -R H"
+)
+
+
+def test_a_coordinate_in_another_beside_a_multiplier_is_right_in_a_wrong_answer() -> None:
+    assert check("phi = x/R", FORCED, ARM).right
+    verdict = check("phi = x/R", FORCED, ARM.replace("m g l", "m g"))
+    assert [f.status.right for f in verdict.findings] == [True, True, True, False]
+    assert [len(f.differences) for f in verdict.findings] == [0, 0, 0, 1]
+    wrong = check("phi = x/R", FORCED.replace("k (x/R", "k (x"), ARM)
+    assert [f.status.right for f in wrong.findings] == [True, True, False, True]
+
+
+def test_right_lines_are_right_beside_one_that_nothing_explains() -> None:
+    verdict = check("phi = x/R", ALONG.replace("m l cos(psi) psi''", "m l sin(2 psi) psi'' + 3 M J x"), ARM)
+    assert [f.status.right for f in verdict.findings] == [True, False, True]

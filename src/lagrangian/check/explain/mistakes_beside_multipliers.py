@@ -17,6 +17,7 @@ from lagrangian.check.explain.constraint_mistakes import beside_constraints
 from lagrangian.check.explain.constraint_slips import wrong_constraints
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
+from lagrangian.check.explain.put_in_terms import with_terms_put_in
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
@@ -52,7 +53,7 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
-    judged, own = judge(read.lines), where_held(truth, wrong)
+    judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
     judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
     true = [f.line for f in verdict.findings if f.status.right]
@@ -66,7 +67,7 @@ def named_beside_multipliers(
     amiss = {kept[j][0] for j in read.wrong}
     follow = bool(wrong) and not any(x is y for x in read.mistakes for y in told)  # a wrong constraint explains them
     better |= {
-        k: replace(better[k], status=Status.WRONG, follows=follow and wrong[0].finding.line.number < k[0])
+        k: replace(better[k], status=Status.WRONG, note=None, follows=follow and wrong[0].finding.line.number < k[0])
         for k in amiss
     }
     for j, other in zip(read.clashing, read.clashing[::-1], strict=True):
