@@ -20,7 +20,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
 from lagrangian.check.verdict import AnsweredLine, Mistake
-from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Body, time
 from lagrangian.page.formula import Left, text
 from lagrangian.records import dataclass
@@ -207,7 +207,8 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False)
             continue
         for x, expr in _readings(q, values, said):
             rest = x - right
-            rest = rest - rest[0] if but and q.kind in LEVEL else rest
+            if but and q.kind in LEVEL:  # a height above any level, which letters may give
+                rest = (rest.reshape(SETS, -1) - rest.reshape(SETS, -1)[:, :1]).ravel()
             near = np.abs(rest).max() <= NEAR * (1 + np.abs(right).max())
             if near and (but or zero_everywhere(truth, expr - every.rights[k])):
                 found.append(
