@@ -17,13 +17,14 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.deflections import struts
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.explain.turned_axes import turned_velocities
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, Damper, Gravity, RigidBody
 from lagrangian.page.formula import Left
 from lagrangian.records import dataclass
 
-SIGNED = frozenset(["component", "turning", "height", "deflection", "rate", "force", "damping", "restoring"])
+SIGNED = frozenset(["component", "along", "turning", "height", "deflection", "rate", "force", "damping", "restoring"])
 """Kinds that an answer may count in the other sense."""
 LEVEL = frozenset(["position", "height", "deflection", "potential"])
 """Kinds that a constant does not change."""
@@ -67,7 +68,7 @@ class Sayables:
     def __init__(self, truth: Reference) -> None:
         s = ingredients_of(truth.derivation)
         self.of = s
-        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s))
+        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s), *_turned(s))
         self.all = [q for q in every if q.right != 0][:MOST]
         self.rights = [truth.put(q.right) for q in self.all]
         self.values: Array = CompiledExpressions(self.rights).at(truth.states)
@@ -94,6 +95,15 @@ def _speeds(s: Ingredients, b: Any) -> Iterator[Sayable]:
     for c, x in enumerate(v):
         words = (f"{'xyz'[c]} component of the velocity of {b.title}",)
         yield Sayable("component", b, words, x, lambda said, x=x: Effect(T=m * (said**2 - x**2) / 2))
+
+
+def _turned(s: Ingredients) -> Iterator[Sayable]:
+    """The components of velocities along axes that turn."""
+    for b in s.bodies:
+        m = s.expand(b.mass)
+        for axes, x in turned_velocities(s, b):
+            words = (f"component of the velocity of {b.title}", *axes)
+            yield Sayable("along", b, words, x, lambda said, m=m, x=x: Effect(T=m * (said**2 - x**2) / 2))
 
 
 def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:

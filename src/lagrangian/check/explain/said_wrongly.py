@@ -13,7 +13,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
 from lagrangian.check.explain.line_mistakes import without_constant
-from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, kinds_of, owner_of
+from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, is_along_fixed_axes, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
@@ -33,6 +33,7 @@ _DAMPER = "A damper feels the velocity of one end relative to the other."
 WHY = {
     "speed": text(_SPEED),
     "component": text(_SPEED),
+    "along": text(_SPEED),
     "turning": text("ω is how fast the body itself turns against the fixed axes."),
     "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
     "axis": text(
@@ -55,6 +56,7 @@ WHY = {
 }
 CALLED = {
     "component": "velocity",
+    "along": "velocity",
     "turning": "angular velocity",
     "inertia": "moment of inertia",
     "axis": "moment of inertia",
@@ -64,7 +66,14 @@ CALLED = {
     "kinetic": "kinetic energy",
     "potential": "potential energy",
 }
-NAMES = {"component": "speed", "velocity": "speed", "place": "position", "height": "position", "rate": "deflection"}
+NAMES = {
+    "component": "speed",
+    "along": "speed",
+    "velocity": "speed",
+    "place": "position",
+    "height": "position",
+    "rate": "deflection",
+}
 """What mistakes of some kinds are called."""
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
 MOST_LACKING = 2
@@ -189,6 +198,7 @@ def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
     for b in truth.model.bodies if kinds is not None else ():
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
+    found = [k for k in found if every[k].kind != "along" or not is_along_fixed_axes(name)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
@@ -215,7 +225,7 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False)
                     q if expr is said or q.kind != "speed" else replace(q, words=(f"speed of {q.owner.title}",))
                 )
                 break
-    return found
+    return [q for q in found if q.kind != "along"] or found
 
 
 def _readings(q: Sayable, values: Array, said: sp.Expr) -> Iterator[tuple[Array, sp.Expr]]:
@@ -310,7 +320,7 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
         return not moves and not rates
     if q.kind in ("position", "height", "deflection"):
         return moves and not rates
-    if q.kind in ("turning", "speed", "component"):
+    if q.kind in ("turning", "speed", "component", "along"):
         return bool(rates)
     if q.kind == "rate":
         return bool(moves or rates)
