@@ -20,7 +20,7 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
-from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
+from lagrangian.check.explain.definitions import inserted, with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
@@ -320,6 +320,8 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     counts = {key: len(x) // len(there.get(key, x)) for key, x in own_findings.items()}  # rows of one text, in order
     read = {key: iter(there.get(key, x) * counts[key]) for key, x in own_findings.items()}
     findings = [next(read[f.line.number, f.line.text], f) for f in verdict.findings]
+    for f in (f for key, more in there.items() if key not in own_findings for f in more):
+        findings = inserted(findings, f)  # what a definition has wrong
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
 
 

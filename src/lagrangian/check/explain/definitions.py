@@ -36,7 +36,7 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
     for at, new in lines.items():
         if at not in [(f.line.number, f.line.text) for f in found if f.status is Status.WRONG]:
-            found = _inserted(found, new)
+            found = inserted(found, new)
     return tuple(found)
 
 
@@ -62,7 +62,7 @@ def with_right_definitions(
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}
         note = text("the ", *next(iter(words.values()))) if len(words) == 1 else None
-        found = _inserted(found, Finding(same[0], Status.RIGHT, note))
+        found = inserted(found, Finding(same[0], Status.RIGHT, note))
     return tuple(found)
 
 
@@ -74,7 +74,7 @@ def _right(truth: Reference, line: AnsweredLine) -> list[Sayable]:
     return [replace(q, words=(*q.words, ", from another place")) for q in placed]
 
 
-def _inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
+def inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
     """The findings with one more, before those of lines below it and of what is judged in the same line."""
     lines = [(f.line.number, f.line.kind != "definition") for f in findings]
     place = next((k for k, x in enumerate(lines) if x > (new.line.number, False)), len(findings))

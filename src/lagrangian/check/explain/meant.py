@@ -34,6 +34,8 @@ TRIVIAL = ("turning", "speed", "component", "along", "kinetic", "Xi")
 """Kinds that are said of a name with such a letter even where the value is nothing but a letter: ω = φ̇, Q_φ = M."""
 CENTRES = ("S", "G", "cm", "CM", "com", "CoM")
 """The indices that centres of mass have where no point of the system is called so."""
+PART_OF = {"rotation": "kinetic", "translation": "kinetic"}
+"""Kinds that are part of others, of which a name with the letter of these may be."""
 FIXED = ("x", "y", "z")
 """What names of fixed axes begin or end with."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
@@ -45,7 +47,14 @@ def kinds_of(name: str) -> tuple[str, ...] | None:
     return STEMS.get(_split(name)[0])
 
 
-def is_along_fixed_axes(name: str) -> bool:
+def is_meant(kind: str, name: str) -> bool:
+    """Whether a name may be of a kind that only certain names are of: T_rot of a rotation, v_r of no fixed axis."""
+    if kind in ("rotation", "translation"):
+        return kind[:3] in name.lower()
+    return kind not in ("along", "apart") or not _is_along_fixed_axes(name)
+
+
+def _is_along_fixed_axes(name: str) -> bool:
     """Whether a name is that of a component along x, y or z: v_x, v_Sy, x_S."""
     stem, index = _split(name)
     return stem in FIXED or (index not in ("xi", "zeta") and (index[:1] in FIXED or index[-1:] in FIXED))

@@ -1,8 +1,9 @@
-"""The components of a body's velocity along axes that turn: v_r = ṙ and v_φ = r φ̇, or along the axes of a frame."""
+"""The components of a body's velocity and position along axes that turn: v_r = ṙ and v_φ = r φ̇, r_c = e + r/2."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import islice, permutations
 from typing import Any, cast
 
@@ -21,20 +22,47 @@ LONGEST = 120
 
 def turned_velocities(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr]]:
     """The components of a velocity along the axes of frames, and along those that the angles in it turn."""
-    v = sp.Matrix(s.velocity(b))
-    if bounded.operations(*v.flat()) > LONGEST:
+    if bounded.operations(*s.velocity(b)) > LONGEST:
         return
-    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
     seen = {bounded.expand(sign * x) for x in s.velocity(b) for sign in (1, -1)}
     for words, axes in islice(_axes(s, b), MOST_AXES):
-        for component in cast("Any", axes.T * v).flat():
-            try:
-                x = ring.expr(ring.fold(ring.of(bounded.expand(component))))
-            except TooLong:
-                continue
+        for _, x in _along(s, axes, s.velocity(b)):
             if x != 0 and not {x, -x} & seen:
                 seen.add(x)
                 yield words, x
+
+
+def turned_places(
+    s: Ingredients, b: Any
+) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, Callable[[sp.Expr], list[sp.Expr]]]]:
+    """The components of a position along such axes, from the fixed point or from that by which it is carried, that
+    change; each with the position that another value in its place leads to."""
+    if bounded.operations(*s.velocity(b)) > LONGEST:
+        return
+    seen = {bounded.expand(sign * x) for x in s.position(b) for sign in (1, -1)}
+    zero = (sp.S.Zero,) * s.model.dimension
+    for base in dict.fromkeys((zero, s.parent(b))):
+        for words, axes in islice(_axes(s, b), MOST_AXES):
+            way = [x - y for x, y in zip(s.position(b), base, strict=True)]
+            for k, x in _along(s, axes, way):
+                if s.moves(x) and not x.has(sp.sin, sp.cos) and not {x, -x} & seen:
+                    seen.add(x)
+                    yield words, x, partial(_placed, s.position(b), axes, k, x)
+
+
+def _placed(position: Sequence[sp.Expr], axes: sp.Matrix, k: int, right: sp.Expr, said: sp.Expr) -> list[sp.Expr]:
+    """A position with another component along one of the axes."""
+    return [x + axes[c, k] * (said - right) for c, x in enumerate(position)]
+
+
+def _along(s: Ingredients, axes: sp.Matrix, vector: Sequence[sp.Expr]) -> Iterator[tuple[int, sp.Expr]]:
+    """The components of a vector along axes, each with the place of its axis, without cos² + sin²."""
+    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
+    for k, component in enumerate(cast("Any", axes.T * sp.Matrix(vector)).flat()):
+        try:
+            yield k, ring.expr(ring.fold(ring.of(bounded.expand(component))))
+        except TooLong:
+            continue
 
 
 def _axes(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.Matrix]]:
