@@ -51,6 +51,7 @@ ANSWERS = {
     "words of one letter": "x1'' = 0\n" + "c for a " * (N // 8),
     "rows of tables": "| a | b |\n|---|---|\n" + "| x1 | x2r |\n" * (N // 12),
     "strokes": "|" * N,
+    "words behind a force": "x1'' = H\n" + "H to the (" * (N // 10),
     "names with stars": "m* = 1\n" + "m* " * (N // 3),
     "stars behind indices": "m_a" * (N // 3) + "^*",
     "functions of coordinates": "".join(f"I_{k}(x1) = x1\n" for k in range(60)) + "dI_1(x1)/d" * (N // 10),

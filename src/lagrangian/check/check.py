@@ -20,7 +20,7 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
-from lagrangian.check.explain.definitions import inserted, with_right_definitions, with_wrong_definitions
+from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
@@ -38,7 +38,7 @@ from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
 
@@ -296,41 +296,39 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
 
     Right equations with multipliers, from which a wrong one was reduced, are left out if nothing else explains it.
     """
-    if verdict.status is not Status.WRONG:
+    if verdict.status is not Status.WRONG or any(m.name.startswith("constraint_") for m in verdict.mistakes):
         return None
-    own = without_constraints(truth, lines)
+    used = tuple(lines)
+    own = without_constraints(truth, used)
     if own is None and not verdict.mistakes:
-        own = without_constraints(truth, _without_right_rows(truth, lines, verdict))
+        used = _without_right_rows(truth, lines, verdict)
+        own = without_constraints(truth, used)
     if own is None:
         return None
-    wrong = {(f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG}
-    unjudged = {(line.number, line.text): line.expr == 0 for line in own.lines if line.kind == "statement"}
+    keys, of_line = keys_of([f.line for f in verdict.findings]), dict(zip(map(id, lines), keys_of(lines), strict=True))
+    wrong = {key for key, f in zip(keys, verdict.findings, strict=True) if f.status is Status.WRONG}
+    stated = [of_line[id(x)] for x in used if x.kind not in ("definition", "statement")]
+    moved = dict(zip(stated, (x for x in own.lines if x.kind != "definition"), strict=True))
+    unjudged = {key: x.expr == 0 for key, x in moved.items() if x.kind == "statement"}
     if any(not unjudged.get(key, True) for key in wrong):
         return None
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
     if found is None or not found.mistakes:
         return None
-    own_findings, there = _by_text(verdict.findings), _by_text(found.findings)
+    judged = {id(f.line): f for f in found.findings}
+    there = {key: judged[id(x)] for key, x in moved.items() if id(x) in judged}
     held = text("true where the constraints hold")
     there |= {
-        key: [replace(f, status=Status.RIGHT, note=held) for f in own_findings[key]]
-        for key, zero in unjudged.items()
-        if zero and key in own_findings
+        key: replace(f, status=Status.RIGHT, note=held)
+        for key, f in zip(keys, verdict.findings, strict=True)
+        if unjudged.get(key)
     }
-    counts = {key: len(x) // len(there.get(key, x)) for key, x in own_findings.items()}  # rows of one text, in order
-    read = {key: iter(there.get(key, x) * counts[key]) for key, x in own_findings.items()}
-    findings = [next(read[f.line.number, f.line.text], f) for f in verdict.findings]
-    for f in (f for key, more in there.items() if key not in own_findings for f in more):
-        findings = inserted(findings, f)  # what a definition has wrong
+    blamed = [f for f in found.findings if f.line.kind == "definition"]
+    told = {f.line.number for f in blamed}
+    findings = [there.get(key, f) for key, f in zip(keys, verdict.findings, strict=True)]
+    findings = [f for f in findings if f.line.kind != "definition" or f.line.number not in told]
+    findings = sorted([*findings, *blamed], key=lambda f: f.line.number)
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
-
-
-def _by_text(findings: Sequence[Finding]) -> dict[tuple[int, str], list[Finding]]:
-    """The findings of each line, in order: those of the rows of a matrix have one text."""
-    found: dict[tuple[int, str], list[Finding]] = {}
-    for f in findings:
-        found.setdefault((f.line.number, f.line.text), []).append(f)
-    return found
 
 
 def _without_right_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> tuple[AnsweredLine, ...]:

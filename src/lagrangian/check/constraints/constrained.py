@@ -31,7 +31,7 @@ from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_i
 from lagrangian.check.names.spelling import not_there
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import judge
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
 from lagrangian.derive import Derived
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
@@ -116,16 +116,26 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
         tried.append(_checked(truth, read.lines, hint))
         if tried[-1].right and _as_read(truth, read):
             return tried[-1]
-    if not any(found.right for found in tried):
-        for put, told in counted_together(truth, lines):
-            if (found := _checked(truth, put, hint)).right:
-                return replace(found, notes=(*found.notes, *told))
+    together: list[Verdict] = []
+    for put, told in counted_together(truth, lines) if not any(found.right for found in tried) else ():
+        found = _checked(truth, put, hint)
+        together.append(replace(found, notes=(*found.notes, *told)))
+        if found.right:
+            return together[-1]
     if not tried:
-        return _checked(truth, lines, hint)
+        return max([_checked(truth, lines, hint), *(_of_lines(x, lines) for x in together)], key=_rights)
     if opposite := next((found for found in tried if found.right), None):
         said = text("The motion would be right if the friction had the opposite sign.")
         return replace(opposite, status=Status.WRONG, notes=(said,))
     return max(tried, key=lambda found: sum(finding.status.right for finding in found.findings))
+
+
+def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
+    """A verdict on lines in which coordinates are counted together, as one on these lines as they were written."""
+    own = dict(zip(keys_of(lines), lines, strict=True))
+    keys = keys_of([f.line for f in verdict.findings])
+    found = (replace(f, line=own.get(key, f.line)) for key, f in zip(keys, verdict.findings, strict=True))
+    return replace(verdict, findings=tuple(found))
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:

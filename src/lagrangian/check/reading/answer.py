@@ -124,6 +124,8 @@ class Answer:
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
     commented: bool = field(default=False, repr=False, compare=False)
     """Whether comments hold equations of motion."""
+    senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
+    """In which sense words count forces of the answer's own; see `said.senses`."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

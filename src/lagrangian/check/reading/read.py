@@ -39,6 +39,7 @@ from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKIN
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
+from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
@@ -226,8 +227,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     """The answer in one reading, without comments unless they are to be read."""
     given, lines = text, Lines(model)
     remarks = without_side_remarks(text, model, lines.names.known)
-    text = remarks.text if reading.bare else text
-    typed = Source(plainer(text), "the answer", place)
+    typed = Source(plainer(remarks.text if reading.bare else text), "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated = called.text != plain.text
@@ -281,6 +281,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         bool(comments),
+        stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
     )
 
 
