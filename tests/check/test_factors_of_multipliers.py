@@ -78,6 +78,29 @@ def test_the_other_lines_say_which_sign_is_wrong() -> None:
     assert not wagon().check(f"{ALONG.replace('lambda', '-lambda')}\n{TURN}\n{force}").right
 
 
+@cache
+def tractor() -> Derivation:
+    """A tractor with a large and a small wheel."""
+    s = System("tractor")
+    x, phi, psi = s.coordinates("x phi psi")
+    M, J, I, R, r = s.parameters("M J I R r")
+    s.force((s.input("F"), 0), at=s.point("P", (x, 0)))
+    s.kinetic((M * x.diff() ** 2 + J * phi.diff() ** 2 + I * psi.diff() ** 2) / 2)
+    s.constraint(x - R * phi, name="large")
+    s.constraint(x - r * psi, name="small")
+    return s.derive()
+
+
+def test_of_several_multipliers_the_one_that_does_not_fit_is_told() -> None:
+    rows = "M x'' = F + A - B\nJ phi'' = -R A\nI psi'' = r B"
+    assert tractor().check(rows).right
+    verdict = tractor().check(rows.replace("= r B", "= -r B"))
+    (mistake,) = verdict.mistakes
+    assert [f.clash for f in verdict.findings] == ["line 3", "", "line 1"] and mistake.element == "constraint 'small'"
+    assert "B has the factor -1 in line 1, the equation of x, and -r in line 3" in str(mistake.what)
+    assert not tractor().check(rows.replace("- B", "+ B")).right
+
+
 @pytest.mark.parametrize(
     ("text", "senses"),
     [

@@ -43,19 +43,24 @@ LONGEST = 60
 class ReadMultipliers:
     """An answer whose multipliers are read: its lines, with right multipliers in all equations, and how they were read.
 
-    ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong, in
-    the given lines ``wrong``. ``own`` are the names of the answer's multipliers, ``pushes`` their factors in the
-    given lines. ``clashing``: two lines, one of which is wrong, though nothing says which.
+    ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong,
+    ``slips`` in which of the given lines and which multiplier of the answer. ``own`` are the names of these, ``pushes``
+    their factors in the given lines. ``clashing``: two lines, one of which is wrong, though nothing says which.
     """
 
     lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...]
     mistakes: tuple[Mistake, ...]
-    wrong: frozenset[int]
+    slips: tuple[tuple[int, Any], ...]
     sources: tuple[int, ...]
     own: tuple[Any, ...]
-    pushes: Mapping[int, Pushing] = field(default_factory=dict[int, "Pushing"])
+    pushes: Mapping[tuple[int, Any], Pushing] = field(default_factory=dict[tuple[int, Any], Pushing])
     clashing: tuple[int, ...] = ()
+
+    @property
+    def wrong(self) -> frozenset[int]:
+        """The given lines in which a multiplier stands wrong, or may."""
+        return frozenset([*(j for j, _ in self.slips), *self.clashing])
 
 
 def with_own_multipliers(
@@ -153,15 +158,15 @@ def _beside_rivals(
     nothing says which of them is right."""
     if len(found.mistakes) != 1 or found.mistakes[0].name not in ("multiplier_sign", "multiplier_factor"):
         return found
-    kind = found.mistakes[0].name
-    other = next((x for x in rivals if x.wrong != found.wrong and [m.name for m in x.mistakes] == [kind]), None)
-    if other is None or len(found.own) != 1:
+    kind, ((line, s),) = found.mistakes[0].name, found.slips
+    alike = (x for x in rivals if [m.name for m in x.mistakes] == [kind] and x.slips[0][1] == s)
+    if (other := next((x for x in alike if x.slips[0][0] != line), None)) is None:
         return found
-    first, second = sorted(min(x.wrong) for x in (found, other))
-    read = found if found.wrong == {second} else other
-    titles, pushes = [lines[j].title for j in (first, second)], [read.pushes[j] for j in (first, second)]
-    told = unfitting(truth, titles, pushes, read.own[0], found.mistakes[0])
-    return replace(found, mistakes=(told,), wrong=found.wrong | other.wrong, clashing=(first, second), notes=())
+    first, second = sorted((line, other.slips[0][0]))
+    read = found if line == second else other
+    titles, pushes = [lines[j].title for j in (first, second)], [read.pushes[j, s] for j in (first, second)]
+    told = unfitting(truth, titles, pushes, s, read.mistakes[0])
+    return replace(found, mistakes=(told,), clashing=(first, second), notes=())
 
 
 def _is_plainer(truth: Reference, reading: ReadMultipliers, than: ReadMultipliers) -> bool:
@@ -250,23 +255,23 @@ def _read(
     read = {id(line): replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in rows}
     places = {id(line): j for j, line in enumerate(lines)}
     mistakes: list[Mistake] = []
-    wrong: set[int] = set()
-    pushes: dict[int, Pushing] = {}
+    slips: list[tuple[int, Any]] = []
+    pushes: dict[tuple[int, Any], Pushing] = {}
     for line, found in zip(rows, _matched(truth, exprs, best, own), strict=True):
         for s, (x, c) in best.items():
             right = _right(truth, found, x)
             written = cast("sp.Expr", line.expr.diff(s))
             if right is None or found.factor is None or right == 0:
                 continue
-            pushes[places[id(line)]] = _pushing(found.row, found.factor, written, cast("sp.Expr", right / c))
+            pushes[places[id(line)], s] = _pushing(found.row, found.factor, written, cast("sp.Expr", right / c))
             if zero_everywhere(truth, rest := written * c - right):
                 continue
             read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
-            wrong.add(places[id(line)])
+            slips.append((places[id(line)], s))
             mistakes.append(of_multiplier(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
     sources = [j for j, line in enumerate(lines) if line.kind != "equation" or id(line) in read]
     kept = tuple(read.get(id(lines[j]), lines[j]) for j in sources)
-    return ReadMultipliers(kept, tuple(told), tuple(mistakes), frozenset(wrong), tuple(sources), tuple(best), pushes)
+    return ReadMultipliers(kept, tuple(told), tuple(mistakes), tuple(slips), tuple(sources), tuple(best), pushes)
 
 
 def _pushing(row: int, factor: sp.Expr, written: sp.Expr, right: sp.Expr) -> Pushing:
