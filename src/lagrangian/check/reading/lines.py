@@ -13,6 +13,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.amounts import amounts_to, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
@@ -34,7 +35,6 @@ from lagrangian.check.reading.named_products import with_named_products
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
-from lagrangian.check.reading.own_values import amounts_to
 from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
@@ -354,8 +354,7 @@ class Lines:
                 return []
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
-        if len(values) > 2:
-            values, sides = without_parts(values, sides, reader)
+        values, sides = without_parts(*without_amounts(values, sides, self.model), reader)
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
             lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)
