@@ -61,3 +61,39 @@ def test_what_only_a_prescribed_motion_changes_may_be_left_out(energy: str, righ
     rows = "m L^2 theta'' = m L (g - a*omega^2*cos(omega*t)) sin(theta) - b theta'"
     verdict = derivation("kapitza-pendulum").check(f"T = {energy}\n{rows}")
     assert verdict.right is right, verdict.to_text()
+
+
+U = "-m*g*R*cos(theta) - m/2*Omega^2*R^2*sin(theta)^2"
+RELATIVE, WHOLE = "m/2*R^2*theta'^2", "m/2*R^2*(theta'^2 + Omega^2*sin(theta)^2)"
+BEAD = "m R^2 theta'' + m g R sin(theta) - m R^2 Omega^2 sin(theta) cos(theta) = 0"
+
+
+@pytest.mark.parametrize(
+    ("sheet", "right"),
+    [
+        (f"U = {U}\n{BEAD}", True),
+        (f"U = {U} + m*g*R\nT = {RELATIVE}\n{BEAD}", True),
+        (f"T = {WHOLE}\nV = -m*g*R*cos(theta)\nU = {U}\n{BEAD}", True),
+        (f"L = {RELATIVE} - ({U})\nU = {U}\n{BEAD}", True),
+        (f"U = {U.replace('- m/2', '+ m/2')}\n{BEAD}", False),
+        (f"U = {U.replace('- m/2', '- m')}\n{BEAD}", False),
+        (f"U = {U}\nT = {WHOLE}\n{BEAD}", False),
+        (f"U = {U}\nL = {WHOLE} - ({U})\n{BEAD}", False),
+        (f"U = {U}\nT = {RELATIVE.replace('/2', '')}\n{BEAD}", False),
+        (f"U = {U}\n{BEAD.replace('- m R', '+ m R')}", False),
+        (f"U = {U}", False),
+        (f"T = {RELATIVE}\nV = -m*g*R*cos(theta)\n{BEAD}", False),
+    ],
+)
+def test_an_effective_potential_is_right_with_what_fits_it(sheet: str, right: bool) -> None:
+    verdict = derivation("bead-on-hoop").check(sheet)
+    assert verdict.right is right, verdict.to_text()
+
+
+def test_the_letter_of_a_kinetic_energy_may_be_that_of_the_hamiltonian() -> None:
+    sheet = f"p = m R^2 theta'\nK = {U} + p^2/(2 m R^2)\n{BEAD}"
+    verdict = derivation("bead-on-hoop").check(sheet)
+    assert verdict.right and "K in line 2 was read as the Hamiltonian" in verdict.to_text()
+    for wrong in (sheet.replace("- m/2", "+ m/2"), sheet.replace("K =", "T ="), sheet.replace("-m*g", "+m*g")):
+        assert not derivation("bead-on-hoop").check(wrong).right
+    assert derivation("bead-on-hoop").check(f"K = {WHOLE}\n{BEAD}").right
