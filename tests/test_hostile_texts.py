@@ -62,6 +62,8 @@ ANSWERS = {
     "ends of rows before blanks": "function dz = f(t, z)\ndz = [z(1)" + BLANK + "y",
     "words of rest": "x1'' = 0\n" + "rest for " * (N // 9),
     "products of columns": "C q' = [1; 2]\n" + "C q' + " * (N // 14) + "x1'' = 0",
+    "a label before blanks": "\\[ \\theta" + BLANK + ": y = 1 \\]",
+    "lines below formulas": "\\[ x1 = 0 " + "\\underline{" * (N // 11) + " \\]",
     "bullets": "- a\n" * (N // 4),
     "fractions of TeX": "\\[ x1 = " + "{a\\over b}" * (N // 12) + " \\]",
     "fractions around each other": "{" * (N // 10) + "a\\over b}" * (N // 10),

@@ -18,6 +18,7 @@ from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.row_words import findings_of, name_of
+from lagrangian.check.moving_frame import with_effective_potential, with_hamiltonian
 from lagrangian.check.names.needless import accelerates
 from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
@@ -53,6 +54,7 @@ def judged_lines(
     """Judge every line, and the equations together; with a change, everything is converted to the system's
     coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
     chart = change.chart(truth, lines) if change is not None else None
+    lines, called = with_hamiltonian(truth, lines) if change is None else (lines, ())
     lines = lines if chart is None else with_own_quantities(truth, lines, chart)
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     truth = truth.within(change.region(truth)) if change is not None else truth
@@ -78,9 +80,10 @@ def judged_lines(
         else:
             aside = (*aside, of_unknown(line))
     findings, named = without_own_names(truth, lines, findings)
-    aside = (*aside, *named)
-    findings = findings if change is not None else follow_from_derivatives(truth, right_together(truth, findings))
+    aside = (*called, *aside, *named)
     if change is None:
+        findings = with_effective_potential(truth, findings, motion=of_equations(truth, comparison).right)
+        findings = follow_from_derivatives(truth, right_together(truth, findings))
         findings = follow_from_definitions(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )

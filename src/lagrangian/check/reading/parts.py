@@ -43,6 +43,8 @@ def tells(kind: Kind, value: Value, after: Sequence[Value], names: Names) -> boo
 
 def without_parts(values: list[Value], sides: list[Tree], reader: Meaning) -> tuple[list[Value], list[Tree]]:
     """The values and sides of an equation without those of forces that nothing explains, between others."""
+    if len(values) < 3:
+        return values, sides
     new = [_new_in(x, reader.names) if isinstance(x, sp.Expr) else set[sp.Basic]() for x in values]
     usual = [all(str(x)[0] in _PARTS + _FORCES for x in names) for names in new]
     drop = [not new[0] and not new[-1] and bool(n) and u for n, u in zip(new, usual, strict=True)]

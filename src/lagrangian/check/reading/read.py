@@ -247,7 +247,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     own = {key(name) for name in model.symbols}
-    lines.names.dependents = dependents(text, lambda name: key(name) in own)
+    lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     text = text if latex else with_spoken_signs(text, words)
