@@ -9,6 +9,7 @@ from __future__ import annotations
 import pytest
 
 from built_in import derivation
+from lagrangian import System
 from student_answers import CART, POLE, right
 
 WRONG_POLE = POLE.replace("- m g", "+ m g")
@@ -83,3 +84,33 @@ def test_a_case_is_no_constraint(remark: str) -> None:
     assert pendulum.check(f"{rows}\n\n{remark}").right
     assert not pendulum.check(f"{rows.replace('m g', '2 m g')}\n\n{remark}").right
     assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}").right
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "If theta is held at zero the first one gives (M + m) x'' + b x' = F.",
+        "With the pole clamped: (M + m) x'' + b x' = F",
+        "When the cart is fixed, the pole alone: (J + m l^2) theta'' = m g l sin theta",
+    ],
+)
+def test_a_special_case_in_words_must_be_one(remark: str) -> None:
+    assert right(f"{CART}\n{POLE}\n{remark}")
+    assert not right(f"{CART}\n{POLE}\n{remark.replace('m)', '2 m)').replace('= m g', '= 2 m g')}")
+    assert not right(f"{CART}\n{POLE}\n{remark.replace('+ b', '- b').replace('= m g', '= -m g')}")
+    assert not right(f"{CART}\n{WRONG_POLE}\n{remark}")
+
+
+def test_what_a_name_is_in_a_special_case_is_not_said_of_all_motions() -> None:
+    sys = System("board on a roller")
+    x, phi = sys.coordinates("x phi")
+    m, J, R, k = sys.parameters("m J R k")
+    s = sys.define("s", x - R * phi)
+    sys.kinetic((m * x.diff() ** 2 + J * phi.diff() ** 2) / 2)
+    sys.spring(k, deflection=s)
+    board = sys.derive()
+    answer = "With s = x - R phi:\nm x'' + k s = 0\nJ phi'' - k R s = 0"
+    for remark in ("", "If the roller is held at x = 0 (s = -R phi), it swings.", "For x = 0, s = -R phi."):
+        assert board.check(f"{answer}\n{remark}").right
+        assert not board.check(f"{answer.replace('- k R s', '+ k R s')}\n{remark}").right
+    assert not board.check(answer.replace("x - R", "x + R")).right

@@ -62,13 +62,15 @@ def _right_in_numbers(truth: Reference, line: AnsweredLine, rate: sp.Expr, numbe
 def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines, with what an answer itself says that a name of the system is in place of this name.
 
-    A line that says it is an identity, and no line at all if it is right or if it says the same of the rate.
+    A line that says it is an identity, and no line at all if it is right or if it says the same of the rate. What holds
+    in a special case alone, x = 0 (s = −R θ), is not said beside what holds always.
     """
     table: dict[Any, sp.Expr] = {}
     out: list[AnsweredLine] = []
-    for line in lines:
-        value = _value(truth, line)
-        if value is None:
+    values = [_value(truth, line) for line in lines]
+    always = {x[0] for x, line in zip(values, lines, strict=True) if x is not None and "case" not in line.beside}
+    for line, value in zip(lines, values, strict=True):
+        if value is None or ("case" in line.beside and value[0] in always):
             out.append(line)
             continue
         z, said = value

@@ -22,8 +22,8 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
-from lagrangian.check.constraints.counted_together import counted_together
-from lagrangian.check.constraints.determined import accelerations_determined, ends_right
+from lagrangian.check.constraints.between_bodies import other_forms
+from lagrangian.check.constraints.determined import SMALL, accelerations_determined, ends_right, in_span
 from lagrangian.check.constraints.in_rates import in_coordinates
 from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.coordinates.chart import of_unknown
@@ -43,9 +43,6 @@ Array: TypeAlias = NDArray[np.float64]
 
 STATES = 8
 """Random states on the constraints at which an answer is looked at."""
-
-SMALL = 1e-9
-"""The relative size below which a difference is rounding."""
 
 POSITIONS = 3
 """Positions at which an answer's multipliers are compared with those of the system."""
@@ -116,12 +113,12 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
         tried.append(_checked(truth, read.lines, hint))
         if tried[-1].right and _as_read(truth, read):
             return tried[-1]
-    if not any(found.right for found in tried):
-        for put, told in counted_together(truth, lines):
-            if (found := _checked(truth, put, hint)).right:
-                return replace(found, notes=(*found.notes, *told))
+    first = max(tried, key=lambda found: found.right, default=None) or _checked(truth, lines, hint)
+    for put, told in () if first.right else other_forms(truth, lines):
+        if (found := _checked(truth, put, hint)).right:
+            return replace(found, notes=(*found.notes, *told))
     if not tried:
-        return _checked(truth, lines, hint)
+        return first
     if opposite := next((found for found in tried if found.right), None):
         said = text("The motion would be right if the friction had the opposite sign.")
         return replace(opposite, status=Status.WRONG, notes=(said,))
@@ -262,6 +259,9 @@ def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequenc
         rest = own - right @ np.linalg.lstsq(right, own, rcond=1e-10)[0]
         if np.abs(rest).max() > ROUGH * np.abs(own).max():
             return False
+        sizes = np.abs(own).max(axis=0), np.abs(right).max(axis=0)
+        if min(sizes[0]) <= SMALL * max(sizes[1]) < min(sizes[1]):
+            return False  # no force at all, where every constraint has one
     return True
 
 
@@ -313,7 +313,7 @@ def _finding(truth: Compared, line: AnsweredLine, j: int, places: Sequence[Answe
         return Finding(line, Status.WRONG)
     if all(np.abs(p.by_acceleration[j]).max() <= SMALL * (1.0 + p.size[j]) for p in places):
         return Finding(line, Status.RIGHT, text("true where the constraints hold"))
-    if all(_in_span(p.by_acceleration[j], p.rows) and not p.by_multiplier[j].any() for p in places):
+    if all(in_span(p.by_acceleration[j], p.rows) and not p.by_multiplier[j].any() for p in places):
         return Finding(line, Status.RIGHT, text("what the constraints ask of the accelerations"))
     if any(np.abs(p.by_multiplier[j]).max(initial=0.0) > 0 for p in places) or truth.derivation.minimal is None:
         index, scaled = _row_of(places, j)
@@ -333,12 +333,6 @@ def _gives_force(truth: Compared, line: AnsweredLine) -> bool:
     new = _names_in(truth, line) - truth.known
     alone = len(new) == 1 and bounded.diff(line.expr, *new) in (1, -1)
     return alone and any(_NAME.fullmatch(side) for side in line.text.split("="))
-
-
-def _in_span(slope: Array, rows: Array) -> bool:
-    """Whether a slope is a combination of the rows of the constraints."""
-    left = slope - rows.T @ np.linalg.lstsq(rows.T, slope, rcond=1e-10)[0]
-    return bool(np.abs(left).max() <= SMALL * np.abs(slope).max())
 
 
 def _like(slopes: Sequence[Array], rows: Sequence[Array]) -> tuple[int | None, bool]:

@@ -7,7 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from lagrangian.check.constraints.answer_on_rows import AnswerAt
+from lagrangian.check.constraints.answer_on_rows import AnswerAt, Array
+
+SMALL = 1e-9
+"""The relative size below which a difference is rounding."""
 
 
 def accelerations_determined(places: Sequence[AnswerAt]) -> int:
@@ -24,6 +27,12 @@ def accelerations_determined(places: Sequence[AnswerAt]) -> int:
         size = np.abs(whole).max(axis=1, keepdims=True)
         ranks.append(int(np.linalg.matrix_rank(whole / np.where(size > 0, size, 1.0), tol=1e-8)) - m)
     return max(ranks)
+
+
+def in_span(slope: Array, rows: Array) -> bool:
+    """Whether a slope is a combination of the rows of the constraints."""
+    left = slope - rows.T @ np.linalg.lstsq(rows.T, slope, rcond=1e-10)[0]
+    return bool(np.abs(left).max() <= SMALL * np.abs(slope).max())
 
 
 def of_lines(place: AnswerAt, rows: slice | Sequence[int], columns: Sequence[int]) -> AnswerAt:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import replace
 from typing import cast
 
@@ -29,19 +29,24 @@ LONGEST = 2_000
 
 @dataclass(frozen=True)
 class Eliminated:
-    """The lines without the forces, and what to say about them."""
+    """The lines without the forces, what to say about them, the forces, and which of them stood in each line."""
 
     lines: tuple[AnsweredLine, ...]
     note: Text
+    names: tuple[str, ...]
+    held: tuple[frozenset[sp.Basic], ...]
 
 
-def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminated | None:
-    """Return the lines with every unknown name written out that a line determines, without this line.
+def without_forces(
+    truth: Reference, lines: Sequence[AnsweredLine], kept: Set[sp.Basic] = frozenset()
+) -> Eliminated | None:
+    """Return the lines with every unknown name that is not ``kept`` written out that a line determines, without this
+    line.
 
     A name is determined by a line in which it occurs linearly, and must occur in another statement that is judged.
     Returns None if there is none, or if a name remains.
     """
-    left = _unknown(truth, lines)
+    left = _unknown(truth, lines) - kept
     if not left or len(left) > MAX_FORCES:
         return None
     if any(d.has(*left) for line in lines for d in line.expr.atoms(sp.Derivative)):
@@ -50,11 +55,11 @@ def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminate
     told = [line for line in lines if line.kind != "definition"]  # a definition is written out where it is used
     if any(len({line.text for line in told if line.expr.has(x)}) < FEWEST_STATEMENTS for x in left):
         return None
-    out = list(lines)
+    out, held = list(lines), [frozenset[sp.Basic]()] * len(lines)
     while left:
         found = min(
             (
-                (len(_unknown(truth, [line])), k, name)
+                (len(_unknown(truth, [line]) - kept), k, name)
                 for k, line in enumerate(out)
                 if line.kind == "equation"
                 for name in sorted(left, key=str)
@@ -69,13 +74,16 @@ def without_forces(truth: Reference, lines: Sequence[AnsweredLine]) -> Eliminate
         slope = _slope(out[k].expr, name)
         assert slope is not None
         value = -cast("sp.Expr", out[k].expr.xreplace({name: sp.S.Zero})) / slope
-        del out[k]
+        of_value = held[k] | {name}
+        del out[k], held[k]
+        held = [x | of_value if line.expr.has(name) else x for x, line in zip(held, out, strict=True)]
         out = [replace(x, expr=cast("sp.Expr", x.expr.xreplace({name: value}))) for x in out]
         left = left - {name}
         if any(bounded.operations(x.expr) > LONGEST for x in out):
             return None
     verb = "were" if len(names) > 1 else "was"
-    return Eliminated(tuple(out), text(f"{', '.join(names)} {verb} eliminated: your equations say what they are."))
+    note = text(f"{', '.join(names)} {verb} eliminated: your equations say what they are.")
+    return Eliminated(tuple(out), note, tuple(names), tuple(held))
 
 
 def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:

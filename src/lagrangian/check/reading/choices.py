@@ -21,7 +21,8 @@ class Choices:
     """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
     accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), whether
-    ``comments`` with equations of motion are read, and which rows, at the places in ``marks``, are without what may be
+    ``comments`` with equations of motion are read, whether coordinates that are given in others are ``put`` into
+    energies before these are differentiated, and which rows, at the places in ``marks``, are without what may be
     no part of them, in the reading of this number."""
 
     flipped: bool = False
@@ -31,6 +32,7 @@ class Choices:
     rated: bool = False
     bare: bool = False
     comments: bool = False
+    put: bool = False
     marks: tuple[tuple[int, int], ...] = ()
 
     def row(self, row: AnswerRow, words: Words) -> AnswerRow:
@@ -50,6 +52,8 @@ class Choices:
             yield "Arguments without brackets, as in cosθ1-θ2, were read as sums: cos(θ1-θ2)."
         if self.rated:
             yield "Names that words call velocities or accelerations were read as the rates of the coordinates."
+        if self.put:
+            yield "What the answer says of coordinates was put into its energies before they were differentiated."
         if self.listed is not None:
             of = "that of a list" if self.listed else "a minus"
             yield f"The sign at the beginning of a line was read as {of}."

@@ -209,9 +209,9 @@ class Lines:
         self._waiting = {base: at for base, at in self._waiting.items() if at != i}
         before = set(self.names.unknown)
         lines = self.names.fitting(sides, read)
-        general = all(line.kind == "statement" for line in lines)  # it may use its own letters: ξ_i
-        for new in set(self.names.unknown) - before if general else ():
-            del self.names.unknown[new]
+        if all(line.kind == "statement" for line in lines):  # it may use its own letters: ξ_i
+            self.names.unknown = {base: u for base, u in self.names.unknown.items() if base in before}
+        self.names.relations.add(lines)
         self._made[i] = lines
         self.names.moving, self.names.matrices, self.names.statement = above
 

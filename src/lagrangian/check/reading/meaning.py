@@ -155,7 +155,8 @@ class Meaning(ExpressionReader):
             if kind not in ENERGIES:
                 return slope(key(kind), variable)
             return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
-        return self._differentiated(self.names.model.expand(energy), variable, node)
+        whole = self.names.relations.into(self.names.model.expand(energy), variable)
+        return self._differentiated(whole, variable, node)
 
     def _at_momenta(self, kind: str, energy: sp.Expr, variable: sp.Expr, by: Node) -> sp.Expr | None:
         """The derivative of an answer's own H, in which its momenta are held or differentiated by; None of another."""

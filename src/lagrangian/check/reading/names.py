@@ -19,6 +19,7 @@ from lagrangian.check.reading.nodes import Node, start_of
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
+from lagrangian.check.reading.related import StatedRelations
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reading.stated import energy_of, force_of, names_forces, of_coordinate, own_kinetic
 from lagrangian.errors import ParseError, did_you_mean
@@ -68,10 +69,9 @@ class Names:
         self.derivatives: dict[tuple[Value, sp.Expr], Value] = {}
         self.stating: set[str] = set()
         """The energies that lines of the answer state."""
-        self.moving = False
-        """Whether the statement that is being read contains accelerations; then an energy must be stated."""
-        self.matrices = False
-        """Whether the statement that is being read contains matrices, so that a name may be one."""
+        self.relations = StatedRelations(model)
+        self.moving = self.matrices = False
+        """Whether the statement that is being read has accelerations (an energy must be stated then), and matrices."""
         self.columns = False
         """Whether a coordinate q of the system is the column of all coordinates in that statement: M*qdd + K*q = f."""
         self.column = [c.symbol for c in model.coordinates]

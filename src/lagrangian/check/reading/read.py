@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
 import sympy as sp
 
-from lagrangian.check.reading.answer import Answer, AnswerLine
+from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
@@ -256,12 +256,12 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
+    lines.names.relations.put = reading.put
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)
     finally:
-        if reading == LIKELIEST and lines.failed:
-            others += marked_readings(marked(), lines.failed)
+        others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     _check_number(rows if _states_anything(made, lines) else [], source, written)
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
@@ -283,6 +283,13 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         bool(comments),
         stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
     )
+
+
+def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:
+    """The other readings that only the lines of an answer show."""
+    yield from marked_readings(marked(), lines.failed) if lines.failed else ()
+    if lines.names.relations.asked:
+        yield Choices(put=True)
 
 
 def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:

@@ -61,6 +61,15 @@ _RELATION = re.compile(
     rf"(?<![\w^*/+)'’′-])(?P<left>{_NAME})(?P<chain>(?:[ \t]*=[ \t]*{_NAME}){{0,3}})"
     rf"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=)[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
 )
+_GOES_ON = re.compile(r"(?<=[\w'’′])[ \t]*[-+−*/·][ \t]*[\w(\\]")
+"""What makes a value a sum or a product: s = x - R theta."""
+_HELD = re.compile(
+    r"^\W{0,4}(?:(?:if|when|wenn|falls|si)\b[^.;:=\n]{1,60}?\b(?:fixed|fest|fixe)|"
+    r"(?:if|when|wenn|falls|si|with|mit|for|für|pour|avec)\b[^.;:=\n]{1,60}?\b(?:held|locked|blocked|clamped|stopped|zero|"
+    r"at[ ]rest|festgehalten|blockiert\w?|null|bloquée?|nulle?))\b",
+    re.IGNORECASE,
+)
+"""A sentence that begins with a coordinate or a body that is held, in words."""
 _CUE = re.compile(
     r"(?<![^\W_])(?:if|when|whenever|for|unless|provided|assuming|setting|set|without|with|at|about|around|near|"
     r"wenn|falls|bei|um|"
@@ -253,11 +262,12 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
     start = 0
     for end in ends:
         part = line[start:end]
-        if part.strip() and _is_case(part, known, led=False):
+        case = bool(part.strip()) and _is_case(part, known, led=False)
+        if case or _HELD.match(part):
             last = k
             if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
                 last = k + 1
-            yield _Remark(starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), True)
+            yield _Remark(starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case)
         start = end
 
 
@@ -277,6 +287,8 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
     for match in _RELATION.finditer(plain):
         names = [match["left"], *re.findall(_NAME, match["chain"])]
         if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
+            continue
+        if not match["right"].isdigit() and _GOES_ON.match(plain, match.end()):
             continue
         before = plain[max(0, match.start() - 80) : match.start()]
         if (led or match["left"] == "t") and _begins(before, known):

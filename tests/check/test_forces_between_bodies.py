@@ -1,0 +1,83 @@
+"""Answers for systems with constraints by Newton's laws with forces between bodies, and with constraints put in."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from lagrangian import Derivation, System
+
+NEWTON = """H is the friction of the floor on the wheel, to the left; A is the force of the axle on the box.
+m x'' = F - H - A
+J phi'' = R H
+M x'' = A - k x
+x'' = R phi''
+(M + m + J/R^2) x'' + k x = F"""
+ENERGIES = """phi = x/R
+T = 1/2 (M + m) x'^2 + 1/2 J phi'^2
+V = 1/2 k x^2
+L = T - V
+d/dt(dL/dx') - dL/dx = F"""
+
+
+@cache
+def wheel() -> Derivation:
+    """A wheel that rolls and pushes a box on a spring."""
+    sys = System("wheel with a box")
+    x, phi = sys.coordinates("x phi")
+    M, m, J, R, k = sys.parameters("M m J R k")
+    F = sys.input("F")
+    axle = sys.point("axle", (x, R))
+    body = sys.rigid_body(m, J, at=axle, frame=sys.frame(-phi), name="wheel")
+    sys.particle(M, at=axle, name="box")
+    sys.spring(k, deflection=x)
+    sys.force((F, 0), at=axle)
+    sys.rolling(body, at=sys.point("contact", (x, 0)), along=(1, 0))
+    return sys.derive()
+
+
+@pytest.mark.parametrize("last", [True, False])
+def test_a_force_of_an_axle_is_none_of_the_constraint(last: bool) -> None:
+    answer = NEWTON if last else NEWTON.rpartition("\n")[0]
+    assert wheel().check(answer).right
+    assert wheel().check(answer.replace("F - H - A", "F + H - A").replace("R H", "-R H")).right
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("F - H - A", "F + H - A"),
+        ("F - H - A", "F - H + A"),
+        ("= R H", "= H"),
+        ("A - k x", "A + k x"),
+        ("m x''", "2 m x''"),
+        ("J/R^2", "J/R"),
+    ],
+)
+def test_no_force_between_bodies_takes_up_a_mistake(right: str, wrong: str) -> None:
+    assert right in NEWTON and not wheel().check(NEWTON.replace(right, wrong)).right
+
+
+def test_a_force_that_leaves_nothing_but_the_constraint_is_judged() -> None:
+    """m r″ = S without −m r θ̇² and S + m r″ = 0 agree, and the motion is right; the tension S is not."""
+    sys = System("puck on a string")
+    r, theta = sys.coordinates("r theta")
+    m, M, l, k = sys.parameters("m M l k")
+    sys.kinetic(m * (r.diff() ** 2 + r**2 * theta.diff() ** 2) / 2 + M * l**2 * theta.diff() ** 2 / 2)
+    sys.spring(k, deflection=theta)
+    sys.constraint(r - l, name="string")
+    turning = "m r^2 theta'' + 2 m r r' theta' + B = 0\nM l^2 theta'' = B - k theta\nr = l"
+    assert sys.derive().check(f"m r'' - m r theta'^2 = -S\nS - m l theta'^2 = 0\n{turning}").right
+    assert not sys.derive().check(f"m r'' = -S\nS + m r'' = 0\n{turning}").right
+    together = "(m r^2 + M l^2) theta'' + 2 m r r' theta' + k theta = 0\nr = l"
+    assert sys.derive().check(f"m r'' - m r theta'^2 = -S\n{together}").right
+    assert not sys.derive().check(f"m r'' = -S\n{together}").right  # S would be 0
+
+
+def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None:
+    verdict = wheel().check(ENERGIES)
+    assert verdict.right and any("put into its energies" in str(note) for note in verdict.notes)
+    for right, wrong in (("phi = x/R", "phi = 2 x/R"), ("1/2 J", "J"), ("1/2 k x^2", "k x^2"), ("= F", "= -F")):
+        assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, wrong)).right
+    assert not wheel().check(f"{ENERGIES}\n(M + m) x'' + k x = F").right
