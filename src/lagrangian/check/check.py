@@ -38,7 +38,7 @@ from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
 
@@ -310,15 +310,25 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
     if found is None or not found.mistakes:
         return None
-    there = {(f.line.number, f.line.text): f for f in found.findings}
+    own_findings, there = _by_text(verdict.findings), _by_text(found.findings)
     held = text("true where the constraints hold")
     there |= {
-        (f.line.number, f.line.text): replace(f, status=Status.RIGHT, note=held)
-        for f in verdict.findings
-        if unjudged.get((f.line.number, f.line.text))
+        key: [replace(f, status=Status.RIGHT, note=held) for f in own_findings[key]]
+        for key, zero in unjudged.items()
+        if zero and key in own_findings
     }
-    findings = [there.get((f.line.number, f.line.text), f) for f in verdict.findings]
+    counts = {key: len(x) // len(there.get(key, x)) for key, x in own_findings.items()}  # rows of one text, in order
+    read = {key: iter(there.get(key, x) * counts[key]) for key, x in own_findings.items()}
+    findings = [next(read[f.line.number, f.line.text], f) for f in verdict.findings]
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
+
+
+def _by_text(findings: Sequence[Finding]) -> dict[tuple[int, str], list[Finding]]:
+    """The findings of each line, in order: those of the rows of a matrix have one text."""
+    found: dict[tuple[int, str], list[Finding]] = {}
+    for f in findings:
+        found.setdefault((f.line.number, f.line.text), []).append(f)
+    return found
 
 
 def _without_right_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> tuple[AnsweredLine, ...]:

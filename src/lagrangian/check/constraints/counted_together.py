@@ -15,7 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
-from lagrangian.model.rows import rows_of
+from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import Text, text
 
 MOST = 6
@@ -30,7 +30,7 @@ def counted_together(
     A coordinate is replaced only where an equation or an energy has it without a rate.
     """
     ways: list[dict[Any, sp.Expr]] = [{}]
-    for table in _relations(truth):
+    for table in filter(None, (relation_of(truth, row) for row in rows_of(truth.model))):
         ways = [{**way, q: x} for way in ways for q, x in table.items() if not any(x.has(k) or q == k for k in way)]
     for way in ways[:MOST]:
         put = tuple(_with(line, way) for line in lines)
@@ -41,22 +41,18 @@ def counted_together(
             )
 
 
-def _relations(truth: Reference) -> Iterator[dict[Any, sp.Expr]]:
-    """For every constraint on velocities with constant factors, each of its coordinates in the others."""
-    coordinates = truth.model.coordinates
-    for row in rows_of(truth.model):
-        if row.position is not None:
-            continue
-        c = truth.expand(row.rate)
-        rates = {k.symbol: k.rate for k in coordinates if c.has(k.rate)}
-        factors = {q: bounded.diff(c, v) for q, v in rates.items()}
-        whole = sp.Add(*[a * rates[q] for q, a in factors.items()])
-        moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
-        if len(factors) > 1 and not moving and bounded.expand(c - whole) == 0:
-            yield {
-                q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in factors.items() if r != q]))
-                for q, a in factors.items()
-            }
+def relation_of(truth: Reference, row: Row) -> dict[Any, sp.Expr] | None:
+    """Each coordinate of a constraint on velocities in the others, x = R φ of ẋ = R φ̇; None if its factors change."""
+    if row.position is not None:
+        return None
+    c = truth.expand(row.rate)
+    rates = {k.symbol: k.rate for k in truth.model.coordinates if c.has(k.rate)}
+    factors = {q: bounded.diff(c, v) for q, v in rates.items()}
+    whole = sp.Add(*[a * rates[q] for q, a in factors.items()])
+    moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
+    if len(factors) < 2 or moving or bounded.expand(c - whole) != 0:
+        return None
+    return {q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in factors.items() if r != q])) for q, a in factors.items()}
 
 
 def _with(line: AnsweredLine, way: Mapping[Any, sp.Expr]) -> AnsweredLine:

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.constraints.counted_together import relation_of
 from lagrangian.check.coordinates.chart import OF_COORDINATES
 from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
@@ -41,7 +42,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
     own = {c.symbol for c in truth.model.coordinates}
     turned = {d.expr for line in lines for d in _second(line.expr)}
     new = sorted((x for x in turned - own if isinstance(x, AppliedUndef)), key=str)
-    if any(row.position is None for row in rows_of(truth.model)):
+    if any(row.position is None and relation_of(truth, row) is None for row in rows_of(truth.model)):
         return None
     for table in _tables(truth, lines, new):
         kept = [c for c in truth.model.coordinates if c.symbol not in table]
@@ -51,7 +52,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
             continue  # equations of motion with multipliers, or with a constraint put in here and there
         if len(kept) + len(new) != truth.n - len(rows_of(truth.model)):
             continue
-        other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
+        other = _reference(truth, change, [*kept, *(Coordinate(str(x.func), x) for x in new)])
         if other is not None:
             every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
             unknown = every - other.names - own
@@ -69,6 +70,8 @@ def _tables(
     if said:
         yield cast("dict[sp.Expr, sp.Expr]", said)
     constraints = truth.derivation.constraints
+    if not new and (rolled := _of_rates(truth, lines)):
+        yield rolled
     if constraints is not None and not new:
         yield _of_unwritten(truth, lines, {q: x for w in constraints.proposals if w.new is None for q, x in w.written})
     if constraints is None or len(new) != 1:
@@ -77,6 +80,19 @@ def _tables(
         if way.new is not None:
             proposed = {q: cast("sp.Expr", value.xreplace({way.new: new[0]})) for q, value in way.written}
             yield _of_unwritten(truth, lines, proposed)
+
+
+def _of_rates(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
+    """What rolls at a constant radius, x = R φ: the coordinates that no line accelerates, in the others."""
+    moved = {d.expr for line in lines for d in _second(line.expr)}
+    found: dict[sp.Expr, sp.Expr] = {}
+    for relation in (relation_of(truth, row) for row in rows_of(truth.model)):
+        gone = next((q for q in relation or () if q not in moved and q not in found), None)
+        if relation is None or gone is None:
+            return {}
+        found = {q: cast("sp.Expr", x.xreplace({gone: relation[gone]})) for q, x in found.items()}
+        found[gone] = cast("sp.Expr", relation[gone].xreplace(found))
+    return found
 
 
 def _of_unwritten(
@@ -97,24 +113,24 @@ def _second(expr: sp.Expr) -> list[Any]:
     return [d for d in expr.atoms(sp.Derivative) if d.derivative_count > 1]
 
 
-def _reference(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+def _reference(truth: Reference, change: ProposedChange, coordinates: Sequence[Coordinate]) -> Reference | None:
     """The reference in these coordinates, made once; None if the constraints do not hold in them."""
-    key = tuple(table.items())
+    key = tuple(change.table.items())
     known = truth.others
     if key not in known:
-        known[key] = _made(truth, table, coordinates)
+        known[key] = _made(truth, change, coordinates)
     return known[key]
 
 
-def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
-    model = truth.model
+def _made(truth: Reference, change: ProposedChange, coordinates: Sequence[Coordinate]) -> Reference | None:
+    model, table = truth.model, change.table
     whole: dict[Any, sp.Expr] = {c.symbol: table.get(c.symbol, c.symbol) for c in model.coordinates}
     try:
         found = _Free(model, Change(model.coordinates, tuple(coordinates), whole), model.name).built().model()
         other = Reference(derive(found), truth.values)
     except ModelError:
         return None
-    rows = [cast("sp.Expr", truth.expand(cast("sp.Expr", r.position)).xreplace(table)) for r in rows_of(model)]
+    rows = [change.put(truth.expand(r.rate if r.position is None else r.position)) for r in rows_of(model)]
     values = CompiledExpressions(rows).at(other.states)
     return other if np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL else None
 
@@ -138,7 +154,8 @@ def _moved(
     table: dict[sp.Expr, sp.Expr],
     unknown: set[Any],
 ) -> Iterator[AnsweredLine]:
-    """The lines with the coordinates that go written out; what says nothing then, or has a multiplier, is none."""
+    """The lines with the coordinates that go written out; what says nothing then, has a multiplier, or is about
+    positions or rates alone, as another constraint, is none."""
     gone = {str(cast("AppliedUndef", q).func) for q in table}
     for line in lines:
         if line.kind == "statement" or (line.kind == "definition" and line.name in gone):
@@ -151,7 +168,14 @@ def _moved(
             continue
         moved = replace(line, expr=change.put(line.expr))
         holds = line.kind in ("equation", "identity") and _is_zero(truth, moved.expr)
-        yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
+        asked = line.kind == "equation" and line.expr.has(*table) and not _second(line.expr)
+        yield (
+            replace(moved, kind="statement", expr=sp.S.Zero)
+            if holds
+            else moved
+            if not asked
+            else replace(moved, kind="statement")
+        )
 
 
 def _is_zero(truth: Reference, expr: sp.Expr) -> bool:

@@ -12,6 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
+from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
@@ -207,7 +208,7 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False)
             continue
         for x, expr in _readings(q, values, said):
             rest = x - right
-            rest = rest - rest[0] if but and q.kind in LEVEL else rest
+            rest = without_constant(rest) if but and q.kind in LEVEL else rest
             near = np.abs(rest).max() <= NEAR * (1 + np.abs(right).max())
             if near and (but or zero_everywhere(truth, expr - every.rights[k])):
                 found.append(
@@ -237,11 +238,11 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
     said = in_names_of(truth, line)
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
-    every, elsewhere = quantities_of(truth), bool(right_quantities(truth, line, but=True))
-    s = every.of
+    every, right = quantities_of(truth), right_quantities(truth, line, but=True)
+    s, elsewhere = every.of, bool(right)
     for k in _plausible(truth, line):
         q = every.all[k]
-        if not _alike(s, q, said):
+        if not _alike(s, q, said) or any(q is x for x in right):
             continue
         for written, sign in _senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
