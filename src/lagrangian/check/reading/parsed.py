@@ -33,8 +33,10 @@ MANY_WORDS = 2
 NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
 """A name, with combining dots."""
 
+_LETTERS = r"[^\W\d]\w{0,11}"
 _MEANING = re.compile(
-    r"(?<![^\s,;(])(?P<name>[^\W\d]\w{0,11})[ \t]{0,3}=[ \t]{0,3}(?P<value>[^\W\d]\w{0,11}(?:[ \t]?[-+*/][ \t]?[^\W\d]\w{0,11}){0,3})"
+    rf"(?<![^\s,;(])(?P<name>{_LETTERS})[ \t]{{0,3}}=[ \t]{{0,3}}"
+    rf"(?P<value>{_LETTERS}(?:[ \t]?[-+*/][ \t]?{_LETTERS}){{0,3}})"
     r"(?=[ \t]*(?:[,;.)]|$))"
 )
 """A name with a value in names, between commas."""
@@ -119,7 +121,8 @@ def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, wor
         named = re.findall(NAME, match["value"])
         if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):
             continue
-        part = Source(match.group(), own.what, own.place, lambda at, k=match.start(): own.at(k + at))
+        start = match.start()
+        part = Source(match.group(), own.what, own.place, lambda at, k=start: own.at(k + at))
         try:
             found.append(_statement(part, parser, lines))
         except ParseError:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose.words import Words, function_of
@@ -21,7 +22,7 @@ _SHORTEST = 4
 def without_sides_in_words(row: str, words: Words) -> str:
     """Return a statement with at least three sides without those in words, if two others are left."""
     ends = [*(m.start() for m in _SIDES.finditer(row)), len(row)]
-    inside = [(a, b) for a, b in zip(ends, ends[1:], strict=False) if _is_said(row[a + 1 : b], words)]
+    inside = [(a, b) for a, b in pairwise(ends) if _is_said(row[a + 1 : b], words)]
     if not inside or len(ends) - len(inside) < 2:
         return row
     for a, b in inside:
