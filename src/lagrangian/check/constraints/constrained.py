@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.balances import as_equation
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.between_bodies import other_forms
 from lagrangian.check.constraints.determined import SMALL, accelerations_determined, ends_right, in_span
@@ -138,7 +139,7 @@ def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = in_coordinates(truth, lines)
+    lines = [as_equation(truth, line) for line in in_coordinates(truth, lines)]
     other = expanded(truth)
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:

@@ -207,7 +207,7 @@ def _slope_ratio(truth: Reference, g: sp.Expr, x: Any) -> sp.Expr | None:
     by = [c.rate if g.has(*(c.rate for c in coordinates)) else c.symbol for c in coordinates]
     pairs = [(bounded.diff(g, q), -row.diff(x)) for q, row in zip(by, truth.rows, strict=True)]
     c = next((bounded.cancel(a / b) for a, b in pairs if a != 0 and b != 0), None)
-    if c is None:
+    if c is None or c == 0:  # slopes that cancel, as of two forms of one side
         return None
     values = CompiledExpressions([y for a, b in pairs for y in (a, cast("sp.Expr", c * b))]).at(truth.states)
     return c if np.allclose(values[::2], values[1::2], rtol=1e-9, atol=1e-12) else None

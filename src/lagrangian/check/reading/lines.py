@@ -31,7 +31,7 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
-from lagrangian.check.reading.named_products import with_named_products
+from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
@@ -83,7 +83,7 @@ class Lines:
 
         Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
         """
-        self._statements = statements = with_named_products(statements, self.subjects)
+        self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
         complete = self._complete()
