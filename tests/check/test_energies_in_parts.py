@@ -1,10 +1,18 @@
 """Energies of parts that words alone name, in lists, in tables and behind labels, are those of these parts."""
 
+import unicodedata
+from typing import Literal
+
 import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
+from lagrangian.check.explain.bodies_said import BodiesSaid
+from lagrangian.check.lines import lines_of
 from lagrangian.check.reading import parse_answer
+from lagrangian.check.reference import truth_of
+from lagrangian.check.verdict import AnsweredLine
 
 
 @pytest.fixture(scope="module")
@@ -136,3 +144,35 @@ def test_energies_of_parts_alone_are_no_answer(swing: lg.Derivation) -> None:
         assert verdict.status == "incomplete" and any("No line states" in str(note) for note in verdict.notes)
     assert swing.check(potential).right  # the answer to a question about V
     assert swing.check(f"{WHEEL}\nT = 1/2 J phi'^2 + {ROD}\n{potential}").right
+
+
+@pytest.mark.parametrize("form", ["NFC", "NFD"])
+@pytest.mark.parametrize(
+    ("cart", "body"),
+    [
+        ("Kinetische Energie für die Körper:\n  Wagen: ", "\n  Körper: "),
+        ("Kinetische Energie für den Wagen: ", "\nKinetische Energie für den Körper: "),
+        ("T_Wagen = ", "\nT_Koerper = "),
+    ],
+)
+def test_the_dots_of_a_vowel_in_a_word_are_no_rates(form: Literal["NFC", "NFD"], cart: str, body: str) -> None:
+    s = lg.System("s")
+    x, y = s.coordinates("x y")
+    M, m, k = s.parameters("M m k")
+    s.particle(M, at=s.point("A", (x, 0)), name="Wagen")
+    s.particle(m, at=s.point("B", (x + y, 0)), name="Körper")
+    s.spring(k, deflection=y)
+    rows = "(M + m) x'' + m y'' = 0\nm (x'' + y'') + k y = 0"
+    answer = f"{cart}1/2 M x'^2{body}1/2 m (x'^2 + 2 x' y' + y'^2)\n{rows}"
+    verdict = s.derive().check(unicodedata.normalize(form, answer))
+    assert verdict.right and [f.line.kind for f in verdict.findings].count("definition") == 2
+    for wrong in (answer.replace("2 x' y'", "x' y'"), answer.replace("+ k y", "- k y")):
+        assert not s.derive().check(unicodedata.normalize(form, wrong)).right
+
+
+@pytest.mark.parametrize(("right", "open_ones"), [("v", {"v_1"}), ("v1", {"v"})])
+def test_a_name_with_a_number_is_not_the_first_entry_of_a_column(right: str, open_ones: set[str]) -> None:
+    truth = truth_of(derivation("cart-pole"))
+    lines = lines_of(parse_answer("v_1 = 2 x'\nv = 3 x'\nT = M v_1^2 + M v^2", truth.model))
+    proved = AnsweredLine("V", truth.V, 4, names=frozenset([right]))
+    assert {part.line.name for part in BodiesSaid(truth, lines, [proved]).parts} == open_ones

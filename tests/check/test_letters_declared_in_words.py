@@ -216,3 +216,41 @@ def test_a_direction_is_no_value() -> None:
     )
     for sign in ("+", "-"):
         assert carts().check(answer.replace("SIGN", sign) + rows).right
+
+
+RATES = """(M + m) x2 + m l cos(theta) p2 - m l sin(theta) p1^2 + b x1 = F
+(J + m l^2) p2 + m l cos(theta) x2 - m g l sin(theta) = 0"""
+
+
+@pytest.mark.parametrize(
+    "legend",
+    [
+        "x1, x2 are the first and second derivative of x, p1, p2 those of theta",
+        "x1, x2 = first and second derivative of x; p1, p2 of theta",
+        "Legend: x1 and x2: velocity and acceleration of x, p1 and p2 of theta.",
+        "Here x1 = dx/dt, x2 = d^2x/dt^2 and p1, p2 likewise for theta.",
+        "(x1, x2: velocity and acceleration of x; p1, p2: angular velocity and angular acceleration of theta)",
+    ],
+)
+def test_two_names_for_the_rate_and_the_acceleration_of_a_coordinate(legend: str) -> None:
+    pole = derivation("cart-pole")
+    assert pole.check(f"{legend}\n{RATES}").right
+    assert not pole.check(f"{legend}\n{RATES.replace('p1^2', 'x1^2')}").right
+    assert not pole.check(f"{legend.replace('x1', 'y1').replace('x2', 'x1').replace('y1', 'x2')}\n{RATES}").right
+    assert not pole.check(f"{legend}\n{RATES.replace('+ b x1', '- b x1')}").right
+
+
+LATEX_COMMENTS = r"""import sympy as sp
+x, th = sp.symbols('x theta', cls=sp.Function)
+# (M+m)\ddot{x} + m l \ddot{\theta}\cos\theta - m l \dot{\theta}^2\sin\theta + b\dot{x} = F
+# (J+m l^2)\ddot{\theta} + m l \ddot{x}\cos\theta - m g l \sin\theta = 0
+print("done")"""
+
+
+def test_latex_in_comments_of_a_program_is_read_where_no_other_line_is_an_equation() -> None:
+    pole = derivation("cart-pole")
+    verdict = pole.check(LATEX_COMMENTS)
+    assert verdict.right and any("though it is a comment" in str(note) for note in verdict.notes)
+    assert not pole.check(LATEX_COMMENTS.replace(r"+ b\dot", r"- b\dot")).right
+    energies = r"T = \frac{1}{2} (M+m) \dot x^2" + "\n" + LATEX_COMMENTS.replace("#", "%").partition("\n% ")[2]
+    assert not pole.check(energies).right

@@ -89,6 +89,11 @@ def undotted(name: str) -> tuple[str, int]:
     return normal(base), sum(DOTS[letters[i]] for i in marks)
 
 
+def unaccented(word: str) -> str:
+    """Return a word in the letters and digits of ASCII: ``Körper`` → ``Korper``."""
+    return "".join(c for c in unicodedata.normalize("NFD", word) if c.isascii() and c.isalnum())
+
+
 def find(name: str, known: Iterable[str]) -> list[str]:
     """Return the names among ``known`` that ``name`` can mean: the exact one alone, otherwise all equivalent ones."""
     names = list(known)

@@ -113,7 +113,8 @@ class BodiesSaid:
         held = columns(self.lines)
         entries = {id(x) for column in held for x in column}
         told = [(x,) for x in self.lines if x.kind == "definition" and id(x) not in entries]
-        open_ones = [x for x in (*held, *told) if key((x[0].name or "").removesuffix("_1")) not in self.proved]
+        open_ones = [x for x in held if key((x[0].name or "").removesuffix("_1")) not in self.proved]
+        open_ones += [x for x in told if key(x[0].name or "") not in self.proved]
         open_ones += [(x,) for x in self.rates]
         ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
         every = (p for x in ordered for p in _parts(self.truth, x))

@@ -8,7 +8,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.model import Body, Model
-from lagrangian.read.letters import spelled
+from lagrangian.read.letters import spelled, unaccented
 
 STEMS = {
     "omega": ("turning",),
@@ -39,6 +39,7 @@ PART_OF = {"rotation": "kinetic", "translation": "kinetic"}
 FIXED = ("x", "y", "z")
 """What names of fixed axes begin or end with."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _DIGITS = re.compile(r"\d+$")
 
 
@@ -98,7 +99,10 @@ def _is_at(index: str, body: Any) -> bool:
 
 
 def _is_called(index: str, body: Any) -> bool:
-    return len(index) > 1 and any(w.startswith(index.lower()) for w in body.name.lower().replace("_", " ").split())
+    called = index.lower()
+    words = body.name.lower().replace("_", " ").split()
+    spelt = (form for w in words for form in (w, unaccented(w), unaccented(w.translate(_UMLAUTS))))
+    return len(index) > 1 and any(w.startswith(called) for w in spelt)
 
 
 def _has_index(index: str, body: Any) -> bool:

@@ -35,8 +35,12 @@ _SAME = {
     "\u2028": "\n",
     "\u2029": "\n",
 }
+LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
+"""What only LaTeX has."""
 _TABLE = str.maketrans(_SAME)
 _NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad\u200e\u200f\ufe00-\ufe0f]")
+_UMLAUT = re.compile("(?<=[A-Za-z])[aeiou]\u0308|[AOUaeiou]\u0308(?=[A-Za-zß])")
+"""A letter within a word whose dots are a character of their own: für."""
 _GAP = re.compile("[\u2061\u2062]")  # the signs of a function and of a product, which are not shown
 _TRANSPOSED = re.compile(r"(?<=[\w)\]⎦⎤⎥])ᵀ")
 _SMALL = re.compile(r"(?<![\w)\]}⁰-⁹¹²³₀-₉])(?P<above>[⁰¹²³⁴-⁹]{1,3})[⁄/](?P<below>[₀-₉]{1,3})(?P<glued>(?=\w))?")
@@ -51,7 +55,7 @@ _STYLED = re.compile(
 def plainer(text: str) -> str:
     """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
     characters without width left out."""
-    text = _SMALL.sub(_fraction, text)
+    text = _UMLAUT.sub(lambda m: unicodedata.normalize("NFC", m.group()), _SMALL.sub(_fraction, text))
     text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))).translate(_TABLE)
     text = _TRANSPOSED.sub("^T", text)
     return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))

@@ -17,7 +17,7 @@ from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.model import Body, Model, RigidBody
-from lagrangian.read.letters import SPELLED, key, undotted
+from lagrangian.read.letters import SPELLED, key, unaccented, undotted
 from lagrangian.records import dataclass
 
 LONGEST = 300
@@ -47,6 +47,7 @@ _ARROW = re.compile(r"(?:-+>|=+>|→|⇒|⟶)[ \t]*+")
 _REMARK = re.compile(r"[ \t]{2}[(;,#]")
 _RATE = re.compile(r"['’′˙\u0307]|\\dot(?![A-Za-z])|(?<=[^\W\d])d(?:ot)?\d?(?:²|\^|\*\*)")
 _TWICE = re.compile(r"['’′]{2}|[\u0308″¨]|\\ddot|ddot|dd\b")
+_UMLAUT = re.compile("(?<=[A-Za-z])[äëïöü]|[ÄÖÜäëïöü](?=[A-Za-zß])")
 _SQUARE = re.compile(r"²|\^\s?\{?2|\*\*\s?2")
 _HALF = re.compile(r"½|\b1\s?/\s?2\b|\b0[.,]5|/\s?2\b|\\frac|[⅐-⅞¼¾]|\b1\s?/\s?\d")
 _NAME = re.compile(r"\\?[^\W\d½¼¾⅐-⅞⁰-⁹¹²³](?:\w|[\u0307\u0308]){0,24}")
@@ -120,10 +121,10 @@ class _Parts:
         kind = None if row is None else self._kind(row.label, text[row.start : row.end], ":" in text[: row.start])
         if row is not None and kind is not None and self._is_energy(kind, text[row.start : row.end]):
             return row.start, self._name(kind, row.label)
-        if "=" not in text and not _TWICE.search(unicodedata.normalize("NFD", text)):
+        if "=" not in text and not _is_dotted_twice(text):
             self.kind = _heading(text)
         elif row is None:
-            self.kind = None if _TWICE.search(unicodedata.normalize("NFD", text)) else self.kind
+            self.kind = None if _is_dotted_twice(text) else self.kind
         return None
 
     def _row(self, text: str) -> _Row | None:
@@ -221,8 +222,8 @@ class _Parts:
         found = self._bodies(label)
         words = [x for x in _WORD.findall(label) if len(x) > 2 and x.lower() not in _SMALL and not self.known(x)]
         more = [x for x in words if re.match(r"(?:trans|rot)", x, re.IGNORECASE)]
-        index = _plain(found[0]) if len(found) == 1 else "".join(map(_plain, words[:1]))
-        name = f"{kind}_{index}{''.join(map(_plain, more[:1])) if index not in map(_plain, more[:1]) else ''}"
+        index = unaccented(found[0]) if len(found) == 1 else "".join(map(unaccented, words[:1]))
+        name = f"{kind}_{index}{''.join(map(unaccented, more[:1])) if index not in map(unaccented, more[:1]) else ''}"
         while key(name) in self.own and len(found) != 1:
             name += "x"
         self.own.add(key(name))
@@ -254,6 +255,6 @@ def _letters(body: Body) -> frozenset[str]:
     return frozenset(key(str(x)) for expr in listed for x in sp.sympify(expr).free_symbols)
 
 
-def _plain(word: str) -> str:
-    """A word in letters without accents."""
-    return "".join(c for c in unicodedata.normalize("NFD", word) if c.isascii() and c.isalnum())
+def _is_dotted_twice(text: str) -> bool:
+    """Whether an acceleration stands in a text; the dots of a letter within a word are no rates: für, Körper."""
+    return _TWICE.search(unicodedata.normalize("NFD", _UMLAUT.sub("", text))) is not None

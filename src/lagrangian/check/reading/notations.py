@@ -7,6 +7,7 @@ import re
 from lagrangian.check.reading.applied import with_functions_applied, with_values_above
 from lagrangian.check.reading.arguments import with_own_functions, with_primes_as_slopes
 from lagrangian.check.reading.called_dissipation import with_called_dissipation
+from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.copied import without_copying, without_proved
 from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
@@ -33,7 +34,7 @@ from lagrangian.check.reading.programs.source_code import is_session, told_comma
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
-from lagrangian.check.reading.said.derivative_legends import with_derivative_legends
+from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -46,9 +47,6 @@ from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.traced_text import TracedText
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
-
-LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
-"""What only LaTeX has."""
 
 _BRACED_INDEX = re.compile(r"_\{(\w{1,12})\}")
 _BRACED_POWER = re.compile(r"\^\{([^{}\n]{1,40})\}")
@@ -90,7 +88,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
     if not LATEX.search(session.text):
-        session = with_derivative_legends(session, names.changes, lambda name: key(name) in own)
+        paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
+        session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     referred = without_legend(without_references(indexed))

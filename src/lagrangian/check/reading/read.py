@@ -14,7 +14,7 @@ from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
-from lagrangian.check.reading.characters import plainer
+from lagrangian.check.reading.characters import LATEX, plainer
 from lagrangian.check.reading.choices import LIKELIEST, Choices, less_likely, marked_readings
 from lagrangian.check.reading.indexed import counted_names, without_indices
 from lagrangian.check.reading.latex.formula import LatexParser
@@ -25,12 +25,12 @@ from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import without_markup
-from lagrangian.check.reading.notations import LATEX, without_notations
+from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
-from lagrangian.check.reading.programs.marks import told_comments, with_comments_read
+from lagrangian.check.reading.programs.marks import is_program, told_comments, with_comments_read
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
@@ -300,7 +300,7 @@ def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> 
 
 def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:
     """An answer, in which comments with equations of motion are read if they are to be, and notes about these."""
-    told = [] if LATEX.search(plain.text) else list(told_comments(plain.text, read=reading.comments))
+    told = list(told_comments(plain.text, read=reading.comments)) if is_program(plain.text) else []
     return with_comments_read(plain) if told and reading.comments else plain, told
 
 

@@ -8,7 +8,7 @@ from itertools import islice
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import UndefinedFunction
+from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
@@ -25,17 +25,22 @@ from lagrangian.check.reading.carried_out.values import (
     Inverse,
     Outside,
     OwnFunction,
+    ReturnedError,
     Routine,
+    Shown,
     State,
     Value,
     added,
+    constant,
+    entry_of,
+    equated,
     is_scalar,
+    is_square,
     listed,
     matrix,
     number,
     over,
     power,
-    scalar,
     times,
 )
 from lagrangian.records import dataclass, field
@@ -47,23 +52,6 @@ DEEPEST = 8
 _OUTSIDE = frozenset(
     ["np", "numpy", "sp", "sympy", "math", "me", "mechanics", "scipy", "plt", "jnp", "cmath", "la", "linalg", "physics"]
 )
-
-
-@dataclass(eq=False)
-class Shown:
-    """What a program states: a value under a name, or shown without one, by the line of the program."""
-
-    line: int
-    name: str | None
-    value: Value
-    shown: bool = False
-
-
-class ReturnedError(Exception):
-    """A function of the program returns a value."""
-
-    def __init__(self, value: Value) -> None:
-        self.value = value
 
 
 @dataclass(eq=False)
@@ -79,6 +67,8 @@ class Evaluator:
     stated: list[Shown] = field(default_factory=list)
     used: set[str] = field(default_factory=set)
     """The names whose values were used."""
+    sides: set[str] = field(default_factory=set)
+    """The names that are a side of an equation of the program."""
     called: set[str] = field(default_factory=set)
     solved: dict[sp.Symbol, tuple[MatrixBase, MatrixBase, tuple[sp.Symbol, ...]]] = field(default_factory=dict)
     """For unknowns of linear equations A x = b: A, b and x."""
@@ -86,9 +76,13 @@ class Evaluator:
     """The names that entries of a state were given."""
     lines: dict[sp.Expr, int] = field(default_factory=dict)
     """The lines where values were assigned last."""
+    renamed: dict[str, str] = field(default_factory=dict)
+    """The functions of time in whose places a program puts symbols."""
     functions: dict[str, OwnFunction] = field(default_factory=dict)
     outer: dict[str, Value] = field(default_factory=dict)
     """The names of the program outside of its functions."""
+    several: list[Value] = field(default_factory=list)
+    """All results of the function of MATLAB that was called last."""
     steps: int = 0
     work: int = 0
     """The operations of all results together."""
@@ -114,7 +108,7 @@ class Evaluator:
         """The value of an expression."""
         self.count()
         if isinstance(node, ast.Constant):
-            return _constant(node.value)
+            return constant(node.value)
         if isinstance(node, ast.Name):
             return self._named(node.id, names)
         if isinstance(node, ast.BinOp):
@@ -140,7 +134,8 @@ class Evaluator:
             made = OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
             return self.functions.setdefault(f"line {node.lineno}, {node.col_offset}", made)
         if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
-            return Equation(scalar(self.value(node.left, names)), scalar(self.value(node.comparators[0], names)))
+            self.sides |= {x.id for x in (node.left, node.comparators[0]) if isinstance(x, ast.Name)}
+            return equated(self.value(node.left, names), self.value(node.comparators[0], names))
         if isinstance(node, ast.JoinedStr):
             return ""
         raise AbandonedError
@@ -178,6 +173,8 @@ class Evaluator:
             return UNKNOWN
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
+        if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
+            return over(b, a)
         if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
             return self._solution(matrix(a), matrix(b))
         if isinstance(op, (ast.Mult, ast.MatMult)):
@@ -202,6 +199,8 @@ class Evaluator:
         return sp.Matrix(unknowns)
 
     def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
+        if node.attr == "_t":
+            return TIME  # dynamicsymbols._t
         of = self.value(node.value, names)
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
@@ -262,7 +261,7 @@ class Evaluator:
             of = self.value(node.func, names)
         if isinstance(of, Routine) and of.name in (*SHOWN, *SOLVING):
             given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
-            if of.name == "solve" and len(given) == 2 and _is_square(given[0]):
+            if of.name == "solve" and len(given) == 2 and is_square(given[0]):
                 return self._solution(matrix(given[0]), matrix(given[1]))
             if of.name in SOLVING and given:
                 self.stated += [Shown(node.lineno, None, v, True) for v in self.flat(given[0])]
@@ -271,6 +270,7 @@ class Evaluator:
             return self._entry(
                 of, ast.Tuple(list(node.args), ast.Load()) if len(node.args) > 1 else node.args[0], names
             )
+        self.sides |= {x.id for x in node.args if isinstance(x, ast.Name) and called == "Eq"}
         given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
         options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
         if isinstance(of, OwnFunction):
@@ -286,6 +286,8 @@ class Evaluator:
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
         if any(isinstance(x, Outside) for x in given):
             return UNKNOWN
+        if name in ("subs", "Subs") and len(given) > 1:
+            return self._replaced(given[0], pairs_of(given[1:]))
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
             found = routine(name, given, options, matlab=True)
             if isinstance(found, Outside) and list(given) == [TIME]:
@@ -309,18 +311,26 @@ class Evaluator:
                 return self.value(of.body, {**self.outer, **names})
             inner = {**self.outer, **names}
             self.carry_out(of.body, inner)
-            return inner.get(of.out or "", UNKNOWN)
+            self.several = [inner.get(x, UNKNOWN) for x in (of.out or "").split(",")]
+            return self.several[0]
         except ReturnedError as returned:
             return returned.value
         finally:
             self.depth -= 1
+
+    def _replaced(self, value: Value, pairs: dict[Any, Any]) -> Value:
+        """A value with others in place of parts; a symbol in place of a function of time is a name of this."""
+        for old, new in pairs.items():
+            if isinstance(old, AppliedUndef) and isinstance(new, sp.Symbol):
+                self.renamed[new.name] = str(old.func)
+        return replaced(value, pairs)
 
     def _method(self, of: BoundMethod, given: Sequence[Value]) -> Value:
         value, name = of.of, of.name
         if isinstance(value, Outside):
             return UNKNOWN
         if name == "subs":
-            return replaced(value, pairs_of(given))
+            return self._replaced(value, pairs_of(given))
         if name in ("LUsolve", "solve", "gauss_jordan_solve", "LDLsolve", "cholesky_solve") and given:
             return self._solution(matrix(value), matrix(given[0]))
         if name in ("append", "extend") and isinstance(value, list):
@@ -361,7 +371,7 @@ class Evaluator:
                 return of
             if isinstance(row, ast.Slice) or isinstance(column, ast.Slice):
                 return of[:, column] if isinstance(row, ast.Slice) else of[row, :]
-            return _of(of, row, column)
+            return entry_of(of, row, column)
         if isinstance(at, ast.Slice):
             entries = listed(of)
             start = self._bound(at.lower, names, 0, first)
@@ -376,29 +386,6 @@ class Evaluator:
 
     def _bound(self, node: ast.expr | None, names: dict[str, Value], default: int, first: int) -> int:
         return default if node is None else number(self.value(node, names)) - first
-
-
-def _of(of: MatrixBase, row: int, column: int) -> sp.Expr:
-    if not (-of.shape[0] <= row < of.shape[0] and -of.shape[1] <= column < of.shape[1]):
-        raise AbandonedError
-    return of[row, column]
-
-
-def _is_square(value: Value) -> bool:
-    """Whether a value is a square matrix, or rows of one."""
-    if isinstance(value, MatrixBase):
-        return value.shape[0] == value.shape[1]
-    return isinstance(value, list) and all(isinstance(x, list) and len(x) == len(value) for x in value)
-
-
-def _constant(value: Any) -> Value:
-    if isinstance(value, bool) or value is None or isinstance(value, complex):
-        return UNKNOWN
-    if isinstance(value, (int, float)):
-        if isinstance(value, int) and abs(value) > 10**30:
-            raise AbandonedError
-        return sp.Rational(str(value))
-    return value if isinstance(value, str) else UNKNOWN
 
 
 def called_name(node: ast.expr) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
-from lagrangian.check.reading.carried_out.evaluator import Evaluator, ReturnedError, Shown, called_name
+from lagrangian.check.reading.carried_out.evaluator import Evaluator, called_name
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
@@ -16,6 +16,8 @@ from lagrangian.check.reading.carried_out.values import (
     AbandonedError,
     Outside,
     OwnFunction,
+    ReturnedError,
+    Shown,
     State,
     Value,
     listed,
@@ -56,7 +58,10 @@ class Interpreter(Evaluator):
             names[s.name] = self.functions[s.name] = made
         elif isinstance(s, ast.Assign):
             before = set(self.used)
+            self.several = []
             value = self.value(s.value, names)
+            if isinstance(s.targets[0], (ast.Tuple, ast.List)) and len(self.several) == len(s.targets[0].elts):
+                value = self.several  # [M, h] = matrices(q)
             self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
             for target in s.targets:
                 self._assign(target, value, names, s.lineno)
@@ -93,7 +98,8 @@ class Interpreter(Evaluator):
         if called == "append" and call is not None and isinstance(call.func, ast.Attribute):
             self.used -= {getattr(call.func.value, "id", "")} - before  # a list that is filled is not used by that
         if not isinstance(s.value, ast.Constant):
-            self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
+            of = s.value.id if isinstance(s.value, ast.Name) else ""
+            self.stated += [Shown(s.lineno, None, v, True, of) for v in self.flat(value)]
 
     def _assign(self, target: ast.expr, value: Value, names: dict[str, Value], line: int) -> None:
         if isinstance(target, (ast.Tuple, ast.List)):

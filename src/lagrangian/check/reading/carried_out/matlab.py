@@ -17,7 +17,7 @@ _TOKEN = re.compile(
     r"|(?P<mark>[()\[\]{},;.'’@])|(?P<space>[ \t]++)"
 )
 _HEADER = re.compile(
-    r"function[ \t]++(?:(?:(?P<out>[^\W\d]\w*+)|\[[ \t]*+(?P<first>[^\W\d]\w*+)[^\]\n]*+\])[ \t]*+=[ \t]*+)?"
+    r"function[ \t]++(?:(?:(?P<out>[^\W\d]\w*+)|\[(?P<several>[^\]\n]*+)\])[ \t]*+=[ \t]*+)?"
     r"(?P<name>[^\W\d][\w.]*+)[ \t]*+(?:\((?P<given>[^()\n]*+)\))?[ \t]*+;?[ \t]*+\Z"
 )
 _KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", "elseif", "case", "otherwise", "catch"])
@@ -44,7 +44,7 @@ def in_python(text: str) -> str:
         if (header := _HEADER.fullmatch(bare)) is not None:
             given = [("_" if x.strip() in ("~", "") else x.strip()) for x in (header["given"] or "").split(",")]
             given = [x if x != "_" else f"unused{k}" for k, x in enumerate(given)]
-            out = header["out"] or header["first"]
+            out = header["out"] or ",".join(re.findall(r"\w+", header["several"] or ""))
             named = header["name"].replace(".", "_")
             made.append(f"def {named}({', '.join(given)}) -> {out!r}:" if out else f"def {named}({', '.join(given)}):")
             indent = 1

@@ -49,7 +49,16 @@ SHOWN = frozenset(
 )
 """What shows values."""
 SOLVING = frozenset(
-    ["solve", "linsolve", "nonlinsolve", "dsolve", "solveset", "linear_eq_to_matrix", "odeToVectorField"]
+    [
+        "solve",
+        "linsolve",
+        "nonlinsolve",
+        "dsolve",
+        "solveset",
+        "linear_eq_to_matrix",
+        "odeToVectorField",
+        "equationsToMatrix",
+    ]
 )
 """What solves equations, which are stated by that."""
 
@@ -186,6 +195,12 @@ def stacked(given: Sequence[Value]) -> MatrixBase:
     return matrix(rows)
 
 
+def _matrix_or_equations(value: Value) -> Value:
+    """A matrix, or the equations that stand in its place: [eq1, eq2]."""
+    parts = [y for x in listed(value) for y in (listed(x) if isinstance(x, (list, tuple)) else [x])]
+    return parts if parts and all(isinstance(x, Equation) for x in parts) else matrix(value)
+
+
 def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, matlab: bool = False) -> Value:
     """The value of a function of a library; `AbandonedError` if it is none of these."""
     if name in PLAIN:
@@ -204,12 +219,13 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         return differentiated(given[0], given[1:])
     table: dict[str, Callable[[], Value]] = {
         "Rational": lambda: scalar(given[0]) / (scalar(given[1]) if len(given) > 1 else 1),
-        "Matrix": lambda: matrix(given[0]) if len(given) == 1 else matrix(given),
+        "Matrix": lambda: _matrix_or_equations(given[0] if len(given) == 1 else list(given)),
         "Eq": lambda: Equation(scalar(given[0]), scalar(given[1])),
         "jacobian": lambda: jacobian(given[0], given[1]),
         "subs": lambda: replaced(given[0], pairs_of(given[1:])),
         "dot": lambda: dot(given[0], given[1]) if 1 in matrix(given[0]).shape else times(given[0], given[1]),
         "cross": lambda: cross(given[0], given[1]),
+        "diag": lambda: sp.diag(*map(scalar, listed(given[0]) if len(given) == 1 else given)),
         "transpose": lambda: matrix(given[0]).T,
         "inv": lambda: Inverse(matrix(given[0])),
         "norm": lambda: sp.sqrt(dot(given[0], given[0])),

@@ -24,6 +24,8 @@ from lagrangian.check.reading.carried_out.values import (
     AbandonedError,
     Equation,
     Value,
+    checked,
+    cramer,
     is_scalar,
     listed,
     scalar,
@@ -50,6 +52,12 @@ _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
 _ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
 _LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
 """An entry of a column of the program, in a comment: eom(1) = …"""
+_COMMENTED = re.compile(r"[#%][^\n]*+")
+_MEANS = re.compile(
+    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ]"
+    r"(?P<of>[^\W\d]\w{0,24})(?![\w'’(*/+-])"
+)
+"""What a comment says of a name: R is r."""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
@@ -93,10 +101,31 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):
         return None
+    own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
+    foreign = {x for x in own if not _is_of_system(scope, x)}
+    found = [*_renamed(run, text, found, scope, model), *found]
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found))
+
+
+def _is_of_system(scope: AnswerScope, name: str) -> bool:
+    """Whether a name is one of the system, or of a rate of it in letters."""
+    return any(scope.meanings(x)[0] for x in (name, *(stem for _, stem in spelled_rates(name))))
+
+
+def _renamed(
+    run: Interpreter, text: str, found: Sequence[tuple[int, str]], scope: AnswerScope, model: Model
+) -> Iterator[tuple[int, str]]:
+    """What symbols in statements are that the system does not have: coordinates, by subs(…) or by a comment."""
+    coordinates = {c.name for c in model.coordinates}
+    said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)} | run.renamed
+    for name, of in said.items():
+        used = any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", x) for _, x in found)
+        if used and not scope.meanings(name)[0] and set(scope.meanings(of)[0]) & coordinates:
+            yield 1, f"{name} = {of}"
 
 
 def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
@@ -130,7 +159,7 @@ def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
         if isinstance(one.value, str) and one.name is not None and _in_quotes(one.value):
             yield one.line, one.value if "=" in one.value else f"{one.name} = {one.value}"
             continue
-        final = one.shown or one.name not in run.used
+        final = (one.shown or one.name not in run.used) and one.of not in run.sides
         for value in listed(one.value) if isinstance(one.value, (list, MatrixBase)) else [one.value]:
             said = None
             if isinstance(value, Equation):
@@ -180,9 +209,7 @@ def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> I
     done: set[Any] = set()
     for rate, value in found.accelerations:
         if value not in run.solved:
-            if value.free_symbols & run.solved.keys():
-                raise AbandonedError
-            yield run.lines.get(value, found.line), f"{written(rate)} = {written(put(value))}"
+            yield run.lines.get(value, found.line), f"{written(rate)} = {written(put(_explicit(run, value)))}"
             continue
         A, b, x = run.solved[cast("sp.Symbol", value)]
         if x in done:
@@ -193,8 +220,17 @@ def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> I
         if not unknowns.keys() >= set(x):
             raise AbandonedError
         for k in range(A.shape[0]):
-            left = sp.Add(*[put(A[k, j]) * unknowns[x[j]] for j in range(A.shape[1])])
-            yield found.line, f"{written(left)} = {written(put(b[k]))}"
+            left = sp.Add(*[put(_explicit(run, A[k, j])) * unknowns[x[j]] for j in range(A.shape[1])])
+            yield found.line, f"{written(left)} = {written(put(_explicit(run, b[k])))}"
+
+
+def _explicit(run: Interpreter, value: sp.Expr) -> sp.Expr:
+    """A value with unknowns of linear equations, in formulas, written out by Cramer's rule."""
+    for _ in range(DEEPEST):
+        if not (found := value.free_symbols & run.solved.keys()):
+            return value
+        value = checked(value.xreplace({x: cramer(x, *run.solved[x]) for x in found}))
+    raise AbandonedError
 
 
 def _multipliers(

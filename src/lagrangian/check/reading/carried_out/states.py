@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from typing import Any
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.layouts import Layouts
 from lagrangian.check.reading.carried_out.routines import PLAIN
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -50,15 +51,20 @@ class StateReader:
         """The functions that nothing calls, and what they say of the motion."""
         made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
         matrices = {name for name, x in names.items() if isinstance(x, MatrixBase)}
+        own = self.run.functions | {name: x for name, x in names.items() if isinstance(x, OwnFunction)}
         for f in {id(f): f for f in made}.values():
             if f.name and f.name in self.run.called:
                 continue
-            given = {name: _argument(f, name, matrices, self.run.matlab) for name in f.arguments}
-            rates = _rates(self.run.function(f, list(given.values())))
+            given = {name: _argument(f, name, matrices, own, self.run.matlab) for name in f.arguments}
+            value = self.run.function(f, list(given.values()))
+            several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
+            rates = _rates(several)
             states = [x for x in given.values() if isinstance(x, State)]
             if rates is None:
                 continue
             found = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
+            layouts = Layouts(self.run, self.model, self.scope, self.in_comments)
+            found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)
 
@@ -195,8 +201,11 @@ def _rates(value: Value) -> list[sp.Expr] | None:
     return found if all(isinstance(x, sp.Expr) for x in found) else None
 
 
-def _argument(f: OwnFunction, name: str, matrices: Set[str], matlab: bool) -> Value:
-    """What an argument is by its use: a state, parameters by name, or a number; ``matrices`` are the program's."""
+def _argument(
+    f: OwnFunction, name: str, matrices: Set[str], own: Mapping[str, OwnFunction], matlab: bool, depth: int = 4
+) -> Value:
+    """What an argument is by its use: a state, parameters by name, or a number; ``matrices`` and ``own`` functions are
+    the program's."""
     body = [f.body] if isinstance(f.body, ast.expr) else f.body
     nodes = [x for part in body for x in ast.walk(part)]
     if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
@@ -210,8 +219,18 @@ def _argument(f: OwnFunction, name: str, matrices: Set[str], matlab: bool) -> Va
         isinstance(x, ast.Assign) and isinstance(x.targets[0], (ast.Tuple, ast.List)) and _is(x.value, name)
         for x in nodes
     )
-    own = [x for x in calls if not (isinstance(x.func, ast.Name) and x.func.id in PLAIN)]
-    whole = any(_is(a, name) for x in own for a in x.args) and name != "t" and matlab
+    passed = [
+        (x.func.id if isinstance(x.func, ast.Name) else "", k)
+        for x in calls
+        for k, a in enumerate(x.args)
+        if _is(a, name)
+    ]
+    to_own = [(own[to], k) for to, k in passed if to in own and depth and k < len(own[to].arguments)]
+    found = [_argument(g, g.arguments[k], matrices, own, matlab, depth - 1) for g, k in to_own if g is not f]
+    if (fields := next((x for x in found if isinstance(x, Fields)), None)) is not None:
+        return fields
+    whole = any(to not in PLAIN and to not in own for to, _ in passed) and name != "t" and matlab
+    whole = whole or any(isinstance(x, State) for x in found)
     products = [x for x in nodes if isinstance(x, ast.BinOp) and isinstance(x.op, (ast.Mult, ast.MatMult))]
     whole = whole or any(_is(x.right, name) and any(_is(x.left, A) for A in matrices) for x in products)  # A*y
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):

@@ -56,7 +56,7 @@ class OwnFunction:
     arguments: tuple[str, ...]
     body: Sequence[ast.stmt] | ast.expr
     out: str | None = None
-    """The name that holds the result, in MATLAB."""
+    """The names that hold the results, in MATLAB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +99,33 @@ class State:
         if not 1 <= index <= MOST_ENTRIES:
             raise AbandonedError
         return self.entries.setdefault(index, sp.Symbol(f"{self.name}[{index}]"))
+
+
+@dataclass(eq=False)
+class Shown:
+    """What a program states: a value under a name, or shown without one, by the line of the program."""
+
+    line: int
+    name: str | None
+    value: Value
+    shown: bool = False
+    of: str = ""
+    """The name that is shown."""
+
+
+class ReturnedError(Exception):
+    """A function of the program returns a value."""
+
+    def __init__(self, value: Value) -> None:
+        self.value = value
+
+
+def equated(a: Value, b: Value) -> Value:
+    """Two sides set equal, entry by entry if they are columns."""
+    if is_scalar(a) and is_scalar(b):
+        return Equation(scalar(a), scalar(b))
+    left, right = ([x] * len(listed(y)) if is_scalar(x) else listed(x) for x, y in ((a, b), (b, a)))
+    return [Equation(scalar(x), scalar(y)) for x, y in zip(left, right, strict=True)]
 
 
 def checked(value: Value) -> Value:
@@ -224,3 +251,37 @@ def slope(value: Value, by: Value) -> Value:
     if not isinstance(by, sp.Expr) or not (by.is_Symbol or by.is_Function or isinstance(by, sp.Derivative)):
         raise AbandonedError
     return checked(bounded.diff(scalar(value), by))
+
+
+def entry_of(of: MatrixBase, row: int, column: int) -> sp.Expr:
+    """Return an entry of a matrix."""
+    if not (-of.shape[0] <= row < of.shape[0] and -of.shape[1] <= column < of.shape[1]):
+        raise AbandonedError
+    return of[row, column]
+
+
+def is_square(value: Value) -> bool:
+    """Whether a value is a square matrix, or rows of one."""
+    if isinstance(value, MatrixBase):
+        return value.shape[0] == value.shape[1]
+    return isinstance(value, list) and all(isinstance(x, list) and len(x) == len(value) for x in value)
+
+
+def constant(value: Any) -> Value:
+    """Return the value of a number or a string that is written out."""
+    if isinstance(value, bool) or value is None or isinstance(value, complex):
+        return UNKNOWN
+    if isinstance(value, (int, float)):
+        if isinstance(value, int) and abs(value) > 10**30:
+            raise AbandonedError
+        return sp.Rational(str(value))
+    return value if isinstance(value, str) else UNKNOWN
+
+
+def cramer(x: sp.Symbol, A: MatrixBase, b: MatrixBase, unknowns: Sequence[sp.Symbol]) -> sp.Expr:
+    """Return the value of one of the unknowns of A x = b, of which there are three at most."""
+    if len(unknowns) > 3:
+        raise AbandonedError
+    swapped = sp.Matrix(A)
+    swapped[:, unknowns.index(x)] = b
+    return checked(swapped.det(method="berkowitz") / sp.Matrix(A).det(method="berkowitz"))

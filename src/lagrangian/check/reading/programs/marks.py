@@ -18,6 +18,7 @@ import re
 from collections.abc import Callable, Iterator
 from itertools import islice
 
+from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.programs.matrices import with_equations_in_comments, with_shown_matrices
 from lagrangian.check.reading.programs.sessions import carries
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -102,9 +103,21 @@ def told_comments(text: str, *, read: bool = False) -> Iterator[str]:
         yield f"'{' '.join(match.group().split())}' {why if read else 'was not judged: it is a comment'}."
 
 
+def is_program(text: str) -> bool:
+    """Whether LaTeX stands in no line of a text but in comments."""
+    return LATEX.search(_WHOLE_LINE_COMMENT.sub("", text)) is None
+
+
 def with_comments_read(written: TracedText) -> TracedText:
-    """Return an answer in which what comments say is no comment, where an equation of motion stands there."""
-    marks = (m for block in _blocks(written.text) for m in block)
+    """Return an answer in which what comments say is no comment, where an equation of motion stands there. Beside LaTeX
+    in comments, the lines of a program are left out."""
+    marks = [m for block in _blocks(written.text) for m in block]
+    if LATEX.search(written.text):
+        said = [m.span("said") for m in marks]
+        ends = [0, *(x for span in said for x in span), len(written.text)]
+        return written.edited(
+            [(a, b, "\n" * written.text.count("\n", a, b)) for a, b in zip(ends[::2], ends[1::2], strict=True)]
+        )
     edits = [(m.start(), m.start("said"), " " * (m.start("said") - m.start())) for m in marks]
     return written.edited((*edits, *((*m.span("mark"), ";") for m in _behind(written.text))))
 

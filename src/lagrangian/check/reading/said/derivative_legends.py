@@ -3,6 +3,7 @@
 D1 = first time derivative, D2 = second      D1y, D2 y and D2(y) are y', y'' and y''
 p behind a name = d/dt, pp = d^2/dt^2        phip and phipp are phi' and phi''
 x. = first derivative, x.. = second          says nothing else and is left out
+y1, y2: first and second derivative of y     y1 = y'; y2 = y'';
 """
 
 from __future__ import annotations
@@ -37,6 +38,36 @@ _NAME = re.compile(r"(?<![\w\\])(?:(?<=/)[d∂](?=\w))?(?P<name>[^\W\d]\w{0,23})
 _OF = re.compile(r"[ \t]?(?P<open>\()?(?P<of>[^\W\d]\w{0,23})(?(open)\)|(?![\w(]))")
 MOST = 12
 """The most marks that an answer explains."""
+
+
+_LETTER = r"[^\W\d]\w{0,15}+"
+_PAIR = rf"(?<![\w.*/^+'’′-])(?P<first>{_LETTER})[ \t]*+(?:,|and|und|&)[ \t]*+(?P<second>{_LETTER})[ \t]*+"
+_BOTH = (
+    r"(?:(?:the|die|der)[ ])?(?:(?:first|1st|erste)[ ](?:and|und)[ ](?:the[ ])?(?:second|2nd|zweite)[ ](?:time[ ])?"
+    r"(?:derivatives?|rates?|(?:Zeit)?[Aa]bleitung(?:en)?)|(?:angular[ ])?(?:velocity|speed|rate)[ ]and[ ](?:the[ ])?"
+    r"(?:angular[ ])?acceleration|(?:Winkel)?[Gg]eschwindigkeit[ ]und[ ](?:Winkel)?[Bb]eschleunigung)"
+)
+_PAIRED = re.compile(
+    rf"{_PAIR}(?:(?:[:=]|\bare\b|\bis\b|\bdenotes?\b|\bsind\b|\bfor\b)[ \t]*+)?"
+    rf"(?:{_BOTH}|(?:(?:those|likewise|similarly|analogously|the[ ]same|ebenso|entsprechend|dasselbe)\b)?)"
+    r"[ \t]*+(?:of|for|von|für)[ \t]++(?:the[ ])?(?:coordinate[ ]|angle[ ])?"
+    rf"(?P<of>{_LETTER})(?![\w'’′(])[ \t]*+[,;.)]?(?:[ \t]*+(?:and|und)(?=[ ]))?",
+)
+"""Two names for the rate and the acceleration of a coordinate."""
+_SAYS = re.compile(rf"{_BOTH}|likewise|similarly|analogously|the same|ebenso|entsprechend|dasselbe")
+
+
+def with_paired_rates(written: TracedText, moves: Callable[[str], bool], taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in plain text in which two names that words call the first and the second derivative of a
+    coordinate are its rate and its acceleration; ``p1, p2 of phi`` behind such words says the same."""
+    found = list(islice(_PAIRED.finditer(written.text), MOST))
+    if not any(map(_SAYS.search, (m.group() for m in found))):
+        return written
+    edits: list[Edit] = []
+    for m in found:
+        if moves(m["of"]) and taken(m["of"]) and not taken(m["first"]) and not taken(m["second"]):
+            edits.append((*m.span(), f"; {m['first']} = {m['of']}'; {m['second']} = {m['of']}'';"))
+    return written.edited(edits)
 
 
 @dataclass(frozen=True)

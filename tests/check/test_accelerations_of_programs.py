@@ -1,0 +1,166 @@
+"""Programs whose functions return accelerations or residuals, and names that comments or subs give to coordinates.
+
+Oracle: the equations of the cart with a pole, and of a wheel that rolls. Every form has a wrong twin.
+"""
+
+from __future__ import annotations
+
+import pytest
+from test_forces_between_bodies import wheel
+
+from built_in import derivation
+from lagrangian import ParseError
+
+COLUMNS = """function qdd = accel(q, qd, F, p)
+th = q(2);
+A = [p.M+p.m, p.m*p.l*cos(th); p.m*p.l*cos(th), p.J+p.m*p.l^2];
+qdd = A\\[F - p.b*qd(1) + p.m*p.l*qd(2)^2*sin(th); p.m*p.g*p.l*sin(th)];
+end"""
+SEVERAL = """function [xdd, thdd] = accel(x, th, xd, thd, F)
+D = (M+m)*(J+m*l^2) - m^2*l^2*cos(th)^2;
+r1 = F - b*xd + m*l*thd^2*sin(th);
+r2 = m*g*l*sin(th);
+xdd = ((J+m*l^2)*r1 - m*l*cos(th)*r2)/D;
+thdd = ((M+m)*r2 - m*l*cos(th)*r1)/D;
+end"""
+UNPACKED = """def accelerations(state, F):
+    x, theta, v, omega = state
+    A = np.array([[M+m, m*l*np.cos(theta)], [m*l*np.cos(theta), J+m*l**2]])
+    f = np.array([F - b*v + m*l*omega**2*np.sin(theta), m*g*l*np.sin(theta)])
+    return np.linalg.solve(A, f)"""
+PAIRS = """def rhs(z, F):
+    x, v, theta, omega = z
+    A = np.array([[M+m, m*l*np.cos(theta)], [m*l*np.cos(theta), J+m*l**2]])
+    f = np.array([F - b*v + m*l*omega**2*np.sin(theta), m*g*l*np.sin(theta)])
+    return np.linalg.solve(A, f)"""
+ENTRIES = """function acc = eom(t, z)
+% z = [x; theta; xdot; thetadot]
+th = z(2); v = z(3); w = z(4);
+A = [M+m, m*l*cos(th); m*l*cos(th), J+m*l^2];
+acc = A\\[F - b*v + m*l*w^2*sin(th); m*g*l*sin(th)];
+end"""
+HANDLES = """A = @(q) [M+m, m*l*cos(q(2)); m*l*cos(q(2)), J+m*l^2];
+h = @(q,qd,F) [F - b*qd(1) + m*l*qd(2)^2*sin(q(2)); m*g*l*sin(q(2))];
+qdd = @(q,qd,F) A(q)\\h(q,qd,F);"""
+RESIDUAL = """function res = cart_res(t, y, yp, p)
+theta = y(2); v = y(3); omega = y(4);
+res = [ yp(1) - v;
+        yp(2) - omega;
+        (p.M+p.m)*yp(3) + p.m*p.l*cos(theta)*yp(4) - p.m*p.l*omega^2*sin(theta) + p.b*v - p.F(t);
+        p.m*p.l*cos(theta)*yp(3) + (p.J+p.m*p.l^2)*yp(4) - p.m*p.g*p.l*sin(theta) ];
+end"""
+
+
+def right(text: str, model: str = "cart-pole") -> bool:
+    """Whether an answer is right; one that cannot be read is not."""
+    try:
+        return derivation(model).check(text).right
+    except ParseError:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("program", "old", "new"),
+    [
+        (COLUMNS, "- p.b*qd(1)", "- p.b*qd(2)"),
+        (COLUMNS, "qd(2)^2*sin", "qd(2)*sin"),
+        (SEVERAL, "- m*l*cos(th)*r2", "+ m*l*cos(th)*r2"),
+        (SEVERAL, "[xdd, thdd]", "[thdd, xdd]"),
+        (UNPACKED, "v, omega = state", "omega, v = state"),
+        (PAIRS, "omega**2", "v**2"),
+        (ENTRIES, "v = z(3); w = z(4)", "v = z(4); w = z(3)"),
+        (HANDLES, "m*g*l*sin", "m*g*sin"),
+        (RESIDUAL, "yp(2) - omega", "yp(2) + omega"),
+        (RESIDUAL, "+ p.b*v", "- p.b*v"),
+        (RESIDUAL, "cos(theta)*yp(3)", "cos(theta)*yp(4)"),
+    ],
+)
+def test_a_function_may_return_accelerations_or_residuals(program: str, old: str, new: str) -> None:
+    assert old in program
+    assert right(program)
+    assert not right(program.replace(old, new))
+
+
+def test_a_function_that_returns_something_else_says_nothing_of_accelerations() -> None:
+    more = "\ndef energies(z):\n    return [M*z[2]**2/2, m*g*l*np.cos(z[1])]\n"
+    assert right(UNPACKED + more)
+    assert not right(UNPACKED.replace("F - b*v", "F + b*v") + more)
+
+
+LOOP = """from sympy import *
+from sympy.physics.mechanics import dynamicsymbols
+x, th = dynamicsymbols('x theta')
+xd, thd = dynamicsymbols('x theta', 1)
+M, m, l, J, b, g, F = symbols('M m l J b g F')
+L = M*xd**2/2 + m*(xd**2 + 2*l*xd*thd*cos(th) + l**2*thd**2)/2 + J*thd**2/2 - m*g*l*cos(th)
+t = dynamicsymbols._t
+eqs = []
+for q, qd, Q in [(x, xd, F - b*xd), (th, thd, 0)]:
+    eqs.append(simplify(L.diff(qd).diff(t) - L.diff(q) - Q))
+for eq in eqs:
+    print(eq, "= 0")"""
+SHOWN = """syms M m l J b g F x th xd thd xdd thdd real
+q = [x; th]; qd = [xd; thd]; qdd = [xdd; thdd];
+T = 1/2*(M+m)*xd^2 + m*l*xd*thd*cos(th) + 1/2*(J+m*l^2)*thd^2;
+V = m*g*l*cos(th);
+p = jacobian(T, qd).';
+lhs = jacobian(p, qd)*qdd + jacobian(p, q)*qd - jacobian(T, q).' + jacobian(V, q).';
+rhs = [F - b*xd; 0];
+lhs
+eqs = lhs == rhs"""
+SOLVED = """syms M m l J b g F real
+syms u w ud wd udd wdd % u is x, w is theta
+eq1 = (M+m)*udd + m*l*wdd*cos(w) - m*l*wd^2*sin(w) + b*ud == F;
+eq2 = (J+m*l^2)*wdd + m*l*udd*cos(w) - m*g*l*sin(w) == 0;
+[A, B] = equationsToMatrix([eq1, eq2], [udd, wdd]);
+acc = A\\B;"""
+PUT = """syms M m l J b g F real
+syms x(t) theta(t)
+T = 1/2*(M+m)*diff(x,t)^2 + m*l*diff(x,t)*diff(theta,t)*cos(theta) + 1/2*(J+m*l^2)*diff(theta,t)^2;
+V = m*g*l*cos(theta);
+syms p pd pdd a ad add
+Ts = subs(T, [diff(x,t) diff(theta,t) x theta], [pd ad p a]);
+Vs = subs(V, theta, a);
+eq1 = (M+m)*pdd + m*l*cos(a)*add + diff(diff(Ts,pd),a)*ad + b*pd == F;
+eq2 = diff(Ts,ad,2)*add + m*l*cos(a)*pdd + diff(diff(Ts,ad),a)*ad - diff(Ts,a) + diff(Vs,a) == 0;"""
+
+
+@pytest.mark.parametrize(
+    ("program", "old", "new"),
+    [
+        (LOOP, "F - b*xd", "F + b*xd"),
+        (SHOWN, "[F - b*xd; 0]", "[F; -b*thd]"),
+        (SOLVED, "+ b*ud", "- b*ud"),
+        (SOLVED, "u is x, w is theta", "u is theta, w is x"),
+        (PUT, "- diff(Ts,a)", "+ diff(Ts,a)"),
+        (PUT, "[pd ad p a]", "[pd ad a p]"),
+    ],
+)
+def test_programs_in_letters_of_their_own(program: str, old: str, new: str) -> None:
+    assert old in program
+    assert right(program)
+    assert not right(program.replace(old, new))
+
+
+def test_a_comment_in_names_of_the_program_is_not_read_as_one_of_the_system() -> None:
+    comment = "    # F_x = M*x'' + N\n"
+    said = UNPACKED.replace("    A = np", f"    F_x = F - b*v\n{comment}    A = np", 1)
+    assert right(said)
+    assert not right(said.replace("F - b*v + m*l", "F - b*v - m*l"))
+
+
+CONSTRAINED = """MM = @(q) [M + m, 0; 0, J];
+h = @(q, qd, F) [F - k*q(1); 0*qd(1)];
+W = [1; -R];
+lam = @(q, qd, F) -(W'*(MM(q)\\W)) \\ (W'*(MM(q)\\h(q, qd, F)));
+qdd = @(q, qd, F) MM(q)\\(h(q, qd, F) + W*lam(q, qd, F));"""
+
+
+def test_a_multiplier_may_be_eliminated_by_matrices() -> None:
+    assert wheel().check(CONSTRAINED).right
+    for old, new in (
+        ("[1; -R]", "[1; R]"),
+        ("F - k*q(1)", "F + k*q(1)"),
+        ("lam = @(q, qd, F) -", "lam = @(q, qd, F) "),
+    ):
+        assert old in CONSTRAINED and not wheel().check(CONSTRAINED.replace(old, new)).right
