@@ -37,6 +37,9 @@ PENDULUM = m * L**2 * theta.diff(t, 2) + b * theta.diff(t) + m * g * L * sp.sin(
         r"\begin{align*} mL^2\theta'' &= -b\dot\theta \\ &\quad - mgL\sin\theta \tag{1}\end{align*}",
         r"so we get $mL^2\ddot\vartheta + b\dot{\vartheta} = -mgL\sin\vartheta$, as it should be.",
         r"\boxed{mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0}",
+        r"$$\underline{\underline{m\underline{L}^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0}}$$",
+        r"\begin{align*} \theta:&\quad mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0 \end{align*}",
+        r"\begin{eqnarray} mL^2\ddot\theta + b\dot\theta &=& - mgL\sin\theta:\end{eqnarray}",
         r"(1)\quad mL^2\ddot\theta = -b\dot\theta - mgL\sin\theta \qquad (1)",
         r"\mathrm{m}L^2\ddot{\theta}+\frac{b}{1}\dot\theta+\tfrac22 mgL\sin \theta=0",
         r"mL^2 d^2\theta/dt^2 + bd\theta/dt + mgL\sin\theta = 0",
@@ -196,3 +199,18 @@ def test_the_lower_half_of_a_symmetric_matrix_may_be_left_out():
         assert residuals(upper.replace("LOWER", lower)) == whole
     with pytest.raises(lg.ParseError, match="has no counterpart above the diagonal"):
         residuals(r"\begin{bmatrix} m_1 + m_2 & \text{sym.} \\ m_2 & m_2 \end{bmatrix}")
+
+
+@pytest.mark.parametrize("sign", ["&=&", "&=", "="])
+def test_a_row_states_what_a_letter_stands_for_behind_a_gap(sign: str) -> None:
+    sheet = r"\begin{eqnarray*} T " + sign + r" \frac{m}{2}\varrho^2\dot\theta^2,\qquad \varrho=L \\"
+    sheet += r"mL^2\ddot\theta &=& -b\dot\theta - mg\varrho\sin\theta \end{eqnarray*}"
+    assert derivation("pendulum").check(sheet).right
+    assert not derivation("pendulum").check(sheet.replace("=L ", "=2L ")).right
+
+
+def test_words_lead_to_what_a_letter_stands_for() -> None:
+    sheet = r"\begin{align*} &\text{Solved, with } \Delta=mL^2:\\ "
+    sheet += r"&\ddot\theta=-\frac{b\dot\theta+mgL\sin\theta}{\Delta} \end{align*}"
+    assert derivation("pendulum").check(sheet).right
+    assert not derivation("pendulum").check(sheet.replace("mL^2:", "mL:")).right

@@ -2,32 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
-from sympy import cos, sin
+from reels import reel
 
 from built_in import derivation
-from lagrangian import Derivation, System
-
-
-@cache
-def reel() -> Derivation:
-    """A reel that rolls, with a mass on an arm that a band ties to its turning: the band feels φ + ψ."""
-    sys = System("reel with an arm")
-    x, phi, psi = sys.coordinates("x phi psi")
-    M, J, R, m, l, k, c, g = sys.parameters("M J R m l k c g")
-    F = sys.input("F")
-    axle = sys.point("axle", (x, R))
-    body = sys.rigid_body(M, J, at=axle, frame=sys.frame(-phi), name="reel")
-    sys.particle(m, at=axle + (l * sin(psi), -l * cos(psi)))
-    sys.gravity((0, -1), g)
-    sys.spring(k, deflection=phi + psi)
-    sys.damper(c, deflection=phi + psi)
-    sys.force((F, 0), at=axle)
-    sys.rolling(body, at=sys.point("contact", (x, 0)), along=(1, 0))
-    return sys.derive()
-
+from lagrangian import System
 
 ALONG = "(M + m + J/R^2) x'' + m l cos(psi) psi'' - m l sin(psi) psi'^2 + k (x/R + psi)/R + c (x'/R + psi')/R = F"
 ARM = "m l^2 psi'' + m l cos(psi) x'' + m g l sin(psi) + k (x/R + psi) + c (x'/R + psi') = 0"

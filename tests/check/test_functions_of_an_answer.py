@@ -104,3 +104,31 @@ $(J+ml^2)\ddot\theta + ml\ddot x\cos\theta - mgl\sin\theta = 0$"""
     assert right(written)
     assert not right(written.replace("= -l", "= l"))
     assert not right(written.replace("- mgl", "+ mgl"))
+
+
+ENERGIES = "T = 1/2 m L^2 theta'^2\nV = -m g L cos(theta)\n"
+ROW = "m L^2 theta'' + b theta' + m g L sin(theta) = 0"
+OF_U = "m L^2 theta'' = -U'(theta) - b theta'\nU = -m g L cos(theta)"
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        f"{ENERGIES}ℒ = T(theta') - V(theta)\n{ROW}",
+        "$T = \\frac m2 L^2\\dot\\theta^2$, $V = -mgL\\cos\\theta$, $\\mathcal L = T(\\dot\\theta) - V(\\theta)$\n"
+        r"$mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0$",
+        OF_U,
+        f"U = -m g L cos(theta)\n{OF_U.partition(chr(10))[0]}",
+        "E = 1/2 m L^2 theta'^2 + U(theta)\nU = -m g L cos(theta)\n"
+        "dE/dt = m L^2 theta' theta'' + U'(theta) theta' = -b theta'^2",
+    ],
+)
+def test_an_energy_with_its_coordinate_in_brackets_is_no_product(sheet: str) -> None:
+    assert right(sheet, "pendulum")
+    for now, wrong in (
+        ("-m g L cos", "m g L cos"),
+        ("-mgL", "mgL"),
+        ("b theta'", "2 b theta'"),
+        ("m g L sin", "m L sin"),
+    ):
+        assert now not in sheet or not right(sheet.replace(now, wrong), "pendulum")

@@ -88,6 +88,16 @@ def test_the_whole_expression_in_front_of_a_listed_value_has_it() -> None:
         assert not right(f"{values.replace(number, '4' + number[1:])}\n{CART}\n{POLE}")
 
 
+@pytest.mark.parametrize("amount", ["m_1 + m_2 = 6 kg", "m_1/m_3 = 4 kg/4 kg = 1 kg, m_2 g = 19.62 N"])
+def test_kilograms_are_a_unit_where_k_and_g_are_parameters(amount: str) -> None:
+    system = ROLLING.replace("m1", "m_1").replace("m2", "m_2").replace('k = "2', 'm_3 = "4 kg"\nk = "2')
+    rows = "6 x'' = 4 g sin(alpha) + 200 s\n2 (x'' + s'') = 2 g sin(alpha) - 200 s"
+    blocks = loads(system).derive()
+    assert blocks.check(f"{amount}\n{rows}").right
+    assert not blocks.check(f"{amount.replace(' kg', '.5 kg').replace('19', '18')}\n{rows}").right
+    assert not blocks.check(f"{amount}\n{rows.replace('- 200', '+ 200')}").right
+
+
 @pytest.mark.parametrize(("said", "holds"), [("y = x - 0.1 theta", True), ("y = x - 0.2 theta", False)])
 def test_a_name_of_the_system_may_be_said_in_numbers(said: str, holds: bool) -> None:
     system = """

@@ -328,3 +328,20 @@ def test_of_two_likely_reasons_both_are_told(bar: lg.Derivation) -> None:
     words = str(bar.check(answer).mistakes[0].what)
     first, _, second = words.partition(" A possible reason: ")[2].partition(" Or: ")
     assert sorted(["½" in first and "missing" in first, "about its pivot" in second]) == [True, True], words
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["with w0^2 = k/m, 2 D w0 = b/m", "Let 2 D w0 = b/m and m w0^2 = k.", "2 m D w0 = b\nw0 = sqrt(k/m)"],
+)
+def test_a_product_says_what_the_new_name_in_it_is(said: str) -> None:
+    system = lg.System("oscillator")
+    x = system.coordinate("x")
+    m, k, b = system.parameters("m k b")
+    system.kinetic(m * x.diff() ** 2 / 2)
+    system.spring(k, deflection=x)
+    system.damper(b, deflection=x)
+    derivation = system.derive()
+    assert derivation.check(f"{said}\nx'' + 2 D w0 x' + w0^2 x = 0").right
+    assert not derivation.check(f"{said}\nx'' + D w0 x' + w0^2 x = 0").right
+    assert not derivation.check(f"{said.replace('D w0', 'D')}\nx'' + 2 D w0 x' + w0^2 x = 0").right

@@ -182,8 +182,9 @@ def test_a_state_space_may_have_any_matrix() -> None:
 
 
 def test_statements_stand_on_the_lines_of_the_program() -> None:
-    made = carried_out(IN_AN_EQUATION, derivation("cart-pole").model)
-    assert made is not None
+    found = carried_out(IN_AN_EQUATION, derivation("cart-pole").model)
+    assert found is not None
+    made = found.text
     lines = made.split("\n")
     assert (
         lines[6].startswith("T = ")
@@ -198,14 +199,16 @@ def test_rates_of_a_state_are_what_its_entries_say_and_not_their_names() -> None
 
 
 def test_an_equation_that_is_used_for_another_is_none() -> None:
-    made = carried_out(SYMPY.replace("print(", "late = ("), derivation("cart-pole").model)
-    assert made is None or "p = " not in made
+    found = carried_out(SYMPY.replace("print(", "late = ("), derivation("cart-pole").model)
+    assert found is None or "p = " not in found.text
 
 
 def test_comments_with_accelerations_are_read_beside_the_program() -> None:
     comment = "# printed: (M + m)*x'' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'**2 + b*x' - F = 0\n"
-    made = carried_out(f"{IN_AN_EQUATION}# output, sorted by hand\n{comment}", derivation("cart-pole").model)
-    assert made is not None and made.split("\n")[-2] == comment[1:].strip("\n") and made.split("\n")[-3] == ""
+    found = carried_out(f"{IN_AN_EQUATION}# output, sorted by hand\n{comment}", derivation("cart-pole").model)
+    assert found is not None
+    made = found.text
+    assert made.split("\n")[-2] == comment[1:].strip("\n") and made.split("\n")[-3] == ""
 
 
 def test_a_program_that_is_carried_out_is_told() -> None:

@@ -45,6 +45,15 @@ def test_a_list_of_mathematica_whose_entries_are_zero(said: str) -> None:
     assert not right(sheet.replace("- g*l", "+ g*l"))
 
 
+def test_what_mathematica_rewrites_is_what_stands_in_its_brackets() -> None:
+    energies = "L = (M + m)/2*x'[t]^2 + m*l*x'[t]*theta'[t]*Cos[theta[t]] + (J + m*l^2)/2*theta'[t]^2"
+    energies += " - m*g*l*Cos[theta[t]]\n"
+    sheet = "Expand[D[D[L, x'[t]], t] - D[L, x[t]]] == F - b*x'[t]\n"
+    sheet = energies + sheet + "FullSimplify[D[D[L, theta'[t]], t] - D[L, theta[t]]] == 0"
+    assert right(sheet)
+    assert not right(sheet.replace("F - b", "F + b")) and not right(sheet.replace(" == 0", " == F"))
+
+
 def test_entries_of_a_matrix_that_are_set_in_columns() -> None:
     rows = "[ M + m        m l cos θ   -1 ] [ x'' ]   [ m l θ'^2 sin θ - b x' ]\n"
     rows += "[ m l cos(θ)   J + m l^2   0  ] [ θ'' ] = [ m g l sin θ           ]\n"

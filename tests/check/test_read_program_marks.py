@@ -189,3 +189,11 @@ def test_no_note_quotes_accelerations_that_only_the_reading_names() -> None:
     names.notes.clear()
     tell_general(Source("v' = qdd", "", Place(line=1, column=1, text="dz = [v; vdot]")), ["qdd"], names)
     assert not names.notes
+
+
+def test_the_end_of_an_equation_in_a_comment_gives_no_name_its_meaning() -> None:
+    row = "xdd = (F - b*xd - m*l*thetadd*cos(theta) + m*l*thetad^2*sin(theta))/(M + m);\n"
+    rows = row + "thetadd = (m*g*l*sin(theta) - m*l*xdd*cos(theta))/(J + m*l^2);"
+    comment = "% cart: (M + m)*xdd + m*l*thetadd*cos(theta) - m*l*thetad^2*sin(theta) + b*xd = F\n"
+    twins(comment + rows, "b*xd -", "b*xd +")
+    assert right("% - v = x'\n" + rows.replace("xd ", "v "))

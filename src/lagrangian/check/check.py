@@ -38,7 +38,7 @@ from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
 
@@ -296,28 +296,38 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
 
     Right equations with multipliers, from which a wrong one was reduced, are left out if nothing else explains it.
     """
-    if verdict.status is not Status.WRONG:
+    if verdict.status is not Status.WRONG or any(m.name.startswith("constraint_") for m in verdict.mistakes):
         return None
-    own = without_constraints(truth, lines)
+    used = tuple(lines)
+    own = without_constraints(truth, used)
     if own is None and not verdict.mistakes:
-        own = without_constraints(truth, _without_right_rows(truth, lines, verdict))
+        used = _without_right_rows(truth, lines, verdict)
+        own = without_constraints(truth, used)
     if own is None:
         return None
-    wrong = {(f.line.number, f.line.text) for f in verdict.findings if f.status is Status.WRONG}
-    unjudged = {(line.number, line.text): line.expr == 0 for line in own.lines if line.kind == "statement"}
+    keys, of_line = keys_of([f.line for f in verdict.findings]), dict(zip(map(id, lines), keys_of(lines), strict=True))
+    wrong = {key for key, f in zip(keys, verdict.findings, strict=True) if f.status is Status.WRONG}
+    stated = [of_line[id(x)] for x in used if x.kind not in ("definition", "statement")]
+    moved = dict(zip(stated, (x for x in own.lines if x.kind != "definition"), strict=True))
+    unjudged = {key: x.expr == 0 for key, x in moved.items() if x.kind == "statement"}
     if any(not unjudged.get(key, True) for key in wrong):
         return None
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
     if found is None or not found.mistakes:
         return None
-    there = {(f.line.number, f.line.text): f for f in found.findings}
+    judged = {id(f.line): f for f in found.findings}
+    there = {key: judged[id(x)] for key, x in moved.items() if id(x) in judged}
     held = text("true where the constraints hold")
     there |= {
-        (f.line.number, f.line.text): replace(f, status=Status.RIGHT, note=held)
-        for f in verdict.findings
-        if unjudged.get((f.line.number, f.line.text))
+        key: replace(f, status=Status.RIGHT, note=held)
+        for key, f in zip(keys, verdict.findings, strict=True)
+        if unjudged.get(key)
     }
-    findings = [there.get((f.line.number, f.line.text), f) for f in verdict.findings]
+    blamed = [f for f in found.findings if f.line.kind == "definition"]
+    told = {f.line.number for f in blamed}
+    findings = [there.get(key, f) for key, f in zip(keys, verdict.findings, strict=True)]
+    findings = [f for f in findings if f.line.kind != "definition" or f.line.number not in told]
+    findings = sorted([*findings, *blamed], key=lambda f: f.line.number)
     return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
 
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian.check.balances import with_balances
 from lagrangian.check.beside import beside
 from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
 from lagrangian.check.coordinates.tried import ProposedChange
@@ -18,7 +19,7 @@ from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.row_words import findings_of, name_of
-from lagrangian.check.names.needless import accelerates
+from lagrangian.check.moving_frame import with_effective_potential, with_hamiltonian
 from lagrangian.check.names.own_forces import without_own_names
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, compare, zero_everywhere
@@ -53,10 +54,11 @@ def judged_lines(
     """Judge every line, and the equations together; with a change, everything is converted to the system's
     coordinates. Unless they are ``compared``, it is not said in which terms wrong equations differ."""
     chart = change.chart(truth, lines) if change is not None else None
+    lines, called = with_hamiltonian(truth, lines) if change is None else (lines, ())
     lines = lines if chart is None else with_own_quantities(truth, lines, chart)
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     truth = truth.within(change.region(truth)) if change is not None else truth
-    moved = _with_balances(truth, moved)
+    moved = with_balances(truth, moved, moved=change is not None)
     equations = [line for line in moved if line.kind == "equation"]
     comparison = compare(truth, [line.expr for line in equations])
     moved, aside = beside(truth, moved, comparison)
@@ -78,24 +80,16 @@ def judged_lines(
         else:
             aside = (*aside, of_unknown(line))
     findings, named = without_own_names(truth, lines, findings)
-    aside = (*aside, *named)
-    findings = findings if change is not None else follow_from_derivatives(truth, right_together(truth, findings))
+    aside = (*called, *aside, *named)
     if change is None:
+        findings = with_effective_potential(truth, findings, motion=of_equations(truth, comparison).right)
+        findings = follow_from_derivatives(truth, right_together(truth, findings))
         findings = follow_from_definitions(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )
     status, found = _overall(truth, comparison, _told_once(truth, findings))
     motion = status is Status.WRONG and _ends_right(truth, equations, comparison)
     return Judged(status, found, comparison, (*_missing(truth, comparison), *aside), motion)
-
-
-def _with_balances(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
-    """The lines; one on the rate of a name of the answer's own, p' = F + H, that holds only along the motions is an
-    equation of motion."""
-    moving = [i for i, x in enumerate(lines) if x.kind == "identity" and accelerates(x.expr)]
-    rows = compare(truth, [lines[i].expr for i in moving]).rows if moving else ()
-    true = {i for i, row in zip(moving, rows, strict=True) if row.true}
-    return [replace(x, kind="equation", name=None) if i in true else x for i, x in enumerate(lines)]
 
 
 def _told_once(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:

@@ -22,11 +22,14 @@ from lagrangian.page.formula import Text, text
 def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
     """The lines of an answer that was read, numbered as in its text."""
     found: list[AnsweredLine] = []
+    spelled = {u.name: u.symbol for u in answer.unknown}
+    senses = [(spelled[name], (str(spelled[name]), way, on)) for name, way, on in answer.senses if name in spelled]
     for k, stated in enumerate(answer.lines, 1):
         number = stated.place.line if stated.place is not None and stated.place.line is not None else k
         beside = answer.beside.get(number, frozenset())
         expr, names = sp.sympify(stated.residual), stated.names
-        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names))
+        pushing = frozenset(sense for x, sense in senses if expr.has(x))
+        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names, pushing))
     return tuple(found)
 
 

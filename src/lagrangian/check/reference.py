@@ -11,6 +11,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.branches import Branch, natural, sides_of
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
@@ -211,3 +212,11 @@ def _product(counts: Sequence[int]) -> int:
 def truth_of(derivation: Derived) -> Reference:
     """The reference for a derivation, made once for the derivations that were checked most recently."""
     return Reference(derivation)
+
+
+def without_time(truth: Reference, V: sp.Expr) -> sp.Expr:
+    """A potential energy without what depends on time alone, such as m g e sin Ωt, which changes no equation."""
+    moving = {x: sp.Dummy() for c in truth.model.coordinates for x in (c.symbol, c.rate)}
+    if time not in V.xreplace(moving).free_symbols:
+        return V
+    return sp.Add(*[x for x in sp.Add.make_args(bounded.expand(V)) if x.has(*moving)])

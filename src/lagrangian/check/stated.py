@@ -283,9 +283,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
     coordinates = truth.model.coordinates
     if line.kind == "V" and _grows(truth, rest):
         return None
-    if line.kind == "V" and all(zero_everywhere(truth, bounded.diff(rest, c.symbol)) for c in coordinates):
-        if rest.has(*[c.rate for c in coordinates]):
-            return None
+    if line.kind == "V" and unmoved(truth, rest):
         return text("V may differ by a constant")
     if line.kind not in ("L", "T", "D"):
         return None
@@ -294,15 +292,32 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
         if np.isnan(values).all() or np.nanmax(values) > 1e-6:
             return None
     if line.kind in ("L", "T") and all(zero_everywhere(truth, row) for row in left_sides(truth, rest)):
-        moving = [x for c in coordinates for x in (c.rate, c.symbol) if rest.has(x)]
-        held = any(not zero_everywhere(truth, bounded.diff(rest, x)) for x in moving)  # cos² + sin² is a constant
-        if line.kind == "T" and held:
-            return None
-        words = "the time derivative of a function" if held else "a constant"
-        return text(f"{line.kind} may differ by {words}: no equation changes")
+        if (constant := _said_of_unmoved(truth, line, rest)) is not None or line.kind == "T":
+            return constant
+        return text(f"{line.kind} may differ by the time derivative of a function: no equation changes")
     if line.kind == "D" and all(zero_everywhere(truth, bounded.diff(rest, c.rate)) for c in coordinates):
         return text("up to what no rate changes")
     return None
+
+
+def unmoved(truth: Reference, rest: sp.Expr) -> bool:
+    """Whether no coordinate and no rate changes an expression, however it is written."""
+    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
+    return all(zero_everywhere(truth, bounded.diff(rest, x)) for x in moving)
+
+
+def _said_of_unmoved(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None:
+    """What is said of a difference in T* or L that no coordinate and no rate changes, as ½ m a² Ω² of what is carried
+    around at a given rate; None if one does."""
+    if not unmoved(truth, rest):
+        return None
+    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
+    form = truth.form(rest)
+    value = bounded.expand(rest if form is None else form.expr())
+    if not value.free_symbols or value.has(*moving):
+        return text(f"{line.kind} may differ by a constant: no equation changes")
+    value = -value if value.could_extract_minus_sign() else value
+    return text(f"{line.kind} may differ by ", value, ", which no coordinate and no rate changes: no equation changes")
 
 
 def _follows(truth: Reference, line: AnsweredLine, by: By, above: StatedQuantity) -> bool:

@@ -147,12 +147,11 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
     """The lines of remarks that are wrong beside right equations: no reading without these is taken.
 
-    Where constraints hold, what is said of a case, at t = 0 or at rest, is no position that they would forbid.
+    Where constraints hold, what is said of a case, at rest or for e = 0, is not compared with every motion.
     """
     wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG] if verdict.motion else []
-    accelerations = [c.acceleration for c in derivation.model.coordinates]
     cases = {"case"} if derivation.multipliers else set[str]()
-    return {(x.number, x.text) for x in wrong if x.beside and not (x.beside & cases and not x.expr.has(*accelerations))}
+    return {(x.number, x.text) for x in wrong if x.beside and not x.beside & cases}
 
 
 def _program(answer: Answer) -> Answer | None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Any
 
@@ -44,7 +45,8 @@ class AnsweredLine(Brief):
     right.
 
     ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
-    ``names``: the keys of the names in it as it is written.
+    ``names``: the keys of the names in it as it is written. ``senses``: what words say of forces in it; see
+    `reading.said.senses`.
     """
 
     kind: str
@@ -54,6 +56,7 @@ class AnsweredLine(Brief):
     text: str = ""
     beside: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
+    senses: frozenset[tuple[str, str, str]] = frozenset()
 
     @property
     def title(self) -> str:
@@ -63,6 +66,18 @@ class AnsweredLine(Brief):
             letter = {"Xi": "Ξ", "p": "∂L/∂ξ̇", "p-rate": "d/dt ∂L/∂ξ̇", "slope": "∂L/∂ξ"}[self.kind]
             what = f"{letter} of {self.name}"
         return f"line {self.number}" + (f" ({what})" if what else "")
+
+
+def keys_of(lines: Sequence[AnsweredLine]) -> list[tuple[int, str, int]]:
+    """What identifies each line: its number, its text, and which it is of those that stand in the same text."""
+    seen: Counter[tuple[int, str, bool]] = Counter()
+    found: list[tuple[int, str, int]] = []
+    for line in lines:
+        judged = line.kind not in ("definition", "statement")
+        seen[line.number, line.text, judged] += 1
+        count = seen[line.number, line.text, judged]
+        found.append((line.number, line.text, count if judged else -count))
+    return found
 
 
 @dataclass(frozen=True)
@@ -146,6 +161,8 @@ class Finding(Brief):
     follows: bool = False
     elements: tuple[str, ...] = ()
     """The elements that add to the right equation, for a wrong one."""
+    clash: str = ""
+    """The line that it does not fit, where nothing says which of the two is right."""
 
     def told(self, hint: int) -> Text | None:
         """The note that a hint level allows: below 3, none of a wrong line with a formula beyond ±a name."""

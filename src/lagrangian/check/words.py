@@ -54,7 +54,11 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
     if verdict.hint == 0:
         return
     first = verdict.first_wrong
-    if verdict.status is Status.WRONG and first is not None and not verdict.motion:
+    if verdict.status is Status.WRONG and first is not None and first.clash:
+        yield text(
+            "Look at ", first.line.title, *_of(first, model), f", and {first.clash}: they do not fit each other."
+        )
+    elif verdict.status is Status.WRONG and first is not None and not verdict.motion:
         yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
     if any(f.follows for f in verdict.findings):
         yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
@@ -91,7 +95,7 @@ def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
     """What is said first if only lines beside the equations of motion are wrong: which, and how the first differs."""
     wrong = [f for f in verdict.findings if f.status is Status.WRONG]
     titles = [f.line.title for f in wrong if not f.follows] or [f.line.title for f in wrong]
-    agrees = "does not agree" if len(titles) == 1 else "do not agree"
+    agrees = "does not agree" if len(set(titles)) == 1 else "do not agree"
     names = listed(list(dict.fromkeys(titles)))
     said: list[str | Left] = [f"Your equations of motion are right. {names[:1].upper()}{names[1:]} {agrees} with them"]
     differing = wrong[0].differences if len(titles) == 1 and verdict.hint >= 3 else ()
@@ -132,7 +136,7 @@ def _word(finding: Finding, roots: Sequence[str]) -> str:
     if finding.follows:
         return f"not right, but only because of {roots[0] if len(roots) == 1 else 'the lines above'}"
     if finding.status is Status.WRONG:
-        return "not right"
+        return f"not right together with {finding.clash}" if finding.clash else "not right"
     return {Status.INCOMPLETE: "says nothing", Status.SAME_MOTION: "true"}.get(finding.status, "right")
 
 

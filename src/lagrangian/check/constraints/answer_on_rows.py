@@ -27,6 +27,10 @@ ROUNDING = 1e-6
 """The least size of an equation, in those of its terms: one that says 0 = 0 is no other than rounding everywhere."""
 
 
+CANCELLED = 1e-13
+"""The slope by a multiplier, in the terms of its line, that is rounding: the multiplier cancels there."""
+
+
 @dataclass(frozen=True, eq=False)
 class AnswerAt:
     """An answer at one state: P and its slopes by accelerations and by its own multipliers, beside the right ones."""
@@ -90,6 +94,8 @@ class AnswerOnRows:
         still = {**state, **dict.fromkeys(self.unknown, 0.0)}
         value = self._values(still)
         slopes = np.array([self._values({**still, x: still[x] + 1.0}) - value for x in changes]).T
+        acting = self._values({**still, **dict.fromkeys(self.unknown, 1.0)}, terms=True)
+        slopes[:, n:][np.abs(slopes[:, n:]) <= CANCELLED * acting[:, None]] = 0.0
         size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(self._values(state))
         off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
         size = np.maximum(size, np.abs(self._values({**still, **off})))

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.balances import as_equation
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.between_bodies import other_forms
 from lagrangian.check.constraints.determined import SMALL, accelerations_determined, ends_right, in_span
@@ -31,7 +32,7 @@ from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_i
 from lagrangian.check.names.spelling import not_there
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import judge
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
 from lagrangian.derive import Derived
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
@@ -114,19 +115,31 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
         if tried[-1].right and _as_read(truth, read):
             return tried[-1]
     first = max(tried, key=lambda found: found.right, default=None) or _checked(truth, lines, hint)
+    together: list[Verdict] = []
     for put, told in () if first.right else other_forms(truth, lines):
-        if (found := _checked(truth, put, hint)).right:
-            return replace(found, notes=(*found.notes, *told))
+        found = _checked(truth, put, hint)
+        found = replace(found, notes=(*found.notes, *told))
+        if found.right:
+            return found
+        together += [_of_lines(found, lines)] if len(put) == len(lines) else []
     if not tried:
-        return first
+        return max([first, *together], key=_rights)
     if opposite := next((found for found in tried if found.right), None):
         said = text("The motion would be right if the friction had the opposite sign.")
         return replace(opposite, status=Status.WRONG, notes=(said,))
     return max(tried, key=lambda found: sum(finding.status.right for finding in found.findings))
 
 
+def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
+    """A verdict on lines in which coordinates are counted together, as one on these lines as they were written."""
+    own = dict(zip(keys_of(lines), lines, strict=True))
+    keys = keys_of([f.line for f in verdict.findings])
+    found = (replace(f, line=own.get(key, f.line)) for key, f in zip(keys, verdict.findings, strict=True))
+    return replace(verdict, findings=tuple(found))
+
+
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = in_coordinates(truth, lines)
+    lines = [as_equation(truth, line) for line in in_coordinates(truth, lines)]
     other = expanded(truth)
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:

@@ -15,7 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
-from lagrangian.model.rows import rows_of
+from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import Text, text
 
 MOST = 6
@@ -29,10 +29,7 @@ def counted_together(
 
     A coordinate is replaced only where an equation or an energy has it without a rate.
     """
-    ways: list[dict[Any, sp.Expr]] = [{}]
-    for table in _relations(truth):
-        ways = [{**way, q: x} for way in ways for q, x in table.items() if not any(x.has(k) or q == k for k in way)]
-    for way in ways[:MOST]:
+    for way in ways_together(truth):
         put = tuple(_with(line, way) for line in lines)
         if way and any(a is not b for a, b in zip(put, lines, strict=True)):
             yield (
@@ -41,22 +38,32 @@ def counted_together(
             )
 
 
-def _relations(truth: Reference) -> Iterator[dict[Any, sp.Expr]]:
-    """For every constraint on velocities with constant factors, each of its coordinates in the others."""
-    coordinates = truth.model.coordinates
+def ways_together(truth: Reference) -> list[dict[Any, sp.Expr]]:
+    """One coordinate of every such constraint in the others, in all ways: φ = x/R or x = R φ."""
+    ways: list[dict[Any, sp.Expr]] = [{}]
     for row in rows_of(truth.model):
-        if row.position is not None:
-            continue
-        c = truth.expand(row.rate)
-        rates = {k.symbol: k.rate for k in coordinates if c.has(k.rate)}
-        factors = {q: bounded.diff(c, v) for q, v in rates.items()}
-        whole = sp.Add(*[a * rates[q] for q, a in factors.items()])
-        moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
-        if len(factors) > 1 and not moving and bounded.expand(c - whole) == 0:
-            yield {
-                q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in factors.items() if r != q]))
-                for q, a in factors.items()
+        place = None if row.position is not None else integrated(truth, row)
+        if place is not None:
+            slopes = {c.symbol: bounded.diff(place, c.symbol) for c in truth.model.coordinates if place.has(c.symbol)}
+            table = {
+                q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in slopes.items() if r != q]))
+                for q, a in slopes.items()
             }
+            ways = [{**way, q: x} for way in ways for q, x in table.items() if not any(x.has(k) or q == k for k in way)]
+    return ways[:MOST]
+
+
+def integrated(truth: Reference, row: Row) -> sp.Expr | None:
+    """What a constraint says of positions: itself, x − R φ for rates with constant factors, or nothing."""
+    if row.position is not None:
+        return truth.expand(row.position)
+    c, coordinates = truth.expand(row.rate), truth.model.coordinates
+    factors = {k: bounded.diff(c, k.rate) for k in coordinates if c.has(k.rate)}
+    whole = sp.Add(*[a * k.rate for k, a in factors.items()])
+    moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
+    if len(factors) < 2 or moving or bounded.expand(c - whole) != 0:
+        return None
+    return cast("sp.Expr", sp.Add(*[a * k.symbol for k, a in factors.items()]))
 
 
 def _with(line: AnsweredLine, way: Mapping[Any, sp.Expr]) -> AnsweredLine:

@@ -6,7 +6,8 @@ multiplier is s = c λ, and c may depend on the position: λ x/√(x² + y²) is
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import islice, permutations, product
@@ -18,47 +19,57 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.align import agreeing
+from lagrangian.check.constraints.multiplier_words import Pushing, of_multiplier, unfitting
+from lagrangian.check.constraints.stated_senses import stated_signs
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
 
 MOST = 3
 """The largest number of multipliers for which all orders and scales are tried."""
 MOST_SCALES = 8
 """The largest number of scales that are tried for one multiplier."""
 MOST_READINGS = 300
+_ZERO = re.compile(r"=[ ]?0[\s$.,;&}\\]{0,9}$")
 LONGEST = 60
 """The largest number of operations of the scale of a multiplier."""
-WHY = text(
-    "The force of a constraint f = 0 enters the equation of ξ as λ·∂f/∂ξ: one λ for all equations, and ∂f/∂ξ for each."
-)
 
 
 @dataclass(frozen=True, eq=False)
 class ReadMultipliers:
     """An answer whose multipliers are read: its lines, with right multipliers in all equations, and how they were read.
 
-    ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong, in
-    the given lines ``wrong``. ``own`` are the names of the answer's multipliers.
+    ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong,
+    ``slips`` in which of the given lines and which multiplier of the answer. ``own`` are the names of these, ``pushes``
+    their factors in the given lines. ``clashing``: two lines, one of which is wrong, though nothing says which.
     """
 
     lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...]
     mistakes: tuple[Mistake, ...]
-    wrong: frozenset[int]
+    slips: tuple[tuple[int, Any], ...]
     sources: tuple[int, ...]
     own: tuple[Any, ...]
+    pushes: Mapping[tuple[int, Any], Pushing] = field(default_factory=dict[tuple[int, Any], Pushing])
+    clashing: tuple[int, ...] = ()
+
+    @property
+    def wrong(self) -> frozenset[int]:
+        """The given lines in which a multiplier stands wrong, or may."""
+        return frozenset([*(j for j, _ in self.slips), *self.clashing])
 
 
-def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> ReadMultipliers | None:
+def with_own_multipliers(
+    truth: Reference, lines: Sequence[AnsweredLine], *, clashes: bool = True
+) -> ReadMultipliers | None:
     """The lines that can be compared one by one with the system's, and how the answer's multipliers were read.
 
     The constraints themselves, which hold no acceleration and no multiplier, are left out. None if there is no reading.
+    With ``clashes``, two lines may not fit each other, and neither is right then.
     """
     model = truth.model
     own: list[Any] = [m.symbol for m in truth.derivation.multipliers.values()]
@@ -72,15 +83,30 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     if any(d.has(*names) for line in rows for d in line.expr.atoms(sp.Derivative)) if names else False:
         return None  # a name that moves is a coordinate of the answer's own
     exprs = [line.expr for line in rows]
+    signs = {s: stated_signs(truth, lines, s) for s in names}
     possible = list(islice(_readings(truth, rows, names, own), MOST_READINGS))
-    matches = [_matched(truth, exprs, x, own) for x in possible]
-    scores = [_score(found) for found in matches]
+    possible = _most_agreed(truth, exprs, [x for x in possible if _fits(truth, x, signs)] or possible)
     stated = list(_of_stated(truth, lines, names, own))
+    stated = [x for x in stated if _fits(truth, x, signs)] or stated
     against = [_against(truth, exprs, _matched(truth, exprs, x, own)) for x in stated]
     fixed = [(_read(truth, lines, rows, x), k) for x, k in zip(stated, against, strict=True)]
     right, _ = min(fixed, key=lambda x: (len(x[0].mistakes) + x[1], x[1]), default=(None, 0))
     if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
-        return right
+        doubtful = clashes and not any(_is_zero_of_positions(line) for line in lines)
+        return _beside_rivals(truth, right, lines, [x for x, _ in fixed if doubtful])
+    found = _likeliest(truth, lines, rows, possible)
+    rivals = (_read(truth, lines, rows, x) for x in possible) if clashes and len(found.mistakes) == 1 else ()
+    return _beside_rivals(truth, found, lines, rivals)
+
+
+def _likeliest(
+    truth: Reference, lines: Sequence[AnsweredLine], rows: Sequence[AnsweredLine], possible: Sequence[_Reading]
+) -> ReadMultipliers:
+    """The lines in the reading on which most of them agree; in a plainer one if that leaves no more mistakes."""
+    own: list[Any] = [m.symbol for m in truth.derivation.multipliers.values()]
+    exprs = [line.expr for line in rows]
+    matches = [_matched(truth, exprs, x, own) for x in possible]
+    scores = [_score(found) for found in matches]
     best = [k for k, x in enumerate(scores) if x == max(scores)]
     if len(best) > 1:  # the signs that most equations agree on
         best.sort(key=lambda k: -_signs(truth, exprs, possible[k], matches[k]))
@@ -96,6 +122,53 @@ def with_own_multipliers(truth: Reference, lines: Sequence[AnsweredLine]) -> Rea
     return next((x for x in kept if not any(map(_is_odd, x.mistakes))), found)
 
 
+def _fits(truth: Reference, reading: _Reading, signs: Mapping[Any, Mapping[int, int]]) -> bool:
+    """Whether multipliers push in every equation as words say that they do."""
+    for s, (x, c) in reading.items():
+        for i, sign in signs[s].items():
+            pushes = cast("sp.Expr", -sign * c * truth.rows[i].diff(x))
+            if pushes != 0 and not (CompiledExpressions([pushes]).at(truth.states) > 0).all():
+                return False
+    return True
+
+
+def _most_agreed(truth: Reference, exprs: Sequence[sp.Expr], possible: Sequence[_Reading]) -> Sequence[_Reading]:
+    """The readings in which most rows with a multiplier are right, where there are more than right ones: λ = …"""
+    own = {x for reading in possible for x, _ in reading.values()}
+    held = [row for row in truth.rows if row.has(*own)] if own else []
+    forced = [e for e in exprs if possible and e.has(*possible[0])]
+    if len(forced) <= len(held):
+        return possible
+
+    def agreed(reading: _Reading) -> int:
+        table = {s: c * x for s, (x, c) in reading.items()}
+        read = [cast("sp.Expr", e.xreplace(table)) for e in forced]
+        return sum(
+            any(zero_everywhere(truth, e - f * row) for row in held for f in _row_factors(truth, e, row)) for e in read
+        )
+
+    counts = [agreed(x) for x in possible]
+    return [x for x, count in zip(possible, counts, strict=True) if count == max(counts)]
+
+
+def _beside_rivals(
+    truth: Reference, found: ReadMultipliers, lines: Sequence[AnsweredLine], rivals: Iterable[ReadMultipliers]
+) -> ReadMultipliers:
+    """The reading or, if another one leaves one mistake as well, and that in another line, both lines as one mistake:
+    nothing says which of them is right."""
+    if len(found.mistakes) != 1 or found.mistakes[0].name not in ("multiplier_sign", "multiplier_factor"):
+        return found
+    kind, ((line, s),) = found.mistakes[0].name, found.slips
+    alike = (x for x in rivals if [m.name for m in x.mistakes] == [kind] and x.slips[0][1] == s)
+    if (other := next((x for x in alike if x.slips[0][0] != line), None)) is None:
+        return found
+    first, second = sorted((line, other.slips[0][0]))
+    read = found if line == second else other
+    titles, pushes = [lines[j].title for j in (first, second)], [read.pushes[j, s] for j in (first, second)]
+    told = unfitting(truth, titles, pushes, s, read.mistakes[0])
+    return replace(found, mistakes=(told,), clashing=(first, second), notes=())
+
+
 def _is_plainer(truth: Reference, reading: ReadMultipliers, than: ReadMultipliers) -> bool:
     """Whether λ read as ±λ leaves no more mistakes than λ times a function of the place, and no number for it."""
     turned = any(
@@ -108,28 +181,33 @@ def _of_stated(
     truth: Reference, lines: Sequence[AnsweredLine], names: Sequence[Any], own: Sequence[Any]
 ) -> Iterator[_Reading]:
     """How λ is read where the answer states a constraint with the slopes of c f for our f: λ/c in all equations, or all
-    with −."""
+    with −. What is the same wherever the system is, x/R = φ for x = R φ, is no scale that λ need have."""
     if len(names) != 1 or len(own) != 1:
         return
     for line in lines:
-        if line.kind != "equation" or line.expr.has(sp.Derivative):
-            continue
-        c = _slope_ratio(truth, line.expr, own[0])
-        if c is not None and bounded.size(c) <= LONGEST:
+        c = _slope_ratio(truth, line.expr, own[0]) if line.kind == "equation" else None
+        if c is not None and bounded.size(c) <= LONGEST and (c.is_number or c.has(*truth.derivation.coordinates)):
             yield from ({names[0]: (own[0], cast("sp.Expr", sign / c))} for sign in (1, -1))
             return
+
+
+def _is_zero_of_positions(line: AnsweredLine) -> bool:
+    """Whether a line states a constraint as f = 0, of which λ ∂f/∂ξ has a sign."""
+    return line.kind == "equation" and not line.expr.has(sp.Derivative) and _ZERO.search(line.text) is not None
 
 
 def _slope_ratio(truth: Reference, g: sp.Expr, x: Any) -> sp.Expr | None:
     """The c with ∂g/∂ξ_i = c times the factor of the multiplier ``x`` on every right-hand side; None without one.
 
-    It is √(x² + y²) for g = (x² + y² − l²)/2 and a constraint √(x² + y²) = l.
+    It is √(x² + y²) for g = (x² + y² − l²)/2 and a constraint √(x² + y²) = l. The slopes of one on rates are by rates.
     """
-    pairs = [
-        (bounded.diff(g, q), -row.diff(x)) for q, row in zip(truth.derivation.coordinates, truth.rows, strict=True)
-    ]
+    coordinates = truth.model.coordinates
+    if g.has(*(c.acceleration for c in coordinates)):
+        return None
+    by = [c.rate if g.has(*(c.rate for c in coordinates)) else c.symbol for c in coordinates]
+    pairs = [(bounded.diff(g, q), -row.diff(x)) for q, row in zip(by, truth.rows, strict=True)]
     c = next((bounded.cancel(a / b) for a, b in pairs if a != 0 and b != 0), None)
-    if c is None:
+    if c is None or c == 0:  # slopes that cancel, as of two forms of one side
         return None
     values = CompiledExpressions([y for a, b in pairs for y in (a, cast("sp.Expr", c * b))]).at(truth.states)
     return c if np.allclose(values[::2], values[1::2], rtol=1e-9, atol=1e-12) else None
@@ -175,20 +253,31 @@ def _read(
     table = {s: cast("sp.Expr", c * x) for s, (x, c) in best.items()}
     told = [text(f"'{plain(s)}' was read as ", x, ".") for s, x in table.items() if s != x]
     read = {id(line): replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in rows}
+    places = {id(line): j for j, line in enumerate(lines)}
     mistakes: list[Mistake] = []
-    wrong: set[int] = set()
+    slips: list[tuple[int, Any]] = []
+    pushes: dict[tuple[int, Any], Pushing] = {}
     for line, found in zip(rows, _matched(truth, exprs, best, own), strict=True):
         for s, (x, c) in best.items():
             right = _right(truth, found, x)
             written = cast("sp.Expr", line.expr.diff(s))
-            if right is None or right == 0 or zero_everywhere(truth, rest := written * c - right):
+            if right is None or found.factor is None or right == 0:
+                continue
+            pushes[places[id(line)], s] = _pushing(found.row, found.factor, written, cast("sp.Expr", right / c))
+            if zero_everywhere(truth, rest := written * c - right):
                 continue
             read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
-            wrong.add(next(j for j, x in enumerate(lines) if x is line))
-            mistakes.append(_mistake(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
+            slips.append((places[id(line)], s))
+            mistakes.append(of_multiplier(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
     sources = [j for j, line in enumerate(lines) if line.kind != "equation" or id(line) in read]
     kept = tuple(read.get(id(lines[j]), lines[j]) for j in sources)
-    return ReadMultipliers(kept, tuple(told), tuple(mistakes), frozenset(wrong), tuple(sources), tuple(best))
+    return ReadMultipliers(kept, tuple(told), tuple(mistakes), tuple(slips), tuple(sources), tuple(best), pushes)
+
+
+def _pushing(row: int, factor: sp.Expr, written: sp.Expr, right: sp.Expr) -> Pushing:
+    """The factors on the right-hand side of an equation whose inertia is on the left, in its own scale."""
+    sign = 1 if factor.could_extract_minus_sign() else -1
+    return Pushing(row, *(cast("sp.Expr", bounded.cancel(sign * x)) for x in (written, right)))
 
 
 _Reading = Mapping[Any, "tuple[Any, sp.Expr]"]
@@ -291,22 +380,3 @@ def _slopes(truth: Reference, exprs: Sequence[sp.Expr], by: Sequence[Any]) -> Ar
 def _right(truth: Reference, found: _Match, x: Any) -> sp.Expr | None:
     """What a multiplier of the system has for a factor in a row of the answer."""
     return None if found.factor is None else cast("sp.Expr", found.factor * truth.rows[found.row].diff(x))
-
-
-def _mistake(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, right: sp.Expr) -> Mistake:
-    """A multiplier that is missing in an equation, or has the wrong sign or factor there, in words."""
-    q, name = truth.derivation.coordinates[i], truth.model.coordinates[i].name
-    multiplier = next(m for m in truth.derivation.multipliers.values() if m.symbol == x)
-    title = multiplier.element.title
-    if written == 0:
-        kind, what = "multiplier_missing", text("The multiplier ", s, " is missing in the equation of ", q, ".")
-    elif zero_everywhere(truth, written + right):
-        words = " has the wrong sign in the equation of "
-        kind, what = "multiplier_sign", text("The multiplier ", s, words, q, ", beside the other equations.")
-    else:
-        sign = -1 if written.could_extract_minus_sign() else 1
-        words = (" stands with the factor ", sign * written, " in the equation of ", q, "; beside the others, ")
-        short = put_together(right) if right.has(sp.tan) else right
-        kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * short, " belongs there.")
-    brief = text("The multiplier does not stand in the equation of ", q, " as it should.")
-    return Mistake(kind, what, WHY, 6, title, name, brief)

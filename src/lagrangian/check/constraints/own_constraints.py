@@ -1,4 +1,5 @@
-"""Constraints as answers write them: integrated, x = r φ for ẋ = r φ̇, or with their multipliers in L = T* − V + λ f."""
+"""Constraints as answers write them: integrated, x = r φ for ẋ = r φ̇, or with their multipliers in L = T* − V + λ f or
+in the generalized forces, Q_r = −b ṙ − S."""
 
 from __future__ import annotations
 
@@ -19,8 +20,8 @@ from lagrangian.model import time
 from lagrangian.model.rows import pressing_rows, rows_of
 from lagrangian.records import dataclass
 
-_IMPLIED = "what multipliers in L say"
-"""The name of the equations that an answer does not write, but that L with multipliers says."""
+_IMPLIED = "what multipliers in L or Ξ say"
+"""The name of the equations that an answer does not write, but that L or Ξ with multipliers says."""
 
 
 def with_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
@@ -43,22 +44,27 @@ def with_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
 
 @dataclass(frozen=True)
 class Unfolded:
-    """An answer with L without multipliers, its constraints f = 0, and the equations that follow from both."""
+    """An answer with L and Ξ without multipliers, the constraints f = 0 of L, and the equations that follow from L;
+    ``pushes`` are the right equations with the multipliers of a Ξ."""
 
     lines: tuple[AnsweredLine, ...]
     constraints: tuple[AnsweredLine, ...] = ()
     equations: tuple[AnsweredLine, ...] = ()
+    pushes: tuple[AnsweredLine, ...] = ()
 
     def judged(self, check: Callable[[Sequence[AnsweredLine]], Verdict]) -> Verdict:
-        """The verdict on the answer; L is wrong if its constraints are, or if its λ is not that of the equations."""
+        """The verdict on the answer; L is wrong if its constraints are, L and Ξ if their λ is not that of the
+        equations."""
         alone = not any(line.kind == "equation" for line in self.lines)
         verdict = check([*self.lines, *self.constraints, *(self.equations if alone else ())])
-        if self.equations and not alone and verdict.right:  # afterwards: L makes up for no missing equation
-            whole = check([*self.lines, *self.constraints, *self.equations])
+        later = [*(() if alone else self.equations), *self.pushes]
+        if later and verdict.right:  # afterwards: L and Ξ make up for no missing equation
+            whole = check([*self.lines, *self.constraints, *self.equations, *self.pushes])
             verdict = verdict if whole.right else whole
-        bad = {f.line.number for f in verdict.findings if f.line.name == _IMPLIED and not f.status.right}
+        said = [f for f in verdict.findings if f.line.name == _IMPLIED and not f.status.right]
+        bad = {(f.line.number, f.line.text) for f in said}
         kept = [f for f in verdict.findings if f.line.name != _IMPLIED]
-        wrong = [f.line.kind == "L" and f.line.number in bad for f in kept]
+        wrong = [f.line.kind in ("L", "Xi") and (f.line.number, f.line.text) in bad for f in kept]
         found = [replace(f, status=Status.WRONG) if x else f for f, x in zip(kept, wrong, strict=True)]
         return replace(verdict, findings=tuple(found))
 
@@ -67,9 +73,41 @@ def unfolded(truth: Reference, lines: Sequence[AnsweredLine]) -> Unfolded:
     """The answer with each L = T* − V + λ f as T* − V, with f = 0 and d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ beside it.
 
     Only if f depends on positions; a λ that presses on friction, of which these equations also depend, is left in L.
+    A Ξ with multipliers loses these in the same way.
     """
+    if pressing_rows(truth.model):
+        return Unfolded(tuple(lines))
+    lines, pushes = _without_pushes(truth, lines)
+    return replace(_without_multipliers_in_L(truth, lines), pushes=pushes)
+
+
+def _without_pushes(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> tuple[tuple[AnsweredLine, ...], tuple[AnsweredLine, ...]]:
+    """The lines with each Ξ without multipliers, and for each of these the right equation with its multipliers."""
+    places = {c.name: row for c, row in zip(truth.model.coordinates, truth.rows, strict=True)}
+    forces = [m.symbol for m in truth.derivation.multipliers.values()]
+    kept: list[AnsweredLine] = []
+    pushes: list[AnsweredLine] = []
+    for line in lines:
+        names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - truth.names | {*forces}
+        own = sorted((x for x in names if line.expr.has(x)), key=str)
+        row = places.get(str(line.name)) if line.kind == "Xi" else None
+        slopes = [bounded.diff(line.expr, x) for x in own]
+        if row is None or not own or any(f.has(*own, sp.Derivative) for f in slopes):
+            kept.append(line)
+            continue
+        pushed = sp.Add(*[x * f for x, f in zip(own, slopes, strict=True)])
+        left = cast("sp.Expr", row.xreplace(dict.fromkeys(forces, sp.S.Zero)))
+        kept.append(replace(line, expr=cast("sp.Expr", line.expr.xreplace(dict.fromkeys(own, sp.S.Zero)))))
+        pushes.append(replace(line, kind="equation", name=_IMPLIED, expr=left - pushed))
+    return tuple(kept), tuple(pushes)
+
+
+def _without_multipliers_in_L(truth: Reference, lines: Sequence[AnsweredLine]) -> Unfolded:
+    """The answer with L = T* − V + λ f as T* − V, and what it says."""
     stated = [line for line in lines if line.kind == "L"]
-    if len(stated) != 1 or pressing_rows(truth.model):
+    if len(stated) != 1:
         return Unfolded(tuple(lines))
     model, L = truth.model, stated[0].expr
     own = sorted({*L.free_symbols, *L.atoms(AppliedUndef)} - truth.names, key=str)

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.check.constraints.counted_together import integrated, ways_together
 from lagrangian.check.coordinates.chart import OF_COORDINATES
 from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
@@ -41,7 +42,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
     own = {c.symbol for c in truth.model.coordinates}
     turned = {d.expr for line in lines for d in _second(line.expr)}
     new = sorted((x for x in turned - own if isinstance(x, AppliedUndef)), key=str)
-    if any(row.position is None for row in rows_of(truth.model)):
+    if any(integrated(truth, row) is None for row in rows_of(truth.model)):
         return None
     for table in _tables(truth, lines, new):
         kept = [c for c in truth.model.coordinates if c.symbol not in table]
@@ -68,6 +69,8 @@ def _tables(
     said = {q: value for q, value in said.items() if value.has(*(new or named.values())) and not value.has(q)}
     if said:
         yield cast("dict[sp.Expr, sp.Expr]", said)
+    if not said and not new:
+        yield from (way for way in ways_together(truth) if way)
     constraints = truth.derivation.constraints
     if constraints is not None and not new:
         yield _of_unwritten(truth, lines, {q: x for w in constraints.proposals if w.new is None for q, x in w.written})
@@ -114,7 +117,8 @@ def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence
         other = Reference(derive(found), truth.values)
     except ModelError:
         return None
-    rows = [cast("sp.Expr", truth.expand(cast("sp.Expr", r.position)).xreplace(table)) for r in rows_of(model)]
+    places = (integrated(truth, row) for row in rows_of(model))
+    rows = [cast("sp.Expr", place.xreplace(table)) for place in places if place is not None]
     values = CompiledExpressions(rows).at(other.states)
     return other if np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL else None
 

@@ -21,7 +21,7 @@ from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of, said_of_rate
 from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
 from lagrangian.check.explain.sheets import sheets
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -104,6 +104,7 @@ class BodiesSaid:
         rates: Sequence[AnsweredLine] = (),
     ) -> None:
         self.truth, self.lines, self.rates = truth, lines, rates
+        self.is_T_right = any(x.kind == "T" for x in right)
         self.proved = frozenset[str]().union(*(x.names for x in right if x.kind in JUDGED and x.expr != 0))
 
     @cached_property
@@ -164,6 +165,7 @@ class BodiesSaid:
         if right is None:
             return None
         exprs = [line.expr - right, *(p.adds(truth, line.kind, i) for p in self.parts)]
+        exprs = [without_time(truth, sp.sympify(x)) for x in exprs] if line.kind == "V" else exprs
         values = CompiledExpressions(exprs).at(truth.states)
         values = without_constant(values) if line.kind in ("V", "L") else values
         size = np.abs(values[0]).max()
@@ -179,6 +181,8 @@ class BodiesSaid:
             chosen = [k for k in combinations(good, count) if self._leads_to(effects, k, rest)]
             if not chosen:
                 continue
+            if self.is_T_right or all(x.kind == "V" for x in wrong):  # a height, not a position that is differentiated
+                chosen.sort(key=lambda c: any(self.parts[k].T != 0 for k in c))
             said = tuple(self.parts[k] for k in chosen[0])
             if count == 1:
                 firsts = {id(p.line): p for k in reversed(chosen) for p in [self.parts[k[0]]]}
@@ -218,7 +222,9 @@ class BodiesSaid:
             return []
         right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
         effects = [p.adds(truth, line.kind, None) for p in self.parts]
-        values = CompiledExpressions([line.expr - right, *effects]).at(truth.states)
+        exprs = [line.expr - right, *effects]
+        exprs = [without_time(truth, sp.sympify(x)) for x in exprs] if line.kind == "V" else exprs
+        values = CompiledExpressions(exprs).at(truth.states)
         level = values if line.kind == "T" else without_constant(values)
         return self._named(level[0], level[1:])
 

@@ -14,7 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions import MISCONCEPTIONS, Ingredients, Variant
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive import Derived
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -91,7 +91,7 @@ class Effects:
         v = wrong.variant
         put = self.truth.put
         try:
-            T, V = self.graph.node(put(v.T)), self.graph.node(put(v.V))
+            T, V = self.graph.node(put(v.T)), self.graph.node(without_time(self.truth, put(v.V)))
             Xi = [self.graph.node(put(sp.sympify(v.Xi.get(i, 0)))) for i in range(self.truth.n)]
             self.graph.ids += [T, V, *Xi, *self.rows(v, T, V, Xi)]
         except ModelError:

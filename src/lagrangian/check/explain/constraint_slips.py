@@ -15,10 +15,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.constraints.counted_together import integrated
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, minus, product, scaled
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.check.terms.sides import on_side
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference
 from lagrangian.model import time
 from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.formula import text
@@ -113,9 +115,9 @@ def _begin(line: AnsweredLine) -> str:
 
 
 def _derived(of: sp.Expr, expr: sp.Expr) -> bool:
-    """Whether an expression is the first or second derivative of another, in any scale."""
+    """Whether an expression is another one or its first or second derivative, in any scale."""
     rate = bounded.diff(of, time)
-    for made in (rate, bounded.diff(rate, time)):
+    for made in (of, rate, bounded.diff(rate, time)):
         quotient = bounded.cancel(bounded.expand(expr) / bounded.expand(made)) if made != 0 else sp.nan
         if quotient is not sp.nan and not quotient.atoms(AppliedUndef):
             return True
@@ -147,13 +149,16 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         return None
     if best is None or best.same < max(1, len(best.right) // 2):
         return None
-    said = _said(ring, best)
+    said = _said(ring, best, line)
     if said is None:
         return None
     title, of = best.row.element.title, NAMES[best.order]
-    which = title if best.order == 0 else f"the {of[1]}derivative of {title}"
-    what = text(_begin(line), f" is not {which}: ", *said)
-    brief = text(_begin(line), f" is not {which}.")
+    if best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
+        is_not = f" does not hold for {title}"
+    else:
+        is_not = f" is not {title}" if best.order == 0 else f" is not the {of[1]}derivative of {title}"
+    what = text(_begin(line), f"{is_not}: ", *said)
+    brief = text(_begin(line), f"{is_not}.")
     return Mistake(of[0], what, WHY[best.order], 1, title, None, brief), best.order
 
 
@@ -163,8 +168,8 @@ def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterat
     lengths = {*expr.free_symbols} - {time}
     for row in rows_of(model):
         exprs = [row.rate, bounded.diff(row.rate, time)]
-        if row.position is not None:
-            exprs = [row.position, *exprs]
+        if (place := integrated(truth, row)) is not None:
+            exprs = [place, *exprs]
         for order, one in enumerate(exprs, 3 - len(exprs)):
             whole = bounded.expand(truth.expand(one))
             right = ring.fold(ring.of(whole))
@@ -203,7 +208,7 @@ def _scaled(ring: SumRing, row: Row, order: int, right: Sum, written: Sum) -> It
     yield _Compared(row, order, there, written, same)
 
 
-def _said(ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
+def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:
     """What is wrong in a line: the squares of the rates, or one term; None for more."""
     difference = found.difference
     missing = {m: c for m, c in found.right.items() if difference.get(m) == -c and m not in found.written}
@@ -220,7 +225,11 @@ def _said(ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
         if len(turned) > 1 and (found.order < 2 or any(_accelerates(ring, m) for m in turned)):
             return None
         be = "has" if len(turned) == 1 else "have"
-        return ("the term " if be == "has" else "the terms ", ring.expr(scaled(turned, -1)), f" {be} the wrong sign.")
+        term = ring.expr(scaled(turned, -1))
+        if be == "has":  # as it stands in the line
+            _, as_written = on_side(line, TermDifference("sign", -term, term, None))
+            term = as_written.written
+        return ("the term " if be == "has" else "the terms ", term, f" {be} the wrong sign.")
     return _one(ring, found, difference)
 
 

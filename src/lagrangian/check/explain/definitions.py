@@ -7,11 +7,15 @@ from dataclasses import replace
 
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns
+from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
+
+PLACED = ("position", "height")
+"""The kinds of quantities that are counted from a place of the answer's own."""
 
 
 def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -> tuple[Finding, ...]:
@@ -32,7 +36,7 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
     for at, new in lines.items():
         if at not in [(f.line.number, f.line.text) for f in found if f.status is Status.WRONG]:
-            found = _inserted(found, new)
+            found = inserted(found, new)
     return tuple(found)
 
 
@@ -53,16 +57,24 @@ def with_right_definitions(
     found = list(findings)
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x) for x in held] or [right_quantities(truth, line) for line in same]
+        every = [right_columns(truth, x) for x in held] or [_right(truth, line) for line in same]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}
         note = text("the ", *next(iter(words.values()))) if len(words) == 1 else None
-        found = _inserted(found, Finding(same[0], Status.RIGHT, note))
+        found = inserted(found, Finding(same[0], Status.RIGHT, note))
     return tuple(found)
 
 
-def _inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
+def _right(truth: Reference, line: AnsweredLine) -> list[Sayable]:
+    """The quantities that a definition has right; a position may be counted from another place."""
+    if found := right_quantities(truth, line):
+        return found
+    placed = [q for q in right_quantities(truth, line, but=True) if q.kind in PLACED]
+    return [replace(q, words=(*q.words, ", from another place")) for q in placed]
+
+
+def inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
     """The findings with one more, before those of lines below it and of what is judged in the same line."""
     lines = [(f.line.number, f.line.kind != "definition") for f in findings]
     place = next((k for k, x in enumerate(lines) if x > (new.line.number, False)), len(findings))

@@ -15,7 +15,7 @@ from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
@@ -68,7 +68,9 @@ def of_line(
         assert i is not None
         undamped = without_dampers(truth, line, i, lines)
         right = truth.Xi[i] if undamped is None else undamped
-    values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
+    values = CompiledExpressions(
+        [without_time(truth, line.expr - right) if line.kind == "V" else line.expr - right]
+    ).at(truth.states)[0]
     if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
         return [], []
     whole = values

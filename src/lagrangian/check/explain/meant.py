@@ -14,7 +14,7 @@ STEMS = {
     "omega": ("turning",),
     "Omega": ("turning",),
     "w": ("turning",),
-    "v": ("speed", "component", "rate"),
+    "v": ("speed", "component", "along", "rate"),
     "T": ("kinetic",),
     "K": ("kinetic",),
     "Ek": ("kinetic",),
@@ -30,10 +30,14 @@ STEMS = {
     "Xi": ("Xi",),
 }
 """The kinds of quantities that letters are used for; any other letter may be of any kind."""
-TRIVIAL = ("turning", "speed", "component", "kinetic", "Xi")
+TRIVIAL = ("turning", "speed", "component", "along", "kinetic", "Xi")
 """Kinds that are said of a name with such a letter even where the value is nothing but a letter: ω = φ̇, Q_φ = M."""
 CENTRES = ("S", "G", "cm", "CM", "com", "CoM")
 """The indices that centres of mass have where no point of the system is called so."""
+PART_OF = {"rotation": "kinetic", "translation": "kinetic"}
+"""Kinds that are part of others, of which a name with the letter of these may be."""
+FIXED = ("x", "y", "z")
+"""What names of fixed axes begin or end with."""
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _DIGITS = re.compile(r"\d+$")
@@ -42,6 +46,19 @@ _DIGITS = re.compile(r"\d+$")
 def kinds_of(name: str) -> tuple[str, ...] | None:
     """The kinds that a name may be of by its letter; None if it may be of any."""
     return STEMS.get(_split(name)[0])
+
+
+def is_meant(kind: str, name: str) -> bool:
+    """Whether a name may be of a kind that only certain names are of: T_rot of a rotation, v_r of no fixed axis."""
+    if kind in ("rotation", "translation"):
+        return kind[:3] in name.lower()
+    return kind not in ("along", "apart") or not _is_along_fixed_axes(name)
+
+
+def _is_along_fixed_axes(name: str) -> bool:
+    """Whether a name is that of a component along x, y or z: v_x, v_Sy, x_S."""
+    stem, index = _split(name)
+    return stem in FIXED or (index not in ("xi", "zeta") and (index[:1] in FIXED or index[-1:] in FIXED))
 
 
 def owner_of(name: str, model: Model) -> Body | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TypeAlias
@@ -12,14 +11,16 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.multipliers import with_own_multipliers
+from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences
 from lagrangian.check.explain.consequences import SMALL
 from lagrangian.check.explain.constraint_mistakes import beside_constraints
 from lagrangian.check.explain.constraint_slips import wrong_constraints
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
+from lagrangian.check.explain.put_in_terms import with_terms_put_in
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
 Lines: TypeAlias = Sequence[AnsweredLine]
@@ -36,14 +37,14 @@ def named_beside_multipliers(
     if verdict.status is not Status.WRONG:
         return verdict
     wrong = wrong_constraints(truth, verdict.findings)
-    keys = _keys([f.line for f in verdict.findings])
+    keys = keys_of([f.line for f in verdict.findings])
     aside = {k: x for k, f in zip(keys, verdict.findings, strict=True) for x in wrong if x.finding is f}
-    kept = [(k, x) for k, x in zip(_keys(lines), lines, strict=True) if k not in aside]
+    kept = [(k, x) for k, x in zip(keys_of(lines), lines, strict=True) if k not in aside]
     again = _repeated([x for _, x in kept])
     again = {kept[j][0]: kept[k][0] for j, k in again.items()}
     kept = [x for x in kept if x[0] not in again]
     lines = [x for _, x in kept]
-    read = with_own_multipliers(truth, lines)
+    read = with_own_multipliers(truth, lines, clashes=not wrong)
     if read is None and not wrong:
         return verdict
     if read is None:
@@ -52,19 +53,28 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
-    judged = _below_constraints(truth, judge(read.lines), [x.finding.line for x in wrong if x.order == SECOND])
-    named = _named(truth, read.lines, judged, [f.line for f in verdict.findings if f.status.right])
-    told = (*named.told, *beside_constraints(truth, lines, wrong, judged, read.mistakes))
+    judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
+    judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
+    judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
+    true = [f.line for f in verdict.findings if f.status.right]
+    named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
+    of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
+    told = (*of_constraints, *named.told) if own is not None else (*named.told, *of_constraints)
     if not told:
         return verdict
-    origin = {k: kept[j][0] for k, j in zip(_keys(read.lines), read.sources, strict=True)}
-    better = {origin[k]: f for k, f in zip(_keys([f.line for f in judged]), judged, strict=True)}
+    origin = {k: kept[j][0] for k, j in zip(keys_of(read.lines), read.sources, strict=True)}
+    better = {origin[k]: f for k, f in zip(keys_of([f.line for f in judged]), judged, strict=True)}
     amiss = {kept[j][0] for j in read.wrong}
     follow = bool(wrong) and not any(x is y for x in read.mistakes for y in told)  # a wrong constraint explains them
     better |= {
-        k: replace(better[k], status=Status.WRONG, follows=follow and wrong[0].finding.line.number < k[0])
+        k: replace(better[k], status=Status.WRONG, note=None, follows=follow and wrong[0].finding.line.number < k[0])
         for k in amiss
     }
+    for j, other in zip(read.clashing, read.clashing[::-1], strict=True):
+        title = lines[other].title
+        if title == lines[j].title:  # both in one line, as of matrices
+            title = f"the equation of {better[kept[other][0]].coordinate}"
+        better[kept[j][0]] = replace(better[kept[j][0]], clash=title)
     better |= {k: replace(x.finding, follows=x.follows) for k, x in aside.items()}
     forces = [*(m.symbol for m in truth.derivation.multipliers.values()), *read.own]
     for k, f in zip(keys, verdict.findings, strict=True):
@@ -117,18 +127,6 @@ def _in_span(row: Array, rows: Array) -> bool:
     factors = np.einsum("sk,skr->sr", row, np.linalg.pinv(rows, rcond=1e-10))
     left = np.abs(row - np.einsum("sr,srk->sk", factors, rows)).max(axis=1)
     return bool((left <= SMALL * np.abs(row).max(axis=1)).all())
-
-
-def _keys(lines: Lines) -> list[tuple[int, str, int]]:
-    """What identifies each line: its number, its text, and which it is of those that stand in the same text."""
-    seen: Counter[tuple[int, str, bool]] = Counter()
-    found: list[tuple[int, str, int]] = []
-    for line in lines:
-        judged = line.kind not in ("definition", "statement")
-        seen[line.number, line.text, judged] += 1
-        count = seen[line.number, line.text, judged]
-        found.append((line.number, line.text, count if judged else -count))
-    return found
 
 
 def _repeated(lines: Lines) -> dict[int, int]:

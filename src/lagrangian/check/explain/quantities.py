@@ -7,7 +7,7 @@ one mistake, from which the energies and the equations with this name follow.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, TypeAlias
 
 import sympy as sp
@@ -17,13 +17,16 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.deflections import struts
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.explain.turned_axes import turned_places, turned_velocities
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, Damper, Gravity, RigidBody
 from lagrangian.page.formula import Left
 from lagrangian.records import dataclass
 
-SIGNED = frozenset(["component", "turning", "height", "deflection", "rate", "force", "damping", "restoring"])
+SIGNED = frozenset(
+    ["component", "along", "apart", "turning", "height", "deflection", "rate", "force", "damping", "restoring"]
+)
 """Kinds that an answer may count in the other sense."""
 LEVEL = frozenset(["position", "height", "deflection", "potential"])
 """Kinds that a constant does not change."""
@@ -67,7 +70,7 @@ class Sayables:
     def __init__(self, truth: Reference) -> None:
         s = ingredients_of(truth.derivation)
         self.of = s
-        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s))
+        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s), *_turned(s))
         self.all = [q for q in every if q.right != 0][:MOST]
         self.rights = [truth.put(q.right) for q in self.all]
         self.values: Array = CompiledExpressions(self.rights).at(truth.states)
@@ -96,6 +99,26 @@ def _speeds(s: Ingredients, b: Any) -> Iterator[Sayable]:
         yield Sayable("component", b, words, x, lambda said, x=x: Effect(T=m * (said**2 - x**2) / 2))
 
 
+def _turned(s: Ingredients) -> Iterator[Sayable]:
+    """The components of velocities and positions along axes that turn."""
+    for b in s.bodies:
+        m = s.expand(b.mass)
+        for axes, x, placed in turned_places(s, b):
+            words = (f"component of the position of {b.title}", *axes)
+            yield Sayable("apart", b, words, x, partial(_elsewhere, s, b, placed))
+        for axes, x in turned_velocities(s, b):
+            words = (f"component of the velocity of {b.title}", *axes)
+            yield Sayable("along", b, words, x, lambda said, m=m, x=x: Effect(T=m * (said**2 - x**2) / 2))
+
+
+def _elsewhere(s: Ingredients, b: Any, placed: Callable[[sp.Expr], list[sp.Expr]], said: sp.Expr) -> Effect:
+    """What a body adds that is at another place."""
+    there, here = placed(said), s.position(b)
+    squares = sp.Add(*[s.rate(x) ** 2 for x in there], *[-(x**2) for x in s.velocity(b)])
+    lifted = [weight_along(s, b, c) * (x - y) for c, (x, y) in enumerate(zip(there, here, strict=True))]
+    return Effect(T=s.expand(b.mass) * squares / 2, V=-sp.Add(*lifted))
+
+
 def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
     omega = s.omega(b) if isinstance(b, RigidBody) else ()
     if len(omega) != 1:
@@ -113,7 +136,7 @@ def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
 def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
     m, v = s.expand(b.mass), s.velocity(b)
     for c, x in enumerate(s.position(b)):
-        if not s.moves(x):
+        if s.rate(x) == 0:
             continue
         weight = weight_along(s, b, c)
 
@@ -211,6 +234,10 @@ def _of_energies(s: Ingredients) -> Iterator[Sayable]:
         words = (of.replace(" of kinetic", ""),)
         T = s.kinetic(e)
         yield Sayable("kinetic", e, words, T, lambda said, T=T: Effect(T=said - T))
+        parts = (("translation", s.translation(e)), ("rotation", s.rotation(e))) if isinstance(e, RigidBody) else ()
+        for part, x in parts if all(x != 0 for _, x in parts) else ():
+            words = (f"kinetic energy of the {part} of {e.title}",)
+            yield Sayable(part, e, words, x, lambda said, x=x: Effect(T=said - x))
     stored = [(b, f"the weight of {b.title}", V) for _, b, V in s.weights()]
     stored += [(e, e.title, V) for e, _, V in s.springs()]
     for owner, of, V in stored:

@@ -12,7 +12,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
-from lagrangian.check.explain.meant import TRIVIAL, is_about_centre, kinds_of, owner_of
+from lagrangian.check.explain.line_mistakes import without_constant
+from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
@@ -32,6 +33,7 @@ _DAMPER = "A damper feels the velocity of one end relative to the other."
 WHY = {
     "speed": text(_SPEED),
     "component": text(_SPEED),
+    "along": text(_SPEED),
     "turning": text("ω is how fast the body itself turns against the fixed axes."),
     "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
     "axis": text(
@@ -39,12 +41,15 @@ WHY = {
         "of mass."
     ),
     "position": text(_WAY),
+    "apart": text(_WAY),
     "height": text(_WAY),
     "place": text(_WAY),
     "velocity": text(_SPEED),
     "deflection": text(_DEFLECTION),
     "rate": text(_DAMPER),
     "force": text("Look at both ends: how far, and how fast, do they move relative to each other?"),
+    "rotation": text("An angular velocity is squared, and so is the radius by which a velocity is divided for it."),
+    "translation": text(_SPEED),
     "kinetic": text("Every body has the kinetic energy of its translation and, if it turns, that of its rotation."),
     "potential": text("Every spring and every weight has its own potential energy; heights are counted upwards."),
     "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
@@ -54,16 +59,21 @@ WHY = {
 }
 CALLED = {
     "component": "velocity",
+    "along": "velocity",
     "turning": "angular velocity",
     "inertia": "moment of inertia",
     "axis": "moment of inertia",
     "height": "position",
+    "apart": "position",
     "place": "position",
     "rate": "velocity",
     "kinetic": "kinetic energy",
+    "rotation": "kinetic energy of the rotation",
+    "translation": "kinetic energy of the translation",
     "potential": "potential energy",
 }
-NAMES = {"component": "speed", "velocity": "speed", "place": "position", "height": "position", "rate": "deflection"}
+NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
+NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
 """What mistakes of some kinds are called."""
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
 MOST_LACKING = 2
@@ -184,10 +194,13 @@ def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
     """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force."""
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
-    found = [k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else q.kind in kinds)]
+    found = [
+        k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else PART_OF.get(q.kind, q.kind) in kinds)
+    ]
     for b in truth.model.bodies if kinds is not None else ():
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
+    found = [k for k in found if is_meant(every[k].kind, name)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
@@ -207,14 +220,14 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False)
             continue
         for x, expr in _readings(q, values, said):
             rest = x - right
-            rest = rest - rest[0] if but and q.kind in LEVEL else rest
+            rest = without_constant(rest) if but and q.kind in LEVEL else rest
             near = np.abs(rest).max() <= NEAR * (1 + np.abs(right).max())
             if near and (but or zero_everywhere(truth, expr - every.rights[k])):
                 found.append(
                     q if expr is said or q.kind != "speed" else replace(q, words=(f"speed of {q.owner.title}",))
                 )
                 break
-    return found
+    return [q for q in found if q.kind != "along"] or found
 
 
 def _readings(q: Sayable, values: Array, said: sp.Expr) -> Iterator[tuple[Array, sp.Expr]]:
@@ -237,11 +250,11 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
     said = in_names_of(truth, line)
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
-    every, elsewhere = quantities_of(truth), bool(right_quantities(truth, line, but=True))
-    s = every.of
+    every, right = quantities_of(truth), right_quantities(truth, line, but=True)
+    s, elsewhere = every.of, bool(right)
     for k in _plausible(truth, line):
         q = every.all[k]
-        if not _alike(s, q, said):
+        if not _alike(s, q, said) or any(q is x for x in right):
             continue
         for written, sign in _senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
@@ -307,9 +320,9 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
         return False
     if q.kind in ("inertia", "axis"):
         return not moves and not rates
-    if q.kind in ("position", "height", "deflection"):
-        return moves and not rates
-    if q.kind in ("turning", "speed", "component"):
+    if q.kind in ("position", "height", "apart", "deflection"):
+        return not rates and (moves or (q.kind == "position" and s.rate(said) != 0))
+    if q.kind in ("turning", "speed", "component", "along"):
         return bool(rates)
     if q.kind == "rate":
         return bool(moves or rates)
@@ -328,7 +341,8 @@ def _senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Ex
     if q.kind not in SIGNED:
         yield said, 1
         return
-    first = turned_to(truth, q.right, said)
+    outwards = -1 if q.right.could_extract_minus_sign() else 1
+    first = outwards if q.kind == "apart" else turned_to(truth, q.right, said)
     yield said, first
     yield said, -first
 

@@ -126,6 +126,8 @@ class Answer:
     """Whether comments hold equations of motion."""
     program: bool = field(default=False, repr=False, compare=False)
     """Whether these are the statements of a program that was carried out."""
+    senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
+    """In which sense words count forces of the answer's own; see `said.senses`."""
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

@@ -1,5 +1,6 @@
 """What quantities are said to depend on: after I(r) = …, I(r) is I and no product of I and r.
 
+After V = m g l cos θ, V(θ) is V, too.
 After L(x) = L0 + L1 x and g(x, y) = x² + y² − l², with L the Lagrangian and g gravity, these are other names.
 """
 
@@ -34,10 +35,18 @@ _MAX = 100
 """The largest number of such quantities."""
 
 
-def dependents(text: str, taken: Callable[[str], bool]) -> frozenset[str]:
-    """Return the quantities that an answer states with what they depend on, as I(r); ``taken`` are names of the
-    system, which are no such quantities unless they are given a matrix."""
-    found: set[str] = set()
+_CALLED_ENERGY = re.compile(
+    r"(?<![\w\\])(?P<name>[TVUKLE])(?P<prime>\s?['’′])?\s{0,3}"
+    r"(?:\\left)?\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
+)
+"""An energy with coordinates or rates in brackets: V(θ), U'(x), T(ẋ)."""
+_OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
+
+
+def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> frozenset[str]:
+    """Return the quantities that an answer states with what they depend on, as I(r), and its energies with coordinates
+    behind them; ``taken`` are names of the system, which are no such quantities unless they are given a matrix."""
+    found = {f"{m['name']}({written(m['of'])})" for m in _called_energies(text, taken, changes) if not m["prime"]}
     for match in _STATED.finditer(text):
         name, of = written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right")
         before = _BEFORE.search(text, max(0, match.start() - 40), match.start())
@@ -46,6 +55,17 @@ def dependents(text: str, taken: Callable[[str], bool]) -> frozenset[str]:
         if len(found) < _MAX and first and free and all(_QUANTITY.match(x) for x in re.split("[,;]", of)):
             found.add(f"{name}({written(of)})")
     return frozenset(found)
+
+
+def _called_energies(
+    text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]
+) -> Iterator[re.Match[str]]:
+    """The energies with coordinates behind them that the answer states without these: V(θ) where V = m g l cos θ."""
+    for match in islice(_CALLED_ENERGY.finditer(text), _MAX):
+        stated = rf"(?<![\w\\]){match['name']}\s{{0,3}}&?\s{{0,3}}=(?!=)"
+        listed = [written(_OF_RATE.sub("", x)) for x in match["of"].split(",")]
+        if not taken(match["name"]) and all(map(changes, listed)) and re.search(stated, text):
+            yield match
 
 
 _LETTERS = frozenset(["L", "T", "D", "R", "K"])
@@ -101,6 +121,8 @@ def with_primes_as_slopes(
     for match in islice(_STATED.finditer(text.text), _MAX):
         of = match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip()
         found.setdefault(written(match["name"]), (match["name"], of))
+    for match in _called_energies(text.text, system, changes):
+        found.setdefault(match["name"], (match["name"], match["of"].strip()))
     found = {
         x: (name, of) for x, (name, of) in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))
     }
@@ -113,8 +135,14 @@ def with_primes_as_slopes(
         forms = _primed(name, of, alone=not moving) if name in primed else []
         forms += _differentiated(name, of) if not system(name) and name not in _LETTERS else []
         new = rf"\frac{{\partial {top}}}{{\partial {of}}}" if latex else f"∂{top}/∂{of}"
-        edits += [(*m.span(), f" {new} ") for form in forms for m in re.finditer(form, text.text)]
+        edits += [(*m.span(), _apart(text.text, m, new)) for form in forms for m in re.finditer(form, text.text)]
     return text.edited(apart(sorted(edits)))
+
+
+def _apart(text: str, match: re.Match[str], new: str) -> str:
+    """What stands in the place of a match, with spaces where there are none: two would be a gap between statements."""
+    before, behind = text[match.start() - 1 : match.start()], text[match.end() : match.end() + 1]
+    return f"{'' if before.isspace() else ' '}{new}{'' if behind.isspace() else ' '}"
 
 
 def _primed(name: str, of: str, *, alone: bool) -> list[str]:

@@ -13,6 +13,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.amounts import amounts_to, without_amounts
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import (
     Statement,
@@ -30,11 +31,10 @@ from lagrangian.check.reading.line_forms import (
 )
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
-from lagrangian.check.reading.named_products import with_named_products
+from lagrangian.check.reading.named_factors import with_solved_factors
 from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
 from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
 from lagrangian.check.reading.own_letters import own_letters
-from lagrangian.check.reading.own_values import amounts_to
 from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
     ENERGIES,
@@ -46,7 +46,6 @@ from lagrangian.check.reading.placeholders import (
 )
 from lagrangian.check.reading.redefined import contradicting
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
-from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
@@ -84,7 +83,7 @@ class Lines:
 
         Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
         """
-        self._statements = statements = with_named_products(statements, self.subjects)
+        self._statements = statements = with_solved_factors(statements, self.subjects)
         self.names.gather(tree for s in statements for tree in s.sides)
         self._collect()
         complete = self._complete()
@@ -161,6 +160,7 @@ class Lines:
             _, same = self.subjects.sharing(subject, turned[i][1])
             for token in (subject.token, *same):
                 self._waiting.setdefault(key(undotted(str(token))[0]), i)  # omega = theta' before omega' = …
+        self._waiting |= {key(str(x.token)): i for i, x in enumerate(first) if x and self.subjects.is_letter(x)}
         named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
         self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
         self.names.given_matrices = self._matrices
@@ -258,8 +258,8 @@ class Lines:
             return made_line("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
             self.names.stated[kind] = value
-            if subject.token is not None and energy_of(subject.token, self.model) is None:
-                self.names.define(subject.token, value)  # K, P are energies only if a line says so
+            if subject.token is not None and self.subjects.is_letter(subject):
+                self.names.define(subject.token, value)
         elif kind == "definition":
             assert subject.token is not None
             above = [s.sides for s in self._statements[: self.names.statement]]
@@ -354,8 +354,7 @@ class Lines:
                 return []
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
-        if len(values) > 2:
-            values, sides = without_parts(values, sides, reader)
+        values, sides = without_parts(*without_amounts(values, sides, self.model), reader)
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
             lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)

@@ -23,7 +23,6 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
-from lagrangian.check.reading.programs.functions import without_functions
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
@@ -122,7 +121,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_stated_rates(said, of, names.known, sure=True)
         said = with_program_names(said, names.changes, lambda name: key(name) in own)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
-    plain = without_programs(without_functions(said, of), names.changes, taken)
+    plain = without_programs(said, names.changes, taken)
     return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)
 
 

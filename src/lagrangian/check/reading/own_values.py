@@ -5,25 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import sympy as sp
-
-from lagrangian.model import Model
-
-ROUNDED = 1e-3
-"""The relative difference of a value that was rounded."""
-
-
-def amounts_to(value: Any, number: Any, model: Model) -> bool:
-    """Whether a number, perhaps with a unit that was read as parameters, is what a value in letters is with the values
-    of the system: R - r = 0.4 m."""
-    if not isinstance(value, sp.Expr) or not isinstance(number, sp.Expr) or not value.free_symbols:
-        return False
-    amount = value.xreplace({p: sp.Float(v) for p, v in model.values.items()})
-    factor, unit = number.as_coeff_Mul()
-    factors: Any = unit.args or [unit]
-    letters = unit == 1 or all(x.as_base_exp()[0].is_Symbol for x in factors)
-    return bool(amount.is_Float and factor != 1 and letters and abs(amount - factor) <= ROUNDED * abs(factor))
-
 
 class OwnValues:
     """The values that an answer gives its own names, in their order, and which of them it uses."""

@@ -33,6 +33,14 @@ MANY_WORDS = 2
 NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
 """A name, with combining dots."""
 
+_LETTERS = r"[^\W\d]\w{0,11}"
+_MEANING = re.compile(
+    rf"(?<![^\s,;(])(?P<name>{_LETTERS})[ \t]{{0,3}}=[ \t]{{0,3}}"
+    rf"(?P<value>{_LETTERS}(?:[ \t]?[-+*/][ \t]?{_LETTERS}){{0,3}})"
+    r"(?=[ \t]*(?:[,;.)]|$))"
+)
+"""A name with a value in names, between commas."""
+
 
 def parsed(
     source: Source,
@@ -67,6 +75,8 @@ def parsed(
                 lines.doubts += [error] if may_redefine(whole, words_of) else []
                 continue
             (errors if stated or error.code == "E703" else words).append(error)
+            if not stated and latex is None:
+                found += [replace(x, remark=remark) for x in _meanings(own, parser, lines, words_of)]
             lines.results += [error] if may_be_result(whole) else []
             if len(errors) >= MOST_LACKING or error.code == "E703":
                 break
@@ -101,6 +111,22 @@ def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words:
             found.append(_statement(part, parser, lines))
     except ParseError:
         return []
+    return found
+
+
+def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
+    """What a row of words says in passing of names that the system does not have: th = angle, Om = Omega."""
+    found: list[Statement] = []
+    for match in _MEANING.finditer(own.text):
+        named = re.findall(NAME, match["value"])
+        if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):
+            continue
+        start = match.start()
+        part = Source(match.group(), own.what, own.place, lambda at, k=start: own.at(k + at))
+        try:
+            found.append(_statement(part, parser, lines))
+        except ParseError:
+            continue
     return found
 
 

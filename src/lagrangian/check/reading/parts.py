@@ -15,7 +15,6 @@ from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import start_of
 from lagrangian.check.reading.placeholders import ENERGIES
-from lagrangian.check.reading.programs.slices import COLUMN
 from lagrangian.quantities.source import Source
 
 _PARTS = "TVUEKPW"
@@ -44,6 +43,8 @@ def tells(kind: Kind, value: Value, after: Sequence[Value], names: Names) -> boo
 
 def without_parts(values: list[Value], sides: list[Tree], reader: Meaning) -> tuple[list[Value], list[Tree]]:
     """The values and sides of an equation without those of forces that nothing explains, between others."""
+    if len(values) < 3:
+        return values, sides
     new = [_new_in(x, reader.names) if isinstance(x, sp.Expr) else set[sp.Basic]() for x in values]
     usual = [all(str(x)[0] in _PARTS + _FORCES for x in names) for names in new]
     drop = [not new[0] and not new[-1] and bool(n) and u for n, u in zip(new, usual, strict=True)]
@@ -64,10 +65,9 @@ def left_out(side: Tree, value: sp.Expr, reader: Meaning) -> None:
 
 
 def tell_general(source: Source, new: Sequence[str], names: Names) -> None:
-    """Tell that a statement is not judged, and because of which names; not of one that only the reading has put in."""
-    if COLUMN not in new or COLUMN in (source.at(0).text or ""):
-        written = " ".join(source.text.split())
-        names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
+    """Tell that a statement is not judged, and because of which names."""
+    written = " ".join(source.text.split())
+    names.notes.setdefault(f"'{written}' was not judged: nothing says what {listed_names(new)}.")
 
 
 def _new_in(value: sp.Expr, names: Names) -> set[sp.Basic]:

@@ -39,6 +39,7 @@ from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKIN
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
+from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
@@ -59,6 +60,7 @@ LONGEST_NAME = 3
 
 CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
 """The note on a program whose lines are not read as they stand."""
+COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = r"(?<=\w)\.(?=\s)|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -106,8 +108,13 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         return _declared(text, model, place)
 
     def by_steps() -> Answer:
-        found = _declared(program, model, place)
-        return replace(found, notes=(CARRIED_OUT, *found.notes), program=True)
+        try:
+            found, notes = _declared(program.text, model, place), (CARRIED_OUT,)
+        except ParseError:
+            if program.bare == program.text:
+                raise
+            found, notes = _declared(program.bare, model, place), (CARRIED_OUT, COMMENTS_LEFT_OUT)
+        return replace(found, notes=(*notes, *found.notes), program=True)
 
     typed: Answer | ParseError
     try:
@@ -226,8 +233,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     """The answer in one reading, without comments unless they are to be read."""
     given, lines = text, Lines(model)
     remarks = without_side_remarks(text, model, lines.names.known)
-    text = remarks.text if reading.bare else text
-    typed = Source(plainer(text), "the answer", place)
+    typed = Source(plainer(remarks.text if reading.bare else text), "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
     called = with_stated_rates(plain, [c.name for c in model.coordinates], lines.names.known)
     rated = called.text != plain.text
@@ -241,7 +247,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     source = plain.source(typed, text)
     source.check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     own = {key(name) for name in model.symbols}
-    lines.names.dependents = dependents(text, lambda name: key(name) in own)
+    lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
     text = text if latex else with_spoken_signs(text, words)
@@ -281,6 +287,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         bool(comments),
+        stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
     )
 
 

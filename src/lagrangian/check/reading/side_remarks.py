@@ -21,6 +21,7 @@ from lagrangian.check.reading.set_aside import MOST_TOLD
 from lagrangian.check.reading.stated import energy_of, force_of
 from lagrangian.model import Model
 from lagrangian.read.letters import undotted
+from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
 
 _CHECKS = (
@@ -78,6 +79,14 @@ _CUE = re.compile(
 )
 _TERM = re.compile(r"[-+*/^²'’′]|\w\(")
 """What stands between a condition and the word that begins it only if a formula begins there."""
+_LABEL = re.compile(rf"[ \t(]*+{_NAME}[ \t]*(?:->|→|=)[ \t]*(?:{_SIMPLE})(?:[ \t]*[,;][^:=\n]{{1,60}})?[ \t]*:")
+"""A condition in front of what holds under it: F = 0, small phi: …"""
+_ABSENT = re.compile(
+    r"\b(?:no|without|negligible|frictionless|undamped|unforced|small|ohne|kein(?:e[nr]?)?|reibungsfrei|ungedämpft|klein(?:e[nr]?)?"
+    r"|sans|petite?s?)\b",
+    re.IGNORECASE,
+)
+"""Words of what a check leaves out: no friction, small angles."""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -129,7 +138,10 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     elif model.constraints:  # a remark may state a constraint
         found = [r for r, n in zip(found, moving, strict=True) if r.case or n]
     bare = _blanked(text, found)
-    used = [r for r in found if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known))]
+    told = [
+        r for r in found if not _REST.search(text[r.start : r.end].split("=", 1)[0])
+    ]  # a value at rest is no meaning
+    used = [r for r in told if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known))]
     bare = _blanked(text, [r for r in found if r not in used]) if used else bare
     changed = [k for k, at in enumerate(starts[:-1]) if not bare.startswith(lines[k], at)]
     said: dict[int, frozenset[str]] = {}
@@ -181,9 +193,9 @@ def _states(written: str, model: Model) -> bool:
 def _explained(written: str, known: Callable[[str], bool]) -> Iterator[str]:
     """The names that a part of a text gives a value to and that the system does not have."""
     for match in _STATED.finditer(written):
-        if _begins(written[max(0, match.start() - 40) : match.start()], known) and not known(
-            match["name"].lstrip("\\")
-        ):
+        name = match["name"].lstrip("\\")
+        own = not known(name) and not any(known(stem) for _, stem in rate_stems(name))  # r_ddot
+        if own and _begins(written[max(0, match.start() - 40) : match.start()], known):
             yield match["name"]
 
 
@@ -199,9 +211,14 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
             k += 1
             continue
         end = _end(lines, k) if _is_open(lines, k) else k + 1
-        case = kind == "case" or _is_case(" ".join(lines[k:end][:2]), known, led=True)
+        case = kind == "case" or _leaves_out(lines[k]) or _is_case(" ".join(lines[k:end][:2]), known, led=True)
         yield _Remark(starts[k], starts[end] - 1, case)
         k = end
+
+
+def _leaves_out(part: str) -> bool:
+    """Whether words in front of the first statement say that something is left out: no rotation, no friction: …"""
+    return _ABSENT.search(part.split("=", 1)[0]) is not None
 
 
 def _kind(line: str) -> str | None:
@@ -262,8 +279,10 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
     start = 0
     for end in ends:
         part = line[start:end]
-        case = bool(part.strip()) and _is_case(part, known, led=False)
-        if case or _HELD.match(part):
+        case = bool(part.strip()) and _is_case(part, known, led=_LABEL.match(part) is not None)
+        kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
+        case = case or kind == "case" or (kind is not None and _leaves_out(part))
+        if case or kind or _HELD.match(part):
             last = k
             if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
                 last = k + 1

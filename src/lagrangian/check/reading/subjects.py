@@ -17,6 +17,7 @@ from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, names_in, spelled_rates
 from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name
+from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
 from lagrangian.model.names import time
@@ -225,6 +226,10 @@ class Subjects:
             return False
         others = equal - subject.right
         return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
+
+    def is_letter(self, subject: Subject) -> bool:
+        """Whether a subject is an energy by a letter that is one only because a line says so: K, P, U."""
+        return subject.kind in ENERGIES and subject.token is not None and energy_of(subject.token, self.model) is None
 
     def is_force_found(self, subject: Subject, above: Sequence[Sequence[Tree]]) -> bool:
         """Whether a name is a multiplier whose value is a result: λ = m g cos θ, which no other line uses, or below an

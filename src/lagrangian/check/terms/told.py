@@ -212,6 +212,9 @@ class _Sums:
         found = bounded.searched(sp.factor, other)
         if found is None or isinstance(found, sp.Add):
             return None
+        for whole in (t.expr for t in self.theirs):
+            if whole.has(sp.Add) and bounded.expand(whole - found) == 0:
+                return whole
         moving = sorted(found.atoms(AppliedUndef, sp.Derivative), key=sp.default_sort_key, reverse=True)
         sums = {x for t in self.right for x in t.atoms(sp.Add)}
         short = cast("sp.Expr", sp.Mul(*[_collected(f, moving, sums) for f in sp.Mul.make_args(found)]))

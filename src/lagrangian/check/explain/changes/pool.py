@@ -169,7 +169,9 @@ class Pool:
             own, table = _table([c.effect.rows.get(i, {}) for c in changes])
             W[:, i] += table @ jets.values(own) - Xi[:, i]
         shown = np.array([c.effect.only is None for c in changes], dtype=float)[:, None]
-        return W, (in_T @ jets.values(T)) * shown, (in_V @ jets.values(V)) * shown, Xi
+        moves = {a for a, x in enumerate(self.sites.ring.atoms) if x.has(*self.sites.of.q)}
+        felt_in_V = np.array([any(a in moves for a, _ in m) for m in V], dtype=float)[:, None]  # time alone is nothing
+        return W, (in_T @ jets.values(T)) * shown, (in_V @ (jets.values(V) * felt_in_V)) * shown, Xi
 
 
 def _table(sums: Sequence[Sum]) -> tuple[list[Monomial], sparse.csr_matrix]:

@@ -13,7 +13,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
 from lagrangian.check.reading.carried_out.mechanics import combined, made
-from lagrangian.check.reading.carried_out.methods import Method, method
+from lagrangian.check.reading.carried_out.methods import MechanicsMethod, method
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
 from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
@@ -78,8 +78,10 @@ class Evaluator:
     """For unknowns of linear equations A x = b: A, b and x."""
     aliases: dict[sp.Symbol, str] = field(default_factory=dict)
     """The names that entries of a state were given."""
-    methods: list[tuple[int, Method]] = field(default_factory=list)
+    methods: list[tuple[int, MechanicsMethod]] = field(default_factory=list)
     """SymPy's methods that a program sets up."""
+    lines: dict[sp.Expr, int] = field(default_factory=dict)
+    """The lines where values were assigned last."""
     renamed: dict[str, str] = field(default_factory=dict)
     """The functions of time in whose places a program puts symbols."""
     functions: dict[str, OwnFunction] = field(default_factory=dict)
@@ -118,8 +120,7 @@ class Evaluator:
         if isinstance(node, ast.BinOp):
             return self._kept(self.operated(node.op, self.value(node.left, names), self.value(node.right, names)))
         if isinstance(node, ast.UnaryOp):
-            inner = self.value(node.operand, names)
-            return inner if isinstance(inner, Outside) else self._signed(node.op, inner)
+            return self._signed(node.op, self.value(node.operand, names))
         if isinstance(node, (ast.List, ast.Tuple)):
             return [self.value(x, names) for x in node.elts]
         if isinstance(node, ast.Dict):
@@ -296,7 +297,7 @@ class Evaluator:
         if any(isinstance(x, Outside) for x in given):
             return UNKNOWN
         if (of := made(name, given, options) or method(name, given, options)) is not None:
-            self.methods += [(node.lineno, of)] if isinstance(of, Method) else []
+            self.methods += [(node.lineno, of)] if isinstance(of, MechanicsMethod) else []
             return of
         if name in ("subs", "Subs") and len(given) > 1:
             return self._replaced(given[0], pairs_of(given[1:]))
@@ -317,13 +318,12 @@ class Evaluator:
         self.depth += 1
         if self.depth > DEEPEST:
             raise AbandonedError
-        names = dict(zip(of.arguments, given, strict=False))
+        names = self.outer | dict(zip(of.arguments, given, strict=False))
         try:
             if isinstance(of.body, ast.expr):
-                return self.value(of.body, {**self.outer, **names})
-            inner = {**self.outer, **names}
-            self.carry_out(of.body, inner)
-            self.several = [inner.get(x, UNKNOWN) for x in (of.out or "").split(",")]
+                return self.value(of.body, names)
+            self.carry_out(of.body, names)
+            self.several = [names.get(x, UNKNOWN) for x in (of.out or "").split(",")]
             return self.several[0]
         except ReturnedError as returned:
             return returned.value

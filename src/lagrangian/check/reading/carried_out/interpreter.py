@@ -115,6 +115,8 @@ class Interpreter(Evaluator):
             for one, part in zip(target.elts, parts, strict=True):
                 self._assign(one, part, names, line)
         elif isinstance(target, ast.Name):
+            if isinstance(value, Outside) and self.known(target.id):
+                value = sp.Symbol(target.id)  # F = workpiece(t, x), which the program has elsewhere
             given = isinstance(value, sp.Symbol) and not self.known(value.name) and "[" not in value.name
             if isinstance(value, sp.Expr) and (value.is_number or given) and self.known(target.id):
                 value = sp.Symbol(target.id)
@@ -122,8 +124,10 @@ class Interpreter(Evaluator):
             if isinstance(value, sp.Symbol) and "[" in value.name:
                 self.aliases.setdefault(value, target.id)
             self.stated.append(Shown(line, target.id, value))
+            self.lines |= {value: line} if isinstance(value, sp.Expr) else {}
         elif isinstance(target, ast.Subscript) or (self.matlab and isinstance(target, ast.Call)):
             self._put(target, value, names)
+            self.lines |= {value: line} if isinstance(value, sp.Expr) else {}
         elif not isinstance(target, ast.Attribute):
             raise AbandonedError
         elif target.attr == "potential_energy" and isinstance(body := self.value(target.value, names), Mass):

@@ -50,7 +50,7 @@ def is_julia(text: str) -> bool:
 
 
 def in_matlab(text: str) -> str:
-    """Return the program in MATLAB's syntax, with the same lines; `AbandonedError` if it has structures within others."""
+    """Return the program in MATLAB's syntax, with the same lines; `AbandonedError` if its brackets do not close."""
     text = _PRIMES.sub(lambda m: "dot" if m.group() == "′" else "ddot", _letters(text))
     text = "\n".join(_without_structures([_commented(x) for x in text.split("\n")]))
     text = _TYPE.sub("", _NOTHING.sub("", _PARAMETERS.sub("", _LEFT_OUT.sub("", text))))
@@ -116,7 +116,7 @@ def _with_results(lines: list[str]) -> str:
 
 
 def _brackets(text: str) -> str:
-    """Indices in round brackets, and columns with semicolons: x[1] as x(1), [a, b] as [a; b], du .= (a, b) as a list."""
+    """Indices in round brackets, columns with semicolons: x[1] as x(1), [a, b] as [a; b], du .= (a, b) as a list."""
     out: list[str] = []
     open_: list[str] = []
     whole = {m.end() - 1 for m in _WHOLE.finditer(text) if m["bare"]}

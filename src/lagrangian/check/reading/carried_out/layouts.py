@@ -10,13 +10,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from itertools import permutations
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.values import TIME, OwnFunction, State
-from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.records import dataclass
@@ -30,12 +29,14 @@ Motion = tuple[list[tuple[sp.Expr, sp.Expr]], dict[sp.Symbol, sp.Expr]]
 
 @dataclass(frozen=True, eq=False)
 class Layouts:
-    """Finds which coordinates and rates the entries of states are; ``comments`` are the entries that these list."""
+    """Finds which coordinates and rates the entries of states are; ``comments`` are the entries that these list, and
+    ``rated`` the coordinate whose rate a name is."""
 
     run: Evaluator
     model: Model
     scope: AnswerScope
     comments: Callable[[str], dict[int, str]]
+    rated: Callable[[str], str | None]
 
     def of_accelerations(self, f: OwnFunction, states: Sequence[State], rates: Sequence[sp.Expr]) -> Motion | None:
         """The accelerations that a function returns, one for each coordinate; None if it may be something else."""
@@ -101,11 +102,12 @@ class Layouts:
     def _meaning(self, name: str) -> tuple[int | None, str | None]:
         """Whether a name is one of a coordinate or of its rate, and of which."""
         coordinates = {c.name for c in self.model.coordinates}
-        for order, stem in ((0, name), *((k, x) for k, x in spelled_rates(name) if k == 1)):
-            meant = [x for x in self.scope.meanings(stem)[0] if x in coordinates]
-            if len(meant) == 1:
-                return order, meant[0]
-        return None, None
+        meant = [x for x in self.scope.meanings(name)[0] if x in coordinates]
+        if len(meant) == 1:
+            return 0, meant[0]
+        stem = self.rated(name)
+        of = [x for x in self.scope.meanings(stem)[0] if x in coordinates] if stem else []
+        return (1, of[0]) if of else (None, None)
 
     def of_residuals(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Motion | None:
         """The equations of a function of a state and of its rates that is 0; what has no rate there is a multiplier."""
@@ -128,7 +130,9 @@ class Layouts:
                 table |= {yp.entry(i): q.diff(TIME), yp.entry(j): q.diff(TIME, 2)}
             left = {k: x for k, x in y.entries.items() if x not in table and any(r.has(x) for r in rates)}
             table |= {x: sp.Symbol(names.get(k, f"lambda_{k}")) for k, x in left.items()}
-            return [(x.xreplace(table), sp.S.Zero) for x in rates if x not in pairs], table
+            return [
+                (cast("sp.Expr", x.xreplace(table)), cast("sp.Expr", sp.S.Zero)) for x in rates if x not in pairs
+            ], table
         return None
 
 

@@ -32,7 +32,7 @@ MOST = 12
 
 
 @dataclass(eq=False)
-class Frame(Mechanical):
+class SymbolicFrame(Mechanical):
     """A frame: the matrix that turns its columns into those of the ground, and its angular velocity."""
 
     turned: MatrixBase = field(default_factory=lambda: sp.eye(3))
@@ -46,7 +46,7 @@ class Frame(Mechanical):
     def call(self, name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Value:
         """What a method of the frame does."""
         if name in ("orientnew", "orient"):
-            made = Frame() if name == "orientnew" else self
+            made = SymbolicFrame() if name == "orientnew" else self
             parent, (kind, angles, *order) = (self, given[1:]) if name == "orientnew" else (_frame(given[0]), given[1:])
             order = order or [options.get("rot_order", "")]
             if str(kind).lower() == "axis":
@@ -74,7 +74,7 @@ class Frame(Mechanical):
         """The angular velocity."""
         return self.omega or Vector({})
 
-    def turn(self, parent: Frame, angle: sp.Expr, axis: Vector) -> None:
+    def turn(self, parent: SymbolicFrame, angle: sp.Expr, axis: Vector) -> None:
         """Turn about an axis of a parent."""
         n = parent.turned.T * axis.column()
         skew = sp.Matrix([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
@@ -85,7 +85,7 @@ class Frame(Mechanical):
         self.turned = checked((parent.turned * R).applyfunc(sp.expand))
         self.omega = parent.rate().plus(Vector({parent: n * slope(angle, TIME)}))
 
-    def turn_thrice(self, parent: Frame, angles: Sequence[Value], order: str) -> None:
+    def turn_thrice(self, parent: SymbolicFrame, angles: Sequence[Value], order: str) -> None:
         """Turn by three angles about axes that turn, 313 or ZXZ."""
         if len(order) != len(angles) or len(order) != 3:
             raise AbandonedError
@@ -93,7 +93,7 @@ class Frame(Mechanical):
         for k, (angle, axis) in enumerate(
             zip(angles, order.lower().translate(str.maketrans("123", "xyz")), strict=True)
         ):
-            made = self if k == 2 else Frame()
+            made = self if k == 2 else SymbolicFrame()
             made.turn(at, scalar(angle), at.attribute(axis))
             at = made
 
@@ -102,9 +102,9 @@ class Frame(Mechanical):
 class Vector(Mechanical):
     """A vector: a column for each frame in whose axes it is given."""
 
-    parts: Mapping[Frame, MatrixBase]
+    parts: Mapping[SymbolicFrame, MatrixBase]
 
-    def column(self, frame: Frame | None = None) -> MatrixBase:
+    def column(self, frame: SymbolicFrame | None = None) -> MatrixBase:
         """The column in the axes of the ground, or of a frame."""
         if set(self.parts) == {frame}:
             return self.parts[frame]  # type: ignore[index]  # a frame
@@ -128,7 +128,7 @@ class Vector(Mechanical):
         """The scalar product."""
         one = next(iter(self.parts), None) if self.parts.keys() == other.parts.keys() and len(self.parts) == 1 else None
         a, b = self.column(one), other.column(one)
-        return checked(sp.Add(*[x * y for x, y in zip(a, b, strict=True)]))
+        return checked(sp.Add(*[x * y for x, y in zip(a.flat(), b.flat(), strict=True)]))
 
     def cross(self, other: Vector) -> Vector:
         """The vector product."""
@@ -177,7 +177,7 @@ class Vector(Mechanical):
 class Dyad(Mechanical):
     """An inertia: a matrix in the axes of a frame."""
 
-    frame: Frame
+    frame: SymbolicFrame
     matrix: MatrixBase
 
     def along(self, v: Vector) -> Vector:
@@ -194,13 +194,13 @@ class Dyad(Mechanical):
 
 
 @dataclass(eq=False)
-class Point(Mechanical):
+class SymbolicPoint(Mechanical):
     """A point: where it is seen from another one, and its velocities in frames, as they are stated."""
 
-    parent: Point | None = None
+    parent: SymbolicPoint | None = None
     seen: Vector = field(default_factory=lambda: Vector({}))
     velocity: Vector | None = None
-    within: dict[Frame, Vector] = field(default_factory=dict)
+    within: dict[SymbolicFrame, Vector] = field(default_factory=dict)
     depth: int = 0
 
     def attribute(self, name: str) -> Value:
@@ -210,7 +210,7 @@ class Point(Mechanical):
     def call(self, name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Value:
         """What a method of the point does."""
         if name == "locatenew":
-            return Point(self, _vector(given[1]), depth=self.depth + 1)
+            return SymbolicPoint(self, _vector(given[1]), depth=self.depth + 1)
         if name == "set_pos":
             self.parent, self.seen, self.depth = _point(given[0]), _vector(given[1]), _point(given[0]).depth + 1
         elif name == "set_vel":
@@ -237,7 +237,7 @@ class Point(Mechanical):
             raise AbandonedError
         return self.seen if self.parent is None else self.parent.place().plus(self.seen)
 
-    def from_(self, other: Point) -> Vector:
+    def from_(self, other: SymbolicPoint) -> Vector:
         """Where the point is, seen from another one."""
         return self.place().plus(other.place(), -1)
 
@@ -252,9 +252,9 @@ class Point(Mechanical):
 class Mass(Mechanical):
     """A particle or a rigid body."""
 
-    at: Point
+    at: SymbolicPoint
     mass: sp.Expr
-    frame: Frame | None = None
+    frame: SymbolicFrame | None = None
     inertia: Dyad | None = None
     potential: sp.Expr = sp.S.Zero
 
@@ -285,14 +285,14 @@ def _angle_and_axis(given: Sequence[Value]) -> tuple[sp.Expr, Vector]:
     return (scalar(b), a) if isinstance(a, Vector) else (scalar(a), _vector(b))
 
 
-def _frame(value: Value) -> Frame:
-    if not isinstance(value, Frame):
+def _frame(value: Value) -> SymbolicFrame:
+    if not isinstance(value, SymbolicFrame):
         raise AbandonedError
     return value
 
 
-def _point(value: Value) -> Point:
-    if not isinstance(value, Point):
+def _point(value: Value) -> SymbolicPoint:
+    if not isinstance(value, SymbolicPoint):
         raise AbandonedError
     return value
 
@@ -314,9 +314,9 @@ def masses(values: Sequence[Value]) -> list[Mass]:
 def made(name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Value | None:
     """What a routine of SymPy's mechanics makes; None for any other routine."""
     if name == "ReferenceFrame":
-        return Frame()
+        return SymbolicFrame()
     if name == "Point":
-        return Point()
+        return SymbolicPoint()
     if name == "Particle" and len(given) > 2:
         return Mass(_point(given[1]), scalar(given[2]))
     if name == "RigidBody" and len(given) > 4:

@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
-from lagrangian.check.reading.carried_out.mechanics import Frame, Mass, Point, Vector, masses
+from lagrangian.check.reading.carried_out.mechanics import Mass, SymbolicFrame, SymbolicPoint, Vector, masses
 from lagrangian.check.reading.carried_out.values import (
     TIME,
     UNKNOWN,
@@ -35,13 +36,15 @@ def _loads(value: Value) -> list[Load]:
     if value is None or isinstance(value, Outside):
         return []
     found = [tuple(listed(x)) for x in listed(value)]
-    if not all(len(x) == 2 and isinstance(x[0], (Point, Frame)) and isinstance(x[1], Vector) for x in found):
+    if not all(
+        len(x) == 2 and isinstance(x[0], (SymbolicPoint, SymbolicFrame)) and isinstance(x[1], Vector) for x in found
+    ):
         raise AbandonedError
     return found  # type: ignore[return-value]  # pairs
 
 
-def _velocity(of: Point | Frame) -> Vector:
-    return of.moving() if isinstance(of, Point) else of.rate()
+def _velocity(of: SymbolicPoint | SymbolicFrame) -> Vector:
+    return of.moving() if isinstance(of, SymbolicPoint) else of.rate()
 
 
 def _columns(value: Value) -> list[Value]:
@@ -49,7 +52,7 @@ def _columns(value: Value) -> list[Value]:
 
 
 @dataclass(eq=False)
-class Method(Mechanical):
+class MechanicsMethod(Mechanical):
     """A method of SymPy's mechanics. ``told`` are equations that its results say and the program may not show."""
 
     coordinates: list[Any]
@@ -80,7 +83,7 @@ class Method(Mechanical):
 
 
 @dataclass(eq=False)
-class OfLagrange(Method):
+class OfLagrange(MechanicsMethod):
     """Lagrange's equations with the forces of a list and with multipliers."""
 
     lagrangian: sp.Expr = sp.S.Zero
@@ -100,7 +103,7 @@ class OfLagrange(Method):
 
 
 @dataclass(eq=False)
-class OfKane(Method):
+class OfKane(MechanicsMethod):
     """Kane's equations in rates of coordinates."""
 
     speeds: list[Any] = field(default_factory=list)
@@ -134,7 +137,7 @@ class OfKane(Method):
             return {}
         A = sp.Matrix([[slope(x, v) for v in rates] for x in self.kinematic])
         rest = sp.Matrix([x.xreplace(dict.fromkeys(rates, sp.S.Zero)) for x in self.kinematic])
-        if A.shape[0] != A.shape[1] or not all(x.is_number for x in A) or A.det() == 0:
+        if A.shape[0] != A.shape[1] or A.atoms(sp.Symbol, AppliedUndef) or A.det() == 0:
             raise AbandonedError
         return dict(zip(rates, (-A.inv() * rest).flat(), strict=True))
 
@@ -145,7 +148,7 @@ class OfKane(Method):
             return {}
         A = sp.Matrix([[slope(x, u) for u in own] for x in self.kinematic])
         rest = sp.Matrix([x.xreplace(dict.fromkeys(own, sp.S.Zero)) for x in self.kinematic])
-        if A.shape[0] != A.shape[1] or not all(x.is_number for x in A) or A.det() == 0:
+        if A.shape[0] != A.shape[1] or A.atoms(sp.Symbol, AppliedUndef) or A.det() == 0:
             raise AbandonedError
         values = (-A.inv() * rest).flat()
         moved = {u.diff(TIME): slope(x, TIME) for u, x in zip(own, values, strict=True)}
@@ -171,7 +174,7 @@ class OfKane(Method):
         return put[0], put[1]
 
 
-def method(name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Method | None:
+def method(name: str, given: Sequence[Value], options: Mapping[str, Value]) -> MechanicsMethod | None:
     """The method that a program sets up; None for any other routine."""
     if name == "LagrangesMethod" and len(given) > 1:
         qs = _columns(given[1])

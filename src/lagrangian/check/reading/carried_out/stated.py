@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import Any, cast
 
@@ -62,11 +62,20 @@ _MEANS = re.compile(
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
-def carried_out(text: str, model: Model) -> str | None:
-    """Return what a program in Python, MATLAB or Julia states, each statement on the line where the program has it; None if it
-    is no such program, or states nothing that can be carried out.
+@dataclass(frozen=True)
+class CarriedOut:
+    """What a program states, each statement on the line where the program has it; with its comments and without."""
 
-    Comments with accelerations stay as they are. Nothing is executed: the syntax tree is carried out on symbols.
+    text: str
+    """With the comments that hold accelerations, as they are."""
+    bare: str
+
+
+def carried_out(text: str, model: Model) -> CarriedOut | None:
+    """Return what a program in Python, MATLAB or Julia states.
+
+    None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
+    carried out on symbols.
     """
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
     if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
@@ -95,7 +104,12 @@ def carried_out(text: str, model: Model) -> str | None:
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     foreign = {x for x in own if not _is_of_system(scope, x)}
-    return _laid_out(text, [*_renamed(run, text, found, scope, model), *found], foreign)
+    found = [*_renamed(run, text, found, scope, model), *found]
+    lines = text.split("\n")
+    said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
+    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
+    comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found))
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:
@@ -129,12 +143,9 @@ def _depth(text: str) -> int:
     return most
 
 
-def _laid_out(text: str, found: Sequence[tuple[int, str]], foreign: Set[str]) -> str:
-    """The statements on their lines, and the comments that hold accelerations and no names of the program's own."""
-    lines = text.split("\n")
-    said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
-    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
-    made = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+def _laid_out(lines: Sequence[str], found: Sequence[tuple[int, str]]) -> str:
+    """The statements on their lines, behind what is there."""
+    made = list(lines)
     for line, said in found:
         at = min(max(line - 1, 0), len(made) - 1)
         made[at] = f"{made[at]} ; {said}" if made[at] else said
@@ -179,7 +190,7 @@ def _of_states(
     """The accelerations that the functions of a program return, as equations of motion."""
     reader = StateReader(run, text, model, scope)
     for found in reader.functions(names):
-        yield from ((found.line, said) for said in _equations(run, found, reader))
+        yield from _equations(run, found, reader)
     for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
@@ -190,11 +201,11 @@ def _of_states(
             rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-            yield from ((one.line, said) for said in _equations(run, found, reader))
+            yield from _equations(run, found, reader)
 
 
-def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[str]:
-    """The equations of one function: of unknowns that a program solves for, those that it solves.
+def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[tuple[int, str]]:
+    """The equations of one function, with their lines: of unknowns that a program solves for, those that it solves.
 
     Unknowns that are no accelerations are multipliers, by the names that the program or its comments give them.
     """
@@ -203,7 +214,7 @@ def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> I
     done: set[Any] = set()
     for rate, value in found.accelerations:
         if value not in run.solved:
-            yield f"{written(rate)} = {written(put(_explicit(run, value)))}"
+            yield run.lines.get(value, found.line), f"{written(rate)} = {written(put(_explicit(run, value)))}"
             continue
         A, b, x = run.solved[cast("sp.Symbol", value)]
         if x in done:
@@ -215,7 +226,7 @@ def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> I
             raise AbandonedError
         for k in range(A.shape[0]):
             left = sp.Add(*[put(_explicit(run, A[k, j])) * unknowns[x[j]] for j in range(A.shape[1])])
-            yield f"{written(left)} = {written(put(_explicit(run, b[k])))}"
+            yield found.line, f"{written(left)} = {written(put(_explicit(run, b[k])))}"
 
 
 def _explicit(run: Interpreter, value: sp.Expr) -> sp.Expr:
@@ -223,7 +234,7 @@ def _explicit(run: Interpreter, value: sp.Expr) -> sp.Expr:
     for _ in range(DEEPEST):
         if not (found := value.free_symbols & run.solved.keys()):
             return value
-        value = checked(value.xreplace({x: cramer(x, *run.solved[x]) for x in found}))
+        value = checked(value.xreplace({x: cramer(x, *run.solved[x]) for x in run.solved if x in found}))
     raise AbandonedError
 
 

@@ -62,8 +62,8 @@ class StateReader:
             states = [x for x in given.values() if isinstance(x, State)]
             if rates is None:
                 continue
-            found = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
-            layouts = Layouts(self.run, self.model, self.scope, self.in_comments)
+            found: Any = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
+            layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self._rated)
             found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)
@@ -111,7 +111,7 @@ class StateReader:
         for k, x in state.entries.items():  # the rate of a coordinate that is left out because it is cyclic
             if x in table:
                 continue
-            stem = self._rated(self.run.aliases.get(x) or comments.get(k) or "")
+            stem = self._rated(self.run.aliases.get(x) or "") or self._rated(comments.get(k) or "")
             if stem is None:
                 return None
             q = sp.Function(stem)(TIME)
@@ -120,7 +120,7 @@ class StateReader:
         return (pairs, table) if pairs else None
 
     def _as_said(self, state: State, comments: dict[int, str], rates: Sequence[sp.Expr]) -> Any:
-        """What is said of the rates of a state whose first ones are no rates of positions: x' = x, which is not true."""
+        """What is said of a state whose first rates are no rates of positions: x' = x, which is not true."""
         coordinates = [sp.Function(c.name)(TIME) for c in self.model.coordinates]
         if len(rates) != 2 * len(coordinates):
             return None
@@ -133,9 +133,15 @@ class StateReader:
         return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
     def _rated(self, name: str) -> str | None:
-        """The coordinate whose rate a name is: psd of psi."""
+        """The coordinate whose rate a name is: psd of psi, and i where a comment says i = q'."""
         coordinates = {c.name for c in self.model.coordinates}
+        said = (
+            re.findall(rf"[#%][^\n]*?(?<!\w){re.escape(name)}[ ]?=[ ]?([^\W\d]\w*+)(?:['’]|[ ]?dot\b)", self.text)
+            if name
+            else []
+        )
         found = [s for k, s in spelled_rates(name) if k == 1 and set(self.scope.meanings(s)[0]) & coordinates]
+        found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
         return found[0] if found else None
 
     def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:

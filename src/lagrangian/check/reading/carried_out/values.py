@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
@@ -296,7 +296,8 @@ def cramer(x: sp.Symbol, A: MatrixBase, b: MatrixBase, unknowns: Sequence[sp.Sym
         raise AbandonedError
     swapped = sp.Matrix(A)
     swapped[:, unknowns.index(x)] = b
-    return checked(swapped.det(method="berkowitz") / sp.Matrix(A).det(method="berkowitz"))
+    above, below = (cast("sp.Expr", x.det(method="berkowitz")) for x in (swapped, sp.Matrix(A)))
+    return checked(above / below)
 
 
 def called_name(node: ast.expr) -> str:

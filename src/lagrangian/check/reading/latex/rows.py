@@ -41,7 +41,8 @@ _SYSTEM = re.compile(
 )
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
 _UPRIGHT_NUMBER = re.compile(r"\\(?:mathrm|mathbf|text|textbf|textrm|rm)\s*\{\s*\(\s*\w{1,4}\s*\)\s*\}")
-_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath)\s*\{")
+_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath|(?:underline|uu?line)(?!\s*\{\s*\\?\w{1,20}\s*\}))\s*\{")
+"""What stands around a result; a line below one name is a part of the name."""
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
 _SHORT = re.compile(r"\w{1,20}\Z")
 _LINKS = frozenset(
@@ -58,6 +59,11 @@ _LETTER_BEFORE = re.compile(
     re.DOTALL,
 )
 """A letter or a number with a bracket that nothing opens, perhaps after a word, and Roman numbers: ad a), (ii)."""
+_NAME_BEFORE = re.compile(
+    rf"{_SPACE}(?:\\[A-Za-z]{{2,12}}|[^\W\d_])(?:\s?_\s?(?:\w|\{{\w{{1,8}}\}}))?\s*:(?={_SPACE}[^\s=])(?=.*=)",
+    re.DOTALL,
+)
+"""The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F."""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
@@ -207,7 +213,7 @@ def _without_words(text: str) -> str:
 
 def _unboxed(text: str) -> str:
     r"""Blank out every ``\boxed{`` and its closing brace."""
-    if "\\boxed" not in text and "\\fbox" not in text and "\\ensuremath" not in text:
+    if _BOXED.search(text) is None:
         return text
     letters, boxes = list(text), list[bool]()
     for match in re.finditer(rf"{_BOXED.pattern}|\\[{{}}]|[{{}}]", text):
@@ -237,7 +243,7 @@ def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
 
 def _labels(piece: str) -> str:
     """Blank out arrows, and numbers of equations before and after a statement."""
-    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _ARROW):
+    for form in (_ARROW, _NUMBER_BEFORE, _LETTER_BEFORE, _NAME_BEFORE, _ARROW):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
     end = _content_end(piece)
@@ -270,7 +276,7 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
 def _tidy(row: AnswerRow) -> AnswerRow:
     text = _outer(row.text)
     end = _content_end(text)
-    while end and text[end - 1] in ".,;":
+    while end and text[end - 1] in ".,;:":
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
         end = _content_end(text[:end])
     return AnswerRow(row.start, text[:end])
@@ -288,6 +294,7 @@ def _outer(text: str) -> str:
     letters = list(text)
     for at in places:
         letters[at] = " "
+    places = [b for a, b in pairwise([-1, *places]) if a < 0 or text[a + 1 : b].strip() != "="]  # a &=& b
     between = places[1::2]
     pairs = [text[a:b] for a, b in pairwise([0, *between, len(text)])]
     if between and all("=" in pair and not _STARTS.match(pair) for pair in pairs):

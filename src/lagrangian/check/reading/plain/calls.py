@@ -37,7 +37,7 @@ class PlainCalls(PlainDerivatives):
         inside = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
         if inside[:2] == ["t", ")"] or self.words.calls(token.text) or self._says(token):
             return True
-        if self._of_column() or (token.text in REWRITES and not self.words.known(token.text)):
+        if self._of_column():
             return True
         moving = self.words.names.changes(token.text)
         if moving and self.ahead().kind == "number" and inside[1:2] == [")"]:
@@ -49,6 +49,10 @@ class PlainCalls(PlainDerivatives):
             end += 1
         listed = all(x.kind in ("name", "primes", ",", "(") for x in self.tokens[self.i : end])
         return listed and self.tokens[end + 1 : end + 2] != [] and self.tokens[end + 1].kind == "="
+
+    def _rewrites(self, token: AnswerToken) -> bool:
+        """Whether the next bracket holds what a program writes in another way: simplify(…), Expand[…]."""
+        return self.next.kind in CLOSING and token.text in REWRITES and not self.words.known(token.text)
 
     def _of_column(self) -> bool:
         """Whether the next bracket only holds the column of coordinates, as in M(q) q'', C(q, q') and C(q, qdot)."""
@@ -76,8 +80,6 @@ class PlainCalls(PlainDerivatives):
         depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
         if (stated or (depends and token is self.tokens[0])) and not self.words.is_function(token.text):  # V(theta) = …
             return name(token.text, token.start)
-        if token.text in REWRITES and arguments:
-            return arguments[0]
         return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
 
     def _arguments(self) -> list[Tree]:

@@ -249,7 +249,8 @@ class PlainParser(PlainCalls):
             if self.next.kind == "name" and self.ahead().kind != "primes":  # ddot x
                 below = self.take()
                 return name(below.text, below.start, DOTS[token.text])
-        if token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text):
+        whole = token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text)
+        if whole or self._rewrites(token):
             return self._bracket_of_one()
         if token.text == "diag" and self.next.kind == "(" and not self.words.is_name("diag"):
             listed = self._arguments()
@@ -269,8 +270,10 @@ class PlainParser(PlainCalls):
         return name(token.text, token.start)
 
     def _bracket_of_one(self) -> Tree:
-        """Read Matrix([[a, b], [c, d]])."""
+        """Read Matrix([[a, b], [c, d]]), or the first argument of a function that writes it in another way."""
         found = self._arguments()
+        if not found:
+            raise self.stopped(True)
         return found[0]
 
     def _function(self, token: AnswerToken) -> Tree:

@@ -26,6 +26,7 @@ from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
+from lagrangian.check.reading.prose.sides_in_words import without_sides_in_words
 from lagrangian.check.reading.prose.sketches import without_sketches
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import (
@@ -158,7 +159,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     begin = {row.start for row in rows}  # labels behind commas: of A: x' = a, of B: y' = b
     split = [x if x.start in begin else replace(x, text=before(x.text, words, numbers)) for x in split]
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
-    found = [AnswerRow(row.start, _bare(row.text, words)) for row in split]
+    found = [AnswerRow(row.start, without_sides_in_words(_bare(row.text, words), words)) for row in split]
     if len(found) > 1:
         told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
         found, split = [row for row, _ in told], [own for _, own in told]

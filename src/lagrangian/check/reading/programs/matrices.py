@@ -18,7 +18,6 @@ from itertools import islice
 
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
 from lagrangian.check.reading.programs.sessions import MOST, closes
-from lagrangian.check.reading.programs.slices import with_states_one_by_one
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 

@@ -119,7 +119,9 @@ def _commented(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
                 own = [f"{x}'" for x in above]
             new = new[-len(own) :]  # two pendula, th1, th2 = …
             fits = len(new) == len(own) and all(taken(x.rstrip("'’′")) for x in own)
-            if not fits or any(taken(x) or not _used(text, x, comment.span()) for x in new):
+            before = said[: match.start()].strip()
+            ends = len(before) > 1 and before[-1] in "+-−*/^·"  # m s'' + b psid = tau
+            if ends or not fits or any(taken(x) or not _used(text, x, comment.span()) for x in new):
                 continue
             above = own
             stated += [f"{a} = {b}" for a, b in zip(new, own, strict=True)]

@@ -12,7 +12,8 @@ import re
 from lagrangian.check.reading.traced_text import TracedText
 
 _NAME = r"[^\W\d]\w{0,23}+"
-_TEXT = r"[bfru]?(?P<mark>\"|')(?P<said>(?:(?!(?P=mark))[^\n]){1,400}+)(?P=mark)"
+_TEXT = r"(?:[bfru](?=[\"']['\"\w(\[\\]))?(?P<mark>\"|')(?P<said>(?:(?!(?P=mark))[^\n]){1,400}+)(?P=mark)"
+"""A text in quotes. A letter before a mark is a prefix only if the text begins at once: r' + l θ' are two rates."""
 _QUOTED = re.compile(
     rf"^(?P<indent>[ \t]*+)(?:(?P<quote>['\"]?)(?P<to>{_NAME})(?P=quote)[ \t]*+[=:][ \t]*+)?(?:\[[ \t]*+)?"
     rf"(?P<call>(?:\w{{1,8}}\.)?(?:sympify|parse_expr|str2sym|S|sym|print|disp)\([ \t]*+)?{_TEXT}"

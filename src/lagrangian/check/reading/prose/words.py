@@ -35,7 +35,10 @@ SPELLINGS = {
 }
 """How other languages write functions."""
 
-_REWRITES = "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel"
+_REWRITES = (
+    "expand simplify factor collect trigsimp nsimplify ratsimp ratexpand trigexpand trigreduce together cancel "
+    "Expand ExpandAll Simplify FullSimplify Factor Collect TrigExpand TrigReduce TrigFactor Together Cancel"
+)
 REWRITES = frozenset(_REWRITES.split())
 """Functions of programs that write an expression, their first argument, in another way."""
 

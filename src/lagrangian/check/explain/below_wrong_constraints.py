@@ -1,0 +1,70 @@
+"""Lines that only follow from a constraint that an answer has wrong: V with −x/R for φ, below φ = −x/R."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.explain.constraint_slips import WrongConstraint
+from lagrangian.check.held import OnConstraints
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import harmless, right_value, spanned
+from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.derive.sampling import SETS, CompiledExpressions
+from lagrangian.model import time
+
+
+def with_consequences(truth: Reference, own: OnConstraints, number: int, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, of which energies and equations below line ``number`` that are right where the answer's own
+    constraint holds follow; of others, without terms in what it relates, which may be put in or not."""
+    related = [x for c in own.table for x in (c, *own.table[c].atoms(AppliedUndef, sp.Derivative))]
+    found: list[Finding] = []
+    for f in findings:
+        follows = f.status is Status.WRONG and f.line.number > number and _is_right_there(truth, own, f.line)
+        kept = tuple(d for d in f.differences if not d.term.has(*related) and not d.written.has(*related))
+        found.append(replace(f, follows=f.follows or follows, differences=kept))
+    return found
+
+
+def where_held(truth: Reference, wrong: Sequence[WrongConstraint]) -> OnConstraints | None:
+    """The reference where the one wrong constraint of an answer holds; None unless it is linear in its coordinates."""
+    coordinates, roots = truth.model.coordinates, [x for x in wrong if not x.follows]
+    if len(roots) != 1:
+        return None
+    root = roots[0]
+    g = cast("sp.Expr", root.expr.xreplace({c.rate: c.symbol for c in coordinates}))
+    slopes = {c.symbol: bounded.diff(g, c.symbol) for c in coordinates if g.has(c.symbol)}
+    moving: list[Any] = [time, *truth.derivation.coordinates]
+    if len(truth.derivation.multipliers) != 1 or len(slopes) < 2 or any(x.has(*moving) for x in slopes.values()):
+        return None
+    q = next(iter(slopes))
+    value = bounded.expand(q - g / slopes[q])
+    if value.has(sp.Derivative):
+        return None
+    rate = bounded.diff(value, time)
+    c = next(c for c in coordinates if c.symbol == q)
+    return OnConstraints(truth, {q: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)})
+
+
+def _is_right_there(truth: Reference, own: OnConstraints, line: AnsweredLine) -> bool:
+    """Whether an energy is right where the answer's own constraint holds, or an equation without its multiplier."""
+    if line.kind in ("T", "V", "L", "D"):
+        right = right_value(truth, line, None)
+        left = own.put_in(line.expr - right) if right is not None else sp.S.One
+        return zero_everywhere(truth, left) or harmless(truth, line, left) is not None
+    forces = [m.symbol for m in truth.derivation.multipliers.values()]
+    if line.kind != "equation" or not {*line.expr.free_symbols} <= truth.names or line.expr.has(*forces):
+        return False
+    free = [cast("sp.Expr", row.xreplace(dict.fromkeys(forces, sp.S.Zero))) for row in truth.rows]
+    held = {c.symbol: i for i, c in enumerate(truth.model.coordinates) if c.symbol in own.table}
+    rows = [own.force(free, i) for i, c in enumerate(truth.model.coordinates) if c.symbol not in held]
+    values = CompiledExpressions([line.expr, *rows]).at(own.states)
+    parts = np.split(values, SETS, axis=1)
+    return bool(np.isfinite(values).all()) and all(spanned(x[:1], x[1:]) for x in parts)

@@ -1,0 +1,47 @@
+"""Takes sides in words out of chains: m x'' = spring + friction = -k x - d x' says what its terms are."""
+
+from __future__ import annotations
+
+import re
+from itertools import pairwise
+
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.prose.words import Words, function_of
+
+_SIDES = re.compile(r"(?<![<>=:!])=(?![=>])")
+_SAID = re.compile(
+    r"[\s+\-−–,.]*+[^\W\d_][^\W\d_\s+\-−–,.]*+(?:[\s+\-−–,.]++[^\W\d_][^\W\d_\s+\-−–,.]*+)*+[\s+\-−–,.]*+"
+)
+"""Words with nothing but signs of sums between them."""
+_WORD = re.compile(r"[^\W\d_]+")
+_PHRASE = re.compile(r"[^\W\d_]{2,}[ \t]+[^\W\d_]")
+_SHORTEST = 4
+"""The fewest letters of a word; shorter ones are names but in a phrase."""
+
+
+def without_sides_in_words(row: str, words: Words) -> str:
+    """Return a statement with at least three sides without those in words, if two others are left."""
+    ends = [*(m.start() for m in _SIDES.finditer(row)), len(row)]
+    inside = [(a, b) for a, b in pairwise(ends) if _is_said(row[a + 1 : b], words)]
+    if not inside or len(ends) - len(inside) < 2:
+        return row
+    for a, b in inside:
+        row = blank(row, a, b)
+    return row
+
+
+def _is_said(side: str, words: Words) -> bool:
+    """Whether a side consists of words that are no names, not even of the answer's own."""
+    if _SAID.fullmatch(side) is None:
+        return False
+    said = _WORD.findall(side)
+    long = [x for x in said if len(x) >= _SHORTEST]
+    own = (
+        words.names.known(x) or function_of(x) is not None or words.is_used(x) or words.count(x) > said.count(x)
+        for x in long
+    )
+    if not long or any(own) or any(words.is_product(x) for x in long):
+        return False
+    return len(long) == len(said) or (
+        _PHRASE.search(side) is not None and not any(words.names.scope.meanings(x)[0] for x in said)
+    )

@@ -1,0 +1,27 @@
+"""A reel that rolls, for several tests."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from sympy import cos, sin
+
+from lagrangian import Derivation, System
+
+
+@cache
+def reel() -> Derivation:
+    """A reel that rolls, with a mass on an arm that a band ties to its turning: the band feels φ + ψ."""
+    sys = System("reel with an arm")
+    x, phi, psi = sys.coordinates("x phi psi")
+    M, J, R, m, l, k, c, g = sys.parameters("M J R m l k c g")
+    F = sys.input("F")
+    axle = sys.point("axle", (x, R))
+    body = sys.rigid_body(M, J, at=axle, frame=sys.frame(-phi), name="reel")
+    sys.particle(m, at=axle + (l * sin(psi), -l * cos(psi)))
+    sys.gravity((0, -1), g)
+    sys.spring(k, deflection=phi + psi)
+    sys.damper(c, deflection=phi + psi)
+    sys.force((F, 0), at=axle)
+    sys.rolling(body, at=sys.point("contact", (x, 0)), along=(1, 0))
+    return sys.derive()

@@ -1,0 +1,138 @@
+"""Answers that state forces of constraints in their Ξ, in rates of momenta, or in two forms of one side."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from lagrangian import Derivation, System
+
+ENERGIES = """T = 1/2 (J + m r^2) phi'^2 + 1/2 m r'^2 + 1/2 M z'^2
+V = -M g z
+"""
+FORCES = """Q_phi = tau
+Q_r = -b r' - S
+Q_z = -S
+"""
+EQUATIONS = """(J + m r^2) phi'' + 2 m r r' phi' = tau
+m r'' - m r phi'^2 = -b r' - S
+M z'' - M g = -S
+r + z = L
+"""
+REDUCED = """(J + m r^2) phi'' + 2 m r r' phi' = tau
+(m + M) r'' - m r phi'^2 + b r' + M g = 0
+z'' = -r''
+"""
+
+
+@cache
+def spinner() -> Derivation:
+    """A sleeve on a turning arm, and a load on its rope."""
+    sys = System("spinner")
+    phi, r, z = sys.coordinates("phi r z")
+    J, m, M, L, b = sys.parameters("J m M L b")
+    tau = sys.input("tau")
+    sys.kinetic(J * phi.diff() ** 2 / 2 + m * (r.diff() ** 2 + r**2 * phi.diff() ** 2) / 2 + M * z.diff() ** 2 / 2)
+    sys.potential(-M * sys.parameter("g") * z)
+    sys.torque(tau, on=phi)
+    sys.damper(b, deflection=r)
+    sys.constraint(r + z - L, name="rope")
+    return sys.derive()
+
+
+@pytest.mark.parametrize("equations", [EQUATIONS, REDUCED])
+def test_a_generalized_force_may_hold_the_force_of_a_constraint(equations: str) -> None:
+    assert spinner().check(ENERGIES + FORCES + equations).right
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [("Q_z = -S", "Q_z = S"), ("Q_z = -S", "Q_z = -2 S"), ("- S\nQ_z", "+ S\nQ_z"), ("-b r' - S\nQ", "b r' - S\nQ")],
+)
+@pytest.mark.parametrize("equations", [EQUATIONS, REDUCED])
+def test_the_force_of_a_constraint_in_a_generalized_force_is_judged(equations: str, right: str, wrong: str) -> None:
+    assert right in FORCES and not spinner().check(ENERGIES + FORCES.replace(right, wrong) + equations).right
+
+
+def test_generalized_forces_alone_are_no_equations() -> None:
+    assert not spinner().check(ENERGIES + FORCES).right
+
+
+@pytest.mark.parametrize("energies", [ENERGIES, ""])
+def test_the_rate_of_a_momentum_may_be_equal_to_forces(energies: str) -> None:
+    turning, _, rest = EQUATIONS.partition("\n")
+    assert turning and spinner().check(f"{energies}d/dt(dT/dphi') = tau\n{rest}").right
+    assert not spinner().check(f"{energies}d/dt(dT/dphi') = -tau\n{rest}").right
+    assert not spinner().check(f"{energies}d/dt(dT/dphi') = tau - b r'\n{rest}").right
+
+
+@cache
+def puck() -> Derivation:
+    """A sleeve with a spring on a turning arm."""
+    sys = System("puck")
+    phi, r = sys.coordinates("phi r")
+    J, m, k, c = sys.parameters("J m k c")
+    sys.kinetic(J * phi.diff() ** 2 / 2 + m * (r.diff() ** 2 + r**2 * phi.diff() ** 2) / 2)
+    sys.spring(k, deflection=r)
+    sys.damper(c, deflection=phi)
+    sys.torque(sys.input("tau"), on=phi)
+    return sys.derive()
+
+
+@pytest.mark.parametrize("energy", ["T = 1/2 (J + m r^2) phi'^2 + 1/2 m r'^2\n", ""])
+def test_the_rate_of_a_momentum_is_an_equation_where_nothing_is_held(energy: str) -> None:
+    last = "m r'' - m r phi'^2 + k r = 0"
+    assert puck().check(f"{energy}d/dt(dT/dphi') = tau - c phi'\n{last}").right
+    assert not puck().check(f"{energy}d/dt(dT/dphi') = tau + c phi'\n{last}").right
+    assert not puck().check(f"{energy}d/dt(dT/dphi') = tau - c phi'\nd/dt(dT/dr') = -k r").right
+
+
+@cache
+def lift() -> Derivation:
+    """A lever that lifts a platform by a rod."""
+    sys = System("lift")
+    theta, z = sys.coordinates("theta z")
+    J, m, a, length, c = sys.parameters("J m a l c")
+    lever = sys.frame(theta)
+    tip = sys.point("tip", (a, 0), frame=lever)
+    platform = sys.point("platform", (c, z))
+    sys.kinetic(J * theta.diff() ** 2 / 2)
+    sys.particle(m, at=platform)
+    sys.gravity()
+    sys.torque(sys.input("tau"), on=theta)
+    sys.constraint(between=(platform, tip), distance=length, name="rod")
+    return sys.derive()
+
+
+TWO_FORMS = """S = tension in the rod
+m z'' = -m g - S (z - a sin(theta))/l
+J theta'' = tau + S/l [a cos(theta) (z - a sin(theta)) - a sin(theta) (c - a cos(theta))]
+  = tau + S a (z cos(theta) - c sin(theta))/l
+(c - a cos(theta))^2 + (z - a sin(theta))^2 = l^2"""
+
+
+def test_a_side_may_be_written_in_two_forms() -> None:
+    assert lift().check(TWO_FORMS).right
+    assert not lift().check(TWO_FORMS.replace("= tau + S a (z", "= tau + S a (2 z")).right
+    assert not lift().check(TWO_FORMS.replace("/l [a cos", "/l [-a cos")).right
+
+
+TENSION = """m r'' - m r phi'^2 = -b r' - S
+(J + m r^2) phi'' + 2 m r r' phi' = tau
+M z'' = M g - S
+r_ddot = -z_ddot
+"""
+REMARKS = [
+    "check: no rotation, no friction: r_ddot = -M g/(m + M), as Atwood",
+    "S is the tension. Statics check: with everything at rest S = M g. Good.",
+    "Limits: m = 0 gives M r'' = -b r' - M g",
+    "tau = 0, small b: m r'' = m r phi'^2 - M g - M r''",
+]
+
+
+@pytest.mark.parametrize("remark", REMARKS)
+def test_special_cases_are_remarks_where_constraints_hold(remark: str) -> None:
+    assert spinner().check(f"{TENSION}\n{remark}").right
+    assert not spinner().check(f"{TENSION.replace('M g - S', 'M g + S')}\n{remark}").right
+    assert not spinner().check(f"{TENSION.replace('- m r phi', '+ m r phi')}\n{remark}").right

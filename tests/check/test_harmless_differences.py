@@ -1,0 +1,99 @@
+"""Energies that differ from those of the system by what changes no equation."""
+
+from __future__ import annotations
+
+import pytest
+
+import lagrangian as lg
+from built_in import derivation
+from lagrangian.model import time
+
+
+@pytest.fixture(scope="module")
+def carried() -> lg.Derivation:
+    """A slider on an arm whose joint is carried around by a table that turns steadily."""
+    s = lg.System("carried arm")
+    theta, r = s.coordinates("theta r")
+    m, M, J, a, k, Omega = s.parameters("m M J a k Omega")
+    table = s.frame(Omega * time, name="table")
+    arm = s.frame(theta, parent=table, name="arm")
+    joint = s.point("joint", (a, 0), frame=table)
+    s.rigid_body(mass=M, inertia=J, at=joint, frame=arm, name="arm")
+    s.particle(m, at=s.point("slider", (r, 0), relative_to=joint, frame=arm), name="slider")
+    s.spring(k, deflection=r)
+    return s.derive()
+
+
+SLIDER = "m/2*((r' + a*Omega*sin(theta))^2 + (r*(theta' + Omega) + a*Omega*cos(theta))^2)"
+ROWS = """(J + m r^2) theta'' + 2 m r r' (Omega + theta') + m a Omega^2 r sin(theta) = 0
+m r'' - m r (Omega + theta')^2 - m a Omega^2 cos(theta) + k r = 0
+"""
+
+
+@pytest.mark.parametrize(
+    ("energy", "right"),
+    [
+        (f"T = {SLIDER} + J/2*(theta' + Omega)^2", True),
+        (f"T = {SLIDER} + J/2*(theta' + Omega)^2 + M*a^2*Omega^2", True),
+        (f"L = {SLIDER} + J/2*(theta' + Omega)^2 - k/2*r^2", True),
+        (f"T = {SLIDER} + J/2*theta'^2", False),
+        (f"T = {SLIDER} + J/2*theta'^2 + J/2*Omega^2", False),  # J Omega theta' is no constant
+        (f"T = {SLIDER.replace('a*Omega*cos(theta)', '0')} + J/2*(theta' + Omega)^2", False),
+    ],
+)
+def test_what_no_coordinate_and_no_rate_changes_may_be_left_out(
+    carried: lg.Derivation, energy: str, right: bool
+) -> None:
+    verdict = carried.check(f"{energy}\n{ROWS}")
+    assert verdict.right is right, verdict.to_text()
+    assert ("M a² Ω², which no coordinate and no rate changes" in " ".join(verdict.to_text().split())) is right
+
+
+@pytest.mark.parametrize(
+    ("energy", "right"),
+    [
+        ("m/2*(L^2*theta'^2 + 2*a*omega*L*theta'*sin(omega*t)*sin(theta))", True),
+        ("m/2*(L^2*theta'^2 + 2*a*omega*L*theta'*sin(omega*t))", False),
+        ("m/2*L^2*theta'^2 + m/2*a^2*omega^2*sin(omega*t)^2", False),
+    ],
+)
+def test_what_only_a_prescribed_motion_changes_may_be_left_out(energy: str, right: bool) -> None:
+    rows = "m L^2 theta'' = m L (g - a*omega^2*cos(omega*t)) sin(theta) - b theta'"
+    verdict = derivation("kapitza-pendulum").check(f"T = {energy}\n{rows}")
+    assert verdict.right is right, verdict.to_text()
+
+
+U = "-m*g*R*cos(theta) - m/2*Omega^2*R^2*sin(theta)^2"
+RELATIVE, WHOLE = "m/2*R^2*theta'^2", "m/2*R^2*(theta'^2 + Omega^2*sin(theta)^2)"
+BEAD = "m R^2 theta'' + m g R sin(theta) - m R^2 Omega^2 sin(theta) cos(theta) = 0"
+
+
+@pytest.mark.parametrize(
+    ("sheet", "right"),
+    [
+        (f"U = {U}\n{BEAD}", True),
+        (f"U = {U} + m*g*R\nT = {RELATIVE}\n{BEAD}", True),
+        (f"T = {WHOLE}\nV = -m*g*R*cos(theta)\nU = {U}\n{BEAD}", True),
+        (f"L = {RELATIVE} - ({U})\nU = {U}\n{BEAD}", True),
+        (f"U = {U.replace('- m/2', '+ m/2')}\n{BEAD}", False),
+        (f"U = {U.replace('- m/2', '- m')}\n{BEAD}", False),
+        (f"U = {U}\nT = {WHOLE}\n{BEAD}", False),
+        (f"U = {U}\nL = {WHOLE} - ({U})\n{BEAD}", False),
+        (f"U = {U}\nT = {RELATIVE.replace('/2', '')}\n{BEAD}", False),
+        (f"U = {U}\n{BEAD.replace('- m R', '+ m R')}", False),
+        (f"U = {U}", False),
+        (f"T = {RELATIVE}\nV = -m*g*R*cos(theta)\n{BEAD}", False),
+    ],
+)
+def test_an_effective_potential_is_right_with_what_fits_it(sheet: str, right: bool) -> None:
+    verdict = derivation("bead-on-hoop").check(sheet)
+    assert verdict.right is right, verdict.to_text()
+
+
+def test_the_letter_of_a_kinetic_energy_may_be_that_of_the_hamiltonian() -> None:
+    sheet = f"p = m R^2 theta'\nK = {U} + p^2/(2 m R^2)\n{BEAD}"
+    verdict = derivation("bead-on-hoop").check(sheet)
+    assert verdict.right and "K in line 2 was read as the Hamiltonian" in verdict.to_text()
+    for wrong in (sheet.replace("- m/2", "+ m/2"), sheet.replace("K =", "T ="), sheet.replace("-m*g", "+m*g")):
+        assert not derivation("bead-on-hoop").check(wrong).right
+    assert derivation("bead-on-hoop").check(f"K = {WHOLE}\n{BEAD}").right

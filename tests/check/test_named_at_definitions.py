@@ -1,0 +1,109 @@
+"""The first wrong line is where a mistake was made: a position, a height or a part of an energy."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from sympy import cos, sin
+
+from lagrangian import Derivation, System
+from lagrangian.check.verb import CheckedAnswer
+from lagrangian.model import time
+
+
+@cache
+def crane() -> Derivation:
+    """A trolley at r on a turning jib, and a weight on the other side at e + r/2."""
+    sys = System("crane")
+    psi, r = sys.coordinates("psi r")
+    J, m, w, e = sys.parameters("J m m_c e")
+    jib = sys.frame(psi)
+    sys.rigid_body(1, J, at=sys.point("mast", (0, 0)), frame=jib, name="head")
+    sys.particle(m, at=jib.point(r, 0), name="trolley")
+    sys.particle(w, at=jib.point(-(e + r / 2), 0), name="weight")
+    return sys.derive()
+
+
+@cache
+def dryer() -> Derivation:
+    """A drum on feet turns a lump at the speed Ω; a ball runs in a ring."""
+    sys = System("dryer")
+    x, psi = sys.coordinates("x psi")
+    M, m, b, e, R, k, g, Omega = sys.parameters("M m m_b e R k g Omega")
+    axis = sys.point("axis", (x, 0))
+    sys.particle(M, at=axis, name="drum")
+    sys.particle(m, at=axis + (e * cos(Omega * time), e * sin(Omega * time)), name="lump")
+    sys.particle(b, at=axis + (R * cos(psi), R * sin(psi)), name="ball")
+    sys.gravity((0, -1), g)
+    sys.spring(k, deflection=x)
+    return sys.derive()
+
+
+@cache
+def wheels() -> Derivation:
+    """A wheel that rolls, with a constraint of positions."""
+    sys = System("wheel")
+    x, phi = sys.coordinates("x phi")
+    m, J, R, k = sys.parameters("m J R k")
+    sys.rigid_body(m, J, at=sys.point("hub", (x, 0)), frame=sys.frame(-phi), name="wheel")
+    sys.spring(k, deflection=x)
+    sys.constraint(x - R * phi)
+    return sys.derive()
+
+
+def _told(verdict: CheckedAnswer, line: int) -> str:
+    assert not verdict.right
+    first = str(verdict.mistakes[0].what)
+    assert first.startswith(f"Line {line} is not right"), first
+    wrong = [f for f in verdict.findings if not f.status.right]
+    assert wrong[0].line.number == line and not wrong[0].follows
+    return " ".join(verdict.to_text().split())
+
+
+def _crane(r_c: str) -> str:
+    return f"r_c = {r_c}\nT = 1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2) + 1/2 m_c (r'^2/4 + ({r_c})^2 psi'^2)"
+
+
+def test_a_wrong_distance_along_a_turning_jib() -> None:
+    assert crane().check(_crane("e + r/2")).right
+    told = _told(crane().check(_crane("e - r/2")), 1)
+    assert "the component of the position of particle 'weight' along axes turned by ψ is e + ½ r, not e − ½ r" in told
+
+
+V = "V = 1/2 k x^2 + m_b g R {}(psi)"
+
+
+@pytest.mark.parametrize("more", ["", " + m g e sin(Omega t)"])
+def test_a_wrong_height_that_no_other_line_names(more: str) -> None:
+    """What depends on time alone may be left out of V, and does not hide the mistake."""
+    assert dryer().check("h = R sin(psi)\n" + V.format("sin") + more).right
+    told = _told(dryer().check("h = R cos(psi)\n" + V.format("cos") + more), 1)
+    assert "is R sin ψ, not R cos ψ" in told and "potential energy" in told
+
+
+def test_a_wrong_position_of_what_is_moved_in_a_prescribed_way() -> None:
+    T = (
+        "T = 1/2 (M + m + m_b) x'^2 {} m e Omega x' {}(Omega t) + 1/2 m e^2 Omega^2 - m_b R x' psi' sin(psi) "
+        "+ 1/2 m_b R^2 psi'^2"
+    )
+    right = "x_m = x + e cos(Omega t), y_m = e sin(Omega t)\n" + T.format("-", "sin")
+    assert dryer().check(right).right
+    told = _told(dryer().check("x_m = x + e sin(Omega t), y_m = e cos(Omega t)\n" + T.format("+", "cos")), 1)
+    assert "the x coordinate of particle 'lump' is x + e cos(Ω t), not x + e sin(Ω t)" in told
+    assert "the y coordinate of particle 'lump' is e sin(Ω t), not e cos(Ω t)" in told
+
+
+def test_a_part_of_an_energy_is_judged_by_its_name() -> None:
+    right = "x = R phi\nT_rot = 1/2 J x'^2/R^2\nT = 1/2 m x'^2 + 1/2 J x'^2/R^2\nV = 1/2 k x^2\n"
+    right += "(m + J/R^2) x'' + k x = 0"
+    assert wheels().check(right).right
+    told = _told(wheels().check(right.replace("/R^2", "")), 2)
+    assert "the kinetic energy of the rotation of rigid body 'wheel' is J ẋ²/(2 R²), not ½ J ẋ²" in told
+
+
+def test_an_energy_without_its_translation_is_no_energy_of_the_rotation() -> None:
+    """T_wheel is that of the whole wheel."""
+    wrong = "x = R phi\nT_wheel = 1/2 J x'^2/R^2\nT = 1/2 J x'^2/R^2\nV = 1/2 k x^2"
+    told = _told(wheels().check(wrong), 2)
+    assert "the kinetic energy of rigid body 'wheel' is" in told

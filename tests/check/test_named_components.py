@@ -1,0 +1,72 @@
+"""Components of velocities along axes that turn are right, and a wrong one is told by its own line."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from built_in import derivation
+from lagrangian import Derivation, System
+
+T = "T = 1/2 m (r'^2 + r^2 theta'^2)"
+
+
+@pytest.mark.parametrize("said", ["v_r = r', v_t = r theta'", "v_xi = -r'\nv_eta = r theta'", "v_n = r theta'"])
+def test_components_along_turning_axes_are_right(said: str) -> None:
+    verdict = derivation("elastic-pendulum").check(f"{said}\n{T}")
+    assert verdict.right
+    assert "axes turned by θ" in " ".join(verdict.to_text().split())
+
+
+@pytest.mark.parametrize(
+    ("said", "wrong", "told"),
+    [
+        ("v_r = r', v_t = theta'", "r'^2 + theta'^2", "r θ̇, not θ̇"),
+        ("v_r = r', v_t = 2 r theta'", "r'^2 + 4 r^2 theta'^2", "r θ̇, not 2 r θ̇"),
+        ("v_r = r' - r theta', v_t = r theta'", "(r' - r theta')^2 + r^2 theta'^2", "ṙ, not ṙ − r θ̇"),
+    ],
+)
+def test_a_wrong_one_is_told_at_its_line_and_the_other_stays_right(said: str, wrong: str, told: str) -> None:
+    verdict = derivation("elastic-pendulum").check(f"{said}\nT = 1/2 m ({wrong})")
+    assert not verdict.right
+    assert told in " ".join(verdict.to_text().split())
+    assert str(verdict.mistakes[0].what).startswith("Line 1 is not right: the component of the velocity")
+    assert sorted(f.status.right for f in verdict.findings) == [False, False, True]
+
+
+def test_along_x_it_is_the_fixed_axis_that_is_meant() -> None:
+    """r θ̇ is right across the spring; along x the cosine is missing."""
+    wrong = "v_x = r theta', v_y = r' cos(theta)\nT = 1/2 m (r^2 theta'^2 + r'^2 cos(theta)^2)"
+    verdict = derivation("elastic-pendulum").check(wrong)
+    assert not verdict.right and "along axes turned" not in str(verdict.findings)
+
+
+@cache
+def tray() -> Derivation:
+    """A cellar that slides along a groove in a tray: along the axes of the tray its velocity is (−s φ̇, ṡ + h φ̇)."""
+    sys = System("tray")
+    phi, s = sys.coordinates("phi s")
+    J, m, h, k = sys.parameters("J m h k")
+    frame = sys.frame(phi)
+    sys.rigid_body(1, J, at=sys.point("spindle", (0, 0)), frame=frame)
+    sys.particle(m, at=frame.point(h, s), name="cellar")
+    sys.spring(k, deflection=s)
+    return sys.derive()
+
+
+def test_the_sign_of_a_part_is_told_of_the_component_that_has_it() -> None:
+    verdict = tray().check(
+        "v_xi = -s phi', v_eta = s' - h phi'\nT = 1/2 J phi'^2 + 1/2 m (s^2 phi'^2 + (s' - h phi')^2)\nV = 1/2 k s^2"
+    )
+    assert not verdict.right
+    (mistake,) = verdict.mistakes
+    assert "along axes turned by φ is h φ̇ + ṡ, not ṡ − h φ̇" in " ".join(verdict.to_text().split())
+    assert mistake.element is not None and "cellar" in mistake.element
+
+
+def test_a_rate_of_r_is_no_raw_string() -> None:
+    """r' + r*theta' is a sum of two rates, and no text in quotes behind the r of Python."""
+    right = "v_s = r' + r*theta'\nT = 1/2 m (v_s^2 - 2 r r' theta')"
+    assert derivation("elastic-pendulum").check(right).right
+    assert not derivation("elastic-pendulum").check(right.replace("+ r*theta'", "+ 2*r*theta'")).right

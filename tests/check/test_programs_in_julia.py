@@ -1,0 +1,107 @@
+"""Functions of Julia that return rates of a state, with multipliers, parameters by name and letters with dots.
+
+Oracle: the equations of the pole on a cart and of a disk that rolls, as derived; each program with one wrong sign is
+wrong.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import lagrangian as lg
+from built_in import derivation
+from lagrangian.check.verdict import Status
+
+BODY = """    A = [M + m         m*l*cos(θ)
+         m*l*cos(θ)   J + m*l^2]
+    r = [F(t) - b*v + m*l*sin(θ)*ω^2, m*g*l*sin(θ)]
+"""
+IN_PLACE = f"""using DifferentialEquations
+function pole!(du, u, p, t)
+    x, θ, v, ω = u
+    (; M, m, l, J, b, g) = p
+{BODY}    a = A \\ r
+    du[1] = v; du[2] = ω
+    du[3] = a[1]
+    du[4] = a[2]
+end
+"""
+WHOLE = f"""Base.@kwdef struct Par
+    M = 1.0; m = 0.2
+end
+function pole!(du, u::Vector{{Float64}}, (p, F), t)
+    x, θ, v, ω = u
+    @unpack M, m, l, J, b, g = p   # parameters
+{BODY}    a, α = A \\ r
+    du .= (v, ω, a, α)
+    return nothing
+end
+"""
+RETURNED = f"""function pole(u, p, t)
+    x, θ, v, ω = u
+    M, m, l, J, b, g = p
+{BODY}    a = A \\ r
+    [v; ω; a]
+end
+"""
+DOTTED = """function pole!(du, u, p, t)
+    x, θ, ẋ, θ̇ = u
+    D = (M + m)*(J + m*l^2) - (m*l*cos(θ))^2
+    f1 = F(t) - b*ẋ + m*l*sin(θ)*θ̇^2
+    f2 = m*g*l*sin(θ)
+    du[1:2] .= u[3:4]
+    du[3] = ((J + m*l^2)*f1 - m*l*cos(θ)*f2)/D
+    du[4] = ((M + m)*f2 - m*l*cos(θ)*f1)/D
+end
+"""
+
+
+@pytest.mark.parametrize("program", [IN_PLACE, WHOLE, RETURNED, DOTTED])
+def test_functions_of_julia_are_carried_out(program: str) -> None:
+    judge = derivation("cart-pole")
+    verdict = judge.check(program)
+    assert verdict.right and "carried out" in verdict.to_text()
+    wrong = program.replace("m*g*l", "-m*g*l")
+    assert wrong != program and not judge.check(wrong).right
+
+
+def test_the_line_of_a_wrong_acceleration_is_that_where_it_is_computed() -> None:
+    verdict = derivation("cart-pole").check(DOTTED.replace("(J + m*l^2)*f1 - ", "(J + m*l^2)*f1 + "))
+    assert [f.line.number for f in verdict.findings if f.status is Status.WRONG] == [7]
+
+
+@pytest.fixture(scope="module")
+def disk() -> lg.Derivation:
+    s = lg.System("rolling disk")
+    x, phi = s.coordinates("x phi")
+    m, J, R = s.parameters("m J R", m=1.0, J=0.1, R=0.3)
+    s.kinetic((m * x.diff() ** 2 + J * phi.diff() ** 2) / 2)
+    s.force(s.input("F"), deflection=x)
+    s.velocity_constraint(x.diff() - R * phi.diff(), name="rolling")
+    return s.derive()
+
+
+ROLLING = """function disk!(du, u, p, t)
+    x, φ, v, ω = u
+    A = [m  0  -1
+         0  J   R
+         1 -R   0]
+    a = A \\ [F(t), 0, 0]
+    du .= [v, ω, a[1], a[2]]
+end
+# a[3] = H
+"""
+
+
+@pytest.mark.parametrize("solved", ["a", "acc"])
+def test_unknowns_beside_the_accelerations_are_multipliers(disk: lg.Derivation, solved: str) -> None:
+    program = ROLLING.replace("    a =", f"    {solved} =").replace("a[", f"{solved}[")
+    verdict = disk.check(program)
+    assert verdict.right and "'H' was read as" in verdict.to_text()
+    assert not disk.check(program.replace("J   R\n", "J  -R\n")).right
+    assert not disk.check(program.replace("1 -R", "1  R")).right
+
+
+def test_rates_of_positions_that_are_positions_are_wrong() -> None:
+    verdict = derivation("cart-pole").check(DOTTED.replace("u[3:4]", "u[1:2]"))
+    assert not verdict.right and "does not agree" in " ".join(verdict.to_text().split())

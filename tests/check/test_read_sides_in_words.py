@@ -1,0 +1,37 @@
+"""Sides in words in the middle of an equation, and values of names in passing in a list of notation."""
+
+from __future__ import annotations
+
+import pytest
+
+from student_answers import CART, POLE, right
+
+ROD = "(J + m l^2) theta'' = moment of the weight − moment of inertia forces = m g l sin(theta) - m l x'' cos(theta)"
+WORDS = [
+    "M x'' + m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = drive + friction = F - b x'",
+    "M x'' + m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = Antrieb − Reibung des Wagens\n   = F - b x'",
+    "M x'' + m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = sum of all forces = F - b x'",
+]
+
+
+@pytest.mark.parametrize("cart", WORDS)
+def test_a_side_in_words_says_what_the_terms_are(cart: str) -> None:
+    assert right(f"{cart}\n{POLE}")
+    assert not right(f"{cart.replace('F - b', 'F + b')}\n{POLE}")
+    assert not right(f"{cart.replace('- l theta', '+ l theta')}\n{POLE}")
+    assert right(f"{CART}\n{ROD}") and not right(f"{CART}\n{ROD.replace('= m g', '= -m g')}")
+
+
+def test_a_word_that_is_a_name_is_no_word() -> None:
+    drive = "M x'' + m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = drive = F - b x'"
+    assert right(f"drive = F - b x'\n{drive}\n{POLE}")
+    assert not right(f"drive = F + b x'\n{drive}\n{POLE}")
+
+
+def test_a_list_of_notation_with_words_says_what_names_are() -> None:
+    cart = CART.replace("M", "Mc").replace("theta'", "thd").replace("x'", "xd").replace("thd'", "thdd")
+    pole = POLE.replace("theta'", "thd").replace("x'", "xd").replace("thd'", "thdd")
+    said = "thd = first derivative, thdd = second derivative of theta, xd, xdd the same for x, Mc = M."
+    cart, pole = cart.replace("xd'", "xdd"), pole.replace("xd'", "xdd")
+    assert right(f"{cart}\n{pole}\n\n{said}")
+    assert not right(f"{cart}\n{pole}\n\n{said.replace('Mc = M', 'Mc = m')}")
