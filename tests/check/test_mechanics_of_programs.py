@@ -109,3 +109,23 @@ def test_methods_of_mechanics_may_have_multipliers() -> None:
         ("- k*x**2/2", "+ k*x**2/2"),
     ):
         assert old in ROLLING and not wheel().check(ROLLING.replace(old, new)).right
+
+
+COMPARED = """from sympy import *
+from sympy.physics.mechanics import dynamicsymbols, LagrangesMethod
+x, th = dynamicsymbols('x theta')
+xd, thd = dynamicsymbols('x theta', 1)
+xdd, thdd = dynamicsymbols('x theta', 2)
+M, m, l, J, b, g, F = symbols('M m l J b g F')
+T = (M+m)*xd**2/2 + m*l*xd*thd*cos(th) + (J+m*l**2)*thd**2/2
+V = m*g*l*cos(th)
+eq_x = (M+m)*xdd + m*l*cos(th)*thdd - m*l*sin(th)*thd**2 + b*xd - F
+eq_th = (J+m*l**2)*thdd + m*l*cos(th)*xdd - m*g*l*sin(th)
+eqs = LagrangesMethod(T - V, [x, th]).form_lagranges_equations()
+print(expand(eqs - Matrix([eq_x - b*xd + F, eq_th])))"""
+
+
+def test_a_difference_that_is_zero_is_a_check() -> None:
+    assert right(COMPARED)
+    assert not right(COMPARED.replace("+ b*xd - F", "- b*xd - F").replace("eq_x - b*xd", "eq_x + b*xd"))
+    assert not right(COMPARED.replace("- m*g*l*sin", "+ m*g*l*sin"))

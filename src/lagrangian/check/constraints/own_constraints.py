@@ -91,8 +91,8 @@ def _without_pushes(
     pushes: list[AnsweredLine] = []
     for line in lines:
         names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - truth.names | {*forces}
-        own = sorted((x for x in names if line.expr.has(x)), key=str)
         row = places.get(str(line.name)) if line.kind == "Xi" else None
+        own = sorted((x for x in names if line.expr.has(x)), key=str) if row is not None else []
         slopes = [bounded.diff(line.expr, x) for x in own]
         if row is None or not own or any(f.has(*own, sp.Derivative) for f in slopes):
             kept.append(line)

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
@@ -94,6 +95,8 @@ class Interpreter(Evaluator):
             for x in call.args:
                 value = self.value(x, names)
                 self.used = before if isinstance(value, Outside) else self.used
+                if self._is_check(value, before, names):
+                    continue
                 self.stated += [Shown(s.lineno, None, v, True) for v in self.flat(value)]
             return
         value = self.value(s.value, names)
@@ -102,6 +105,15 @@ class Interpreter(Evaluator):
         if not isinstance(s.value, ast.Constant):
             of = s.value.id if isinstance(s.value, ast.Name) else ""
             self.stated += [Shown(s.lineno, None, v, True, of) for v in self.flat(value)]
+
+    def _is_check(self, value: Value, before: set[str], names: dict[str, Value]) -> bool:
+        """Whether a value that is shown is 0 everywhere: a check, which uses nothing but what a method formed."""
+        parts = self.flat(value)
+        if not parts or not all(isinstance(x, sp.Expr) and bounded.expand(x) == 0 for x in parts):
+            return False
+        formed = [x for _, method in self.methods for x in method.formed]
+        self.used = before | {x for x in self.used - before if any(names.get(x) is y for y in formed)}
+        return True
 
     def _assign(self, target: ast.expr, value: Value, names: dict[str, Value], line: int) -> None:
         if isinstance(target, (ast.Tuple, ast.List)):

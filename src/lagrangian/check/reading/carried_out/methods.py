@@ -60,6 +60,9 @@ class MechanicsMethod(Mechanical):
     hidden: list[MatrixBase] = field(default_factory=list)
     """The parts of the equations that say nothing alone: F_r and F_r*."""
 
+    formed: list[MatrixBase] = field(default_factory=list)
+    """What the program formed."""
+
     def equations(self) -> MatrixBase:
         """The left-hand sides of the equations, which are 0."""
         raise NotImplementedError
@@ -76,7 +79,8 @@ class MechanicsMethod(Mechanical):
     def call(self, name: str, given: Sequence[Value], options: Mapping[str, Value]) -> Value:
         """What a method forms."""
         if name == "form_lagranges_equations":
-            return self.equations()
+            self.formed.append(self.equations())
+            return self.formed[-1]
         if name in _SOLVED:
             self.told.append(self.equations())
         return UNKNOWN
