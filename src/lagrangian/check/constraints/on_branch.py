@@ -55,7 +55,7 @@ def _is_solved(truth: Reference, line: AnsweredLine) -> bool:
     if line.kind != "equation" or line.expr.has(sp.Derivative) or line.expr.free_symbols - truth.names:
         return False
     solved = [q for q in coordinates if bounded.diff(line.expr, q) in (1, -1)]
-    roots = [x for x in line.expr.atoms(sp.Pow) if x.exp.is_Rational and x.exp.q == 2 and x.has(*coordinates)]
+    roots = [x for x in line.expr.atoms(sp.Pow) if (2 * x.exp).is_odd and x.has(*coordinates)]
     return bool(solved and roots)
 
 
