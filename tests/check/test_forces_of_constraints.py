@@ -93,7 +93,7 @@ def lift() -> Derivation:
     """A lever that lifts a platform by a rod."""
     sys = System("lift")
     theta, z = sys.coordinates("theta z")
-    J, m, a, length, c = sys.parameters("J m a l c")
+    J, m, a, length, c = sys.parameters("J m a l c", J=1.0, m=10.0, a=0.9, l=0.7, c=1.2)
     lever = sys.frame(theta)
     tip = sys.point("tip", (a, 0), frame=lever)
     platform = sys.point("platform", (c, z))
@@ -136,3 +136,23 @@ def test_special_cases_are_remarks_where_constraints_hold(remark: str) -> None:
     assert spinner().check(f"{TENSION}\n{remark}").right
     assert not spinner().check(f"{TENSION.replace('M g - S', 'M g + S')}\n{remark}").right
     assert not spinner().check(f"{TENSION.replace('- m r phi', '+ m r phi')}\n{remark}").right
+
+
+ROOT = """w = sqrt(l^2 - (c - a cos(theta))^2)
+z = a sin(theta) + w
+u = a cos(theta) - a sin(theta) (c - a cos(theta))/w
+T = 1/2 (J + m u^2) theta'^2
+V = m g (a sin(theta) + w)
+(J + m u^2) theta'' + m u u' theta' + m g u = tau"""
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
+    answer = ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT
+    assert lift().check(answer).right
+    assert not lift().check(answer.replace("cos(theta) - a sin", "cos(theta) + a sin")).right
+    assert not lift().check(answer.replace("z = a sin(theta) + w", "z = a sin(theta) - w")).right
+    assert not lift().check(answer.replace("+ m g u = tau", "- m g u = tau")).right
+    assert not lift().check(answer.replace("V = m g (a", "V = 2 m g (a")).right
+    assert not lift().check(answer.replace("1/2 (J + m u^2)", "1/2 (J + 2 m u^2)")).right
+    assert not lift().check(answer.replace("sqrt(l^2", "sqrt(2 l^2")).right

@@ -12,6 +12,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
+from lagrangian.check.constraints.on_branch import on_branch
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
@@ -103,6 +104,7 @@ def _checked(
         read = unfolded(truth, written)
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
         verdict = energies_on_rows(truth, read.lines, verdict, hint)
+        verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict
         if not explain:
             return verdict
         named = named_beside_multipliers(truth, read.lines, verdict, lambda x: judged_lines(truth, x).findings)

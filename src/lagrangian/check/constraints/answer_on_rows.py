@@ -16,6 +16,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive import Derived
 from lagrangian.derive.sample import Sampler
+from lagrangian.errors import ModelError
 from lagrangian.graph import Program
 from lagrangian.records import dataclass
 from lagrangian.verify.on_rows import Groups, OnRows, State
@@ -76,7 +77,11 @@ class AnswerOnRows:
 
     def states(self, count: int, *, given: bool) -> Iterator[tuple[State, Groups]]:
         """Up to ``count`` random states on the rows; with ``given`` the parameters keep their values."""
-        return self.on_rows.states(self.sampler, count, 1, given=given)
+        try:
+            yield from self.on_rows.states(self.sampler, count, 1, given=given)
+        except ModelError as error:
+            if error.code != "E503":  # roots of the answer that are real at few states
+                raise
 
     def _values(self, here: dict[sp.Basic, float], *, terms: bool = False) -> Array:
         """P, or the sums of the sizes of its terms."""

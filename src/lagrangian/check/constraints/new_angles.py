@@ -46,15 +46,20 @@ def _count(verdict: Verdict) -> int:
 
 
 def _where_held(truth: Reference, was: AnsweredLine, now: AnsweredLine) -> AnsweredLine:
-    """An energy in the new angle as the statement that it is the system's where the constraints hold: T = ½ m l² φ̇².
+    """An energy in the new angle as the statement that it is the system's where the constraints hold."""
+    return now if was.expr == now.expr else where_held(truth, now)
+
+
+def where_held(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """An energy as the statement that it is the system's where the constraints hold: T = ½ m l² φ̇².
 
     That of V is differentiated by time, because its level is free.
     """
-    if was.expr == now.expr or was.kind not in ("T", "V"):
-        return now
-    if was.kind == "T":
-        return replace(now, kind="equation", expr=now.expr - truth.T)
-    return replace(now, kind="equation", expr=bounded.diff(now.expr - truth.V, time))
+    if line.kind not in ("T", "V"):
+        return line
+    if line.kind == "T":
+        return replace(line, kind="equation", expr=line.expr - truth.T)
+    return replace(line, kind="equation", expr=bounded.diff(line.expr - truth.V, time))
 
 
 def _readings(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[tuple[tuple[AnsweredLine, ...], Text]]:

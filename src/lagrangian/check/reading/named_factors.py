@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 
 from lark import Tree
@@ -20,15 +21,30 @@ def with_solved_factors(statements: Sequence[Statement], subjects: Subjects) -> 
     product that nothing else explains."""
     names, out = subjects.names, list(with_named_products(statements, subjects))
     own = {key(str(x)) for s in out if len(s.sides) > 1 and (x := _new_name(s.sides[0])) is not None}
-    waiting = [i for i, s in enumerate(out) if len(s.sides) == 2 and inside(s.sides[0]).data == "product"]
-    while True:
-        solved = next(((i, x) for i in waiting if (x := _solved(out, i, names, own)) is not None), None)
-        if solved is None:
-            return out
-        i, (new, made) = solved
-        out[i] = made
-        waiting.remove(i)
-        own.add(new)
+    waiting = {i: _names(s.sides) for i, s in enumerate(out) if _is_product(s)}
+    counts = Counter(key(x) for s in out for x in _names(s.sides)) if waiting else Counter[str]()
+    found = True
+    while found:
+        found = False
+        for i, listed in list(waiting.items()):
+            new = {key(x) for x in listed if _is_new(x, names, own)}
+            if len(new) != 1 or not all(key(x) in new or _is_constant(x, names, own) for x in listed):
+                continue
+            made = _solved(out[i], *new)
+            if made is None or counts[min(new)] < 2:  # nothing else uses it
+                continue
+            out[i], found = made, True
+            own |= new
+            del waiting[i]
+    return out
+
+
+def _is_product(statement: Statement) -> bool:
+    """Whether a statement equates a product without quotients."""
+    if len(statement.sides) != 2:
+        return False
+    left = inside(statement.sides[0])
+    return isinstance(left, Tree) and left.data == "product" and "/" not in left.children[1::2]
 
 
 def _new_name(side: Node) -> str | None:
@@ -40,36 +56,28 @@ def _new_name(side: Node) -> str | None:
     return None if squared is None else str(squared)
 
 
-def _solved(statements: Sequence[Statement], i: int, names: Names, own: set[str]) -> tuple[str, Statement] | None:
-    """The key of the new name and the statement that says what it is; None if it does not."""
-    statement = statements[i]
+def _solved(statement: Statement, new: str) -> Statement | None:
+    """The statement that says what a factor of its left side is; None if it is not a single one."""
     left, right = statement.sides
-    product = inside(left)
-    factors = list(product.children[::2])
-    new = [x for x in factors if (name := _new_name(x)) is not None and _is_new(name, names, own)]
-    if len(new) != 1 or "/" in product.children[1::2]:
-        return None
-    name = key(str(_new_name(new[0])))
-    rest = [x for x in factors if x is not new[0]]
-    others = (s for k, s in enumerate(statements) if k != i)
-    used = any(key(str(token)) == name for s in others for side in s.sides for token, _ in names_in(side))
-    if not used or not all(_is_constant(x, names, own) for x in _names([*rest, right])):
+    factors = list(inside(left).children[::2])
+    single = [x for x in factors if (name := _new_name(x)) is not None and key(name) == new]
+    rest = [x for x in factors if x is not single[0]] if single else []
+    if any(key(x) == new for x in _names([*rest, right])) or not single:
         return None
     start = start_of(right)
     divided = [x for factor in rest for x in (leaf("SLASH", "/", start), factor)]
-    return name, replace(statement, sides=(node("sum", start, None, new[0]), node("product", start, right, *divided)))
+    return replace(statement, sides=(node("sum", start, None, single[0]), node("product", start, right, *divided)))
 
 
-def _names(trees: Sequence[Node]) -> Iterator[str]:
+def _names(trees: Sequence[Node]) -> list[str]:
     """The names in trees; an empty one for what is differentiated."""
-    for tree in trees:
-        if isinstance(tree, Tree):
-            yield from ("" if changing else str(token) for token, changing in names_in(tree))
+    found = (x for tree in trees if isinstance(tree, Tree) for x in names_in(tree))
+    return ["" if changing else str(token) for token, changing in found]
 
 
 def _is_new(name: str, names: Names, own: set[str]) -> bool:
     """Whether a name is none of the system, and no statement says what it is."""
-    return not undotted(name)[1] and not names.scope.meanings(name)[0] and key(name) not in own
+    return bool(name) and not undotted(name)[1] and not names.scope.meanings(name)[0] and key(name) not in own
 
 
 def _is_constant(name: str, names: Names, own: set[str]) -> bool:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import islice
 
 from lagrangian.check.reading.answer import MarkedRow
 from lagrangian.check.reading.choices import Choices
@@ -117,7 +118,7 @@ def _spans(own: Source, parser: Callable[[Source], Parser], lines: Lines, words:
 def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, words: Words) -> list[Statement]:
     """What a row of words says in passing of names that the system does not have: th = angle, Om = Omega."""
     found: list[Statement] = []
-    for match in _MEANING.finditer(own.text):
+    for match in islice(_MEANING.finditer(own.text), MOST_LACKING):
         named = re.findall(NAME, match["value"])
         if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):
             continue
