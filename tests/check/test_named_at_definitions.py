@@ -107,3 +107,33 @@ def test_an_energy_without_its_translation_is_no_energy_of_the_rotation() -> Non
     wrong = "x = R phi\nT_wheel = 1/2 J x'^2/R^2\nT = 1/2 J x'^2/R^2\nV = 1/2 k x^2"
     told = _told(wheels().check(wrong), 2)
     assert "the kinetic energy of rigid body 'wheel' is" in told
+
+
+def test_two_terms_that_are_missing_are_no_term_in_place_of_another() -> None:
+    """Nobody wrote −m_c e ψ̇ ṙ where m_c (e + r/2) ψ̇ ṙ is missing."""
+    T = "T = 1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2) + 1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2)"
+    rate = "(J + m r^2 + m_c (e + r/2)^2) psi'' + 2 m r r' psi'"
+    assert crane().check(f"{T}\nd/dt dL/dpsi' = {rate} + m_c (e + r/2) r' psi'").right
+    verdict = crane().check(f"{T}\nd/dt dL/dpsi' = {rate}")
+    told = " ".join(verdict.to_text().split())
+    assert not verdict.right and "the term m_c (e + ½ r) ψ̇ ṙ is missing" in told and "stands where" not in told
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("1/2 m_c (r'^2 + (e + r/2)^2 psi'^2)", "the term ½ m_c ṙ² should be ⅛ m_c ṙ²."),
+        ("1/2 m_c (r'^2/4 + (e^2 + r^2/4) psi'^2)", "the term ½ m_c e r ψ̇² is missing."),
+        ("1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2 + r' psi')", "the term ½ m_c ψ̇ ṙ does not belong there."),
+    ],
+)
+def test_two_formulas_in_different_arrangements_are_told_by_the_term_that_differs(written: str, told: str) -> None:
+    T = "1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2)"
+    assert crane().check(f"T_w = 1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2)\nT = {T} + T_w").right
+    assert told in _told(crane().check(f"T_w = {written}\nT = {T} + T_w"), 1)
+
+
+def test_so_is_the_factor_of_an_acceleration() -> None:
+    total = "J + m r^2 + m_c (e^2 + r^2/4)"
+    told = _told(crane().check(f"J_t = {total}\nT = 1/2 J_t psi'^2 + 1/2 (m + m_c/4) r'^2"), 1)
+    assert "the factor of ψ̈" in told and "the term m_c e r is missing." in told

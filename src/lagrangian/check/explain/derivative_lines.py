@@ -157,8 +157,9 @@ def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Exp
             if (number := bounded.cancel(rest[0] / t)).is_number:
                 return cast("sp.Expr", (1 + number) * t), t
         return rest[0], sp.S.Zero
+    written = sp.Add.make_args(sp.Add(*right, *rest)) if len(rest) == 2 else ()
     for more, less in (rest, rest[::-1]) if len(rest) == 2 else ():
-        if -less in right and more not in right:
+        if -less in right and more not in right and more in written:  # two that are missing stand for nothing
             return more, -less
     return _same_number(rest, right)
 

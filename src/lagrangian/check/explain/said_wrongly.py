@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.explain.changes.ring import SumRing, TooLong, minus
+from lagrangian.check.explain.apart import beside, folded, rescales, told_apart
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
@@ -75,9 +75,9 @@ CALLED = {
 NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
 NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
 """What mistakes of some kinds are called."""
+OF_MANY_TERMS = ("speed", "kinetic", "mass", "potential")
+"""Kinds in which two formulas in different arrangements do not show at once in which term they differ."""
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
-MOST_LACKING = 2
-"""The most terms that are added to what is written, to say what is right."""
 LONGEST = 60
 """The largest number of operations of such a definition."""
 NEAR = 1e-9
@@ -94,6 +94,8 @@ class InWords:
     written: tuple[str | Left, ...]
     letters: frozenset[sp.Basic]
     """The letters, coordinates and rates in what is right and in what is written."""
+    apart: tuple[str | Left, ...] = ()
+    """In which term both differ, at the end of the sentence."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,11 +142,15 @@ class SaidWrongly:
         of_body = isinstance(owner, Body) or (owner is not None and self.T != 0)
         own = f"{NAMES.get(kind, kind)}_{'of_body' if of_body else 'said'}"
         begins = f"Line {self.number} is not right: the "
-        what = text(begins, *of.words, " is ", *self.words.right, ", not ", *self.words.written, ".")
+        what = text(begins, *of.words, " is ", *self.words.right, ", not ", *self.words.written, *self._ending)
         title = owner.title if owner is not None else None
         words = of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
         brief = text("The ", *words, " is not right.")
         return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, of.coordinate, brief)
+
+    @property
+    def _ending(self) -> tuple[str | Left, ...]:
+        return self.words.apart or (".",)
 
     @property
     def own_letters(self) -> set[sp.Basic]:
@@ -266,8 +272,9 @@ def _in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWord
     """What is wrong in a quantity, as the answer counts it."""
     of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
     right = folded(s, right)
-    right = _beside(s, right, own) if q.kind in ("speed", "kinetic") else right
-    return told(of, [right], [own], (right,), (own,))
+    apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else ()
+    right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
+    return replace(told(of, [right], [own], (right,), (own,)), apart=apart)
 
 
 def told(
@@ -367,26 +374,3 @@ def _turned(expr: sp.Expr) -> sp.Expr:
             factors[k] = sp.Add(*[-x for x in f.args])
             return cast("sp.Expr", sp.Mul(*factors))
     return -expr
-
-
-def _beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
-    """What is right, as what is written and the few terms that this lacks, if these are few: (h θ̇ + ṡ)² + s² θ̇²."""
-    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
-    try:
-        lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
-    except TooLong:
-        return right
-    found = cast("sp.Expr", written + ring.expr(lacking))
-    plain = all(not isinstance(f, sp.Pow) or not f.base.is_Add for x in sp.Add.make_args(written) for f in x.args)
-    closer = plain or len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
-    return found if len(lacking) <= MOST_LACKING and closer else right
-
-
-def folded(s: Ingredients, expr: sp.Expr) -> sp.Expr:
-    """An energy without cos² + sin², if that is shorter."""
-    ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
-    try:
-        found = ring.expr(ring.fold(ring.of(bounded.expand(expr))))
-    except TooLong:
-        return expr
-    return found if bounded.operations(found) <= bounded.operations(expr) else expr
