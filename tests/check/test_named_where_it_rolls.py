@@ -92,3 +92,16 @@ def test_a_coordinate_in_another_beside_a_multiplier_is_right_in_a_wrong_answer(
 def test_right_lines_are_right_beside_one_that_nothing_explains() -> None:
     verdict = check("phi = x/R", ALONG.replace("m l cos(psi) psi''", "m l sin(2 psi) psi'' + 3 M J x"), ARM)
     assert [f.status.right for f in verdict.findings] == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ("-m g cos(psi)", "−m g cos ψ should be −m g l cos ψ"),
+        ("m g l cos(psi)", "m g l cos ψ has the wrong sign"),
+        ("0", "the term −m g l cos ψ is missing"),
+    ],
+)
+def test_the_level_of_heights_is_no_part_of_a_mistake(wrong: str, said: str) -> None:
+    verdict = check("x' = R phi'", f"V = {wrong} + 1/2 k (phi + psi)^2", FORCED, ARM)
+    assert f"line 2 (V): {said}." in " ".join(str(verdict).split())
