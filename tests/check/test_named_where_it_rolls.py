@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from test_counted_together import ALONG, ARM, reel
+from reels import VALUES, reel, reel_with
+from test_counted_together import ALONG, ARM
 
 import lagrangian as lg
 
@@ -92,3 +93,32 @@ def test_a_coordinate_in_another_beside_a_multiplier_is_right_in_a_wrong_answer(
 def test_right_lines_are_right_beside_one_that_nothing_explains() -> None:
     verdict = check("phi = x/R", ALONG.replace("m l cos(psi) psi''", "m l sin(2 psi) psi'' + 3 M J x"), ARM)
     assert [f.status.right for f in verdict.findings] == [True, False, True]
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ("-m g cos(psi)", "−m g cos ψ should be −m g l cos ψ"),
+        ("m g l cos(psi)", "m g l cos ψ has the wrong sign"),
+        ("0", "the term −m g l cos ψ is missing"),
+    ],
+)
+def test_the_level_of_heights_is_no_part_of_a_mistake(wrong: str, said: str) -> None:
+    verdict = check("x' = R phi'", f"V = {wrong} + 1/2 k (phi + psi)^2", FORCED, ARM)
+    assert f"line 2 (V): {said}." in " ".join(str(verdict).split())
+
+
+NUMBERS = """M + m + J/R^2 = 0.05 + 0.03 + 0.05 = 0.13, k/R = 0.02
+0.13 x'' + 0.00045 psi'' cos(psi) - 0.00045 psi'^2 sin(psi) + 0.025 x' + 0.0005 psi' + x + 0.02 psi = F
+0.00045 x'' cos(psi) + 0.00000675 psi'' + 0.0005 x' + 0.00001 psi' + 0.02 x + 0.0004 psi + 0.0044145 sin(psi) = 0"""
+
+
+def test_values_that_are_worked_out_stand_beside_equations_in_numbers() -> None:
+    def judged(answer: str) -> tuple[bool, list[bool]]:
+        verdict = reel_with(**VALUES).check(answer)
+        return verdict.right, [f.status.right for f in verdict.findings]
+
+    assert judged(NUMBERS) == (True, [True, True])
+    assert judged(NUMBERS.replace("- 0.00045", "- 0.0009")) == (False, [False, True])
+    assert judged(NUMBERS.replace("= 0.13,", "= 0.12,"))[0] is False
+    assert judged(NUMBERS.replace("+ 0.05 =", "- 0.05 ="))[1][-2:] == [True, True]

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.check.names.spelling import in_numbers, values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
+ROUNDED = 0.005
+"""The relative difference of a value that is rounded."""
+EXACT = 1e-9
 _JUDGED = frozenset(["T", "V", "L", "D", "Xi"])
 
 Judge = Callable[[Reference, Sequence[AnsweredLine]], Verdict]
@@ -82,13 +88,30 @@ class NumbersAlone:
 
 
 def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlone | None:
-    """Return the lines of an answer that is in numbers but for a list of the system's values; None for another."""
+    """Return the lines of an answer that is in numbers but for values of the system and what follows from these, J/R² =
+    0.05; None for another."""
     values, kept = values_of(truth, ()), list[AnsweredLine]()
     for line in lines:
-        gives = any(line.expr in (p - v, v - p) for p, v in values.items())
+        gives = any(line.expr in (p - v, v - p) for p, v in values.items()) or _is_worked_out(truth, line, values)
         kept += [] if gives or line.kind in ("definition", "statement") else [line]
-    if not kept or not in_numbers(truth, kept):
+    lettered = [x for x in kept if not _is_constant(x, values)]
+    if not lettered or not in_numbers(truth, lettered):
         return None
     put = tuple(values)
     named = [x for p in sorted(put, key=str) for x in (p, ", ")][:-1]
     return NumbersAlone(tuple(kept), values, (text("The values of ", *named, " are substituted."),))
+
+
+def _is_constant(line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> bool:
+    """Whether a line equates letters of which all values are known with a number."""
+    return line.kind == "equation" and line.expr.free_symbols <= values.keys() and not line.expr.atoms(AppliedUndef)
+
+
+def _is_worked_out(truth: Reference, line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> bool:
+    """Whether such a line is true, but for rounding where several letters are in it: p = 9.8 may be another value."""
+    if not _is_constant(line, values):
+        return False
+    put: dict[sp.Basic, Array] = {p: np.full(truth.states.size, float(v)) for p, v in values.items()}
+    terms = CompiledExpressions(sp.Add.make_args(line.expr)).at(truth.states, put)[:, 0]
+    near = ROUNDED if len(line.expr.free_symbols) > 1 else EXACT
+    return bool(abs(terms.sum()) <= near * np.abs(terms).max())

@@ -95,8 +95,8 @@ def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
     """What is said first if only lines beside the equations of motion are wrong: which, and how the first differs."""
     wrong = [f for f in verdict.findings if f.status is Status.WRONG]
     titles = [f.line.title for f in wrong if not f.follows] or [f.line.title for f in wrong]
-    agrees = "does not agree" if len(set(titles)) == 1 else "do not agree"
-    names = listed(list(dict.fromkeys(titles)))
+    each = list(dict.fromkeys(titles))
+    agrees, names = "does not agree" if len(each) == 1 else "do not agree", listed(each)
     said: list[str | Left] = [f"Your equations of motion are right. {names[:1].upper()}{names[1:]} {agrees} with them"]
     differing = wrong[0].differences if len(titles) == 1 and verdict.hint >= 3 else ()
     if not 0 < len(differing) <= MOST_SAID_FIRST:

@@ -70,12 +70,13 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
     """The wrong lines that state constraints or derivatives of these, each with what is wrong in it."""
     model = truth.model
     moving = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
+    places = [c.symbol for c in model.coordinates]
     found: list[WrongConstraint] = []
     for f in findings:
         expr = f.line.expr
         if f.line.kind != "equation" or f.status is not Status.WRONG:
             continue
-        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= truth.names:
+        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= truth.names or not expr.has(*places):
             continue
         above = next((x for x in found if _derived(x.expr, expr)), None)
         if above is not None:
