@@ -36,7 +36,8 @@ _MAX = 100
 
 
 _CALLED_ENERGY = re.compile(
-    r"(?<![\w\\])(?P<name>[TVUKLE])(?P<prime>\s?['’′])?\s{0,3}(?:\\left)?\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
+    r"(?<![\w\\])(?P<name>[TVUKLE])(?P<prime>\s?['’′])?\s{0,3}(?:\\left)?"
+    r"\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
 )
 """An energy with coordinates or rates in brackets: V(θ), U'(x), T(ẋ)."""
 _OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
