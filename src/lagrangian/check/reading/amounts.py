@@ -19,12 +19,12 @@ def amounts_to(value: Any, number: Any, model: Model, *, one: bool = False) -> b
     of the system: R - r = 0.4 m. ``one``: k g is 1 kg, too."""
     if not isinstance(value, sp.Expr) or not isinstance(number, sp.Expr) or not value.free_symbols:
         return False
-    amount = value.xreplace({p: sp.Float(v) for p, v in model.values.items()})
     factor, unit = number.as_coeff_Mul()
     factors: Any = unit.args or [unit]
-    letters = unit == 1 or all(x.as_base_exp()[0].is_Symbol for x in factors)
-    near = amount.is_Float and abs(amount - factor) <= ROUNDED * abs(factor)
-    return bool(near and letters and (one or factor != 1))
+    if unit != 1 and not all(isinstance(x, sp.Expr) and x.as_base_exp()[0].is_Symbol for x in factors):
+        return False
+    amount = value.xreplace({p: sp.Float(v) for p, v in model.values.items()})
+    return bool(amount.is_Float and abs(amount - factor) <= ROUNDED * abs(factor) and (one or factor != 1))
 
 
 def without_amounts(values: list[Value], sides: list[Tree], model: Model) -> tuple[list[Value], list[Tree]]:
