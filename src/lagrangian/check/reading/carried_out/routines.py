@@ -19,6 +19,7 @@ from lagrangian.check.reading.carried_out.values import (
     Inverse,
     Value,
     checked,
+    is_scalar,
     listed,
     matrix,
     number,
@@ -207,6 +208,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         value = given[0]
         make = PLAIN[name]
         return checked(value.applyfunc(make) if isinstance(value, MatrixBase) else make(scalar(value)))
+    if name in ("array", "asarray") and isinstance(given[0], list) and given[0] and all(map(is_scalar, given[0])):
+        return matrix(given[0])  # whose sums are no longer lists
     if name in SAME:
         return given[0] if given else UNKNOWN
     if name in ("symbols", "Symbol", "sym", "var"):
