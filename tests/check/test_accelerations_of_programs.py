@@ -170,3 +170,22 @@ def test_a_multiplier_may_be_eliminated_by_matrices() -> None:
         ("lam = @(q, qd, F) -", "lam = @(q, qd, F) "),
     ):
         assert old in CONSTRAINED and not wheel().check(CONSTRAINED.replace(old, new)).right
+
+
+COUNTED = """syms x theta dx dtheta ddx ddtheta M m l J b g F real
+q = [x theta]; dq = [dx dtheta]; ddq = [ddx ddtheta];
+T = 1/2*(M+m)*dx^2 + m*l*dx*dtheta*cos(theta) + 1/2*(J+m*l^2)*dtheta^2;
+L = T - m*g*l*cos(theta);
+Q = [F - b*dx, 0];
+for i = 1:numel(q)
+  eq(i) = jacobian(diff(L,dq(i)),[q dq])*[dq ddq].' - diff(L,q(i)) - Q(i);
+end
+simplify(eq)"""
+
+
+@pytest.mark.parametrize("last", ["simplify(eq)", ""])
+def test_loops_of_matlab_over_numbers_are_carried_out(last: str) -> None:
+    program = COUNTED.replace("simplify(eq)", last)
+    assert right(program)
+    for old, new in (("- Q(i)", "+ Q(i)"), ("- diff(L,q(i))", "+ diff(L,q(i))"), ("1:numel(q)", "1:1")):
+        assert old in program and not right(program.replace(old, new))

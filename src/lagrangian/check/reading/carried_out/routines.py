@@ -237,7 +237,13 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "atan2": lambda: sp.atan2(scalar(given[0]), scalar(given[1])),
         "len": lambda: sp.Integer(len(listed(given[0]))),
     }
-    for alias, same in (("ImmutableMatrix", "Matrix"), ("arctan2", "atan2"), ("Subs", "subs"), ("mat", "Matrix")):
+    for alias, same in (
+        ("ImmutableMatrix", "Matrix"),
+        ("arctan2", "atan2"),
+        ("Subs", "subs"),
+        ("mat", "Matrix"),
+        *((x, "len") for x in ("numel", "length")),
+    ):
         table[alias] = table[same]
     if name in ("concatenate", "hstack", "vstack"):
         return stacked(given)
