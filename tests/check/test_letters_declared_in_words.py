@@ -254,3 +254,17 @@ def test_latex_in_comments_of_a_program_is_read_where_no_other_line_is_an_equati
     assert not pole.check(LATEX_COMMENTS.replace(r"+ b\dot", r"- b\dot")).right
     energies = r"T = \frac{1}{2} (M+m) \dot x^2" + "\n" + LATEX_COMMENTS.replace("#", "%").partition("\n% ")[2]
     assert not pole.check(energies).right
+
+
+SOLVED = """xdd = ((J+m*l^2)*(F - b*xd + m*l*thetad^2*sin(theta)) - m^2*l^2*g*sin(theta)*cos(theta))/Delta
+thetadd = ((M+m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*xd + m*l*thetad^2*sin(theta)))/Delta
+% where Delta = (M+m)*(J+m*l^2) - m^2*l^2*cos(theta)^2"""
+
+
+def test_a_comment_may_say_what_a_name_is_that_nothing_else_defines() -> None:
+    pole = derivation("cart-pole")
+    assert pole.check(SOLVED).right
+    assert not pole.check(SOLVED.replace(") - m^2*l^2*cos", ") + m^2*l^2*cos")).right
+    assert pole.check(
+        f"Delta = (M+m)*(J+m*l^2) - (m*l*cos(theta))^2\n{SOLVED.replace('- m^2*l^2*cos', '+ m^2*l^2*cos')}"
+    )

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from itertools import islice
 
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
@@ -22,6 +23,8 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.read.letters import SPELLED, key
 
 _NAME = r"[^\W\d]\w{0,15}+"
+MOST_VALUES = 20
+"""The most values in comments that are looked at."""
 MOST_LETTERS = 3
 """The most letters of a product without signs in the value of a name."""
 _PAIR = rf"{_NAME}[ \t]*+=[ \t]*+{_NAME}"
@@ -30,6 +33,12 @@ _COMMENT = re.compile(
     rf"(?P<mark>(?<!\\)[#%]|//)[ \t]*+(?P<said>{_PAIRS})[ \t]*+[.;]?[ \t]*+$",
     re.MULTILINE,
 )
+_COMMENTED = re.compile(
+    rf"^[ \t]*+(?P<mark>(?:[#%]+|//)[ \t]*+(?:(?:where|with|here|mit|wobei)[ \t]++)?)(?P<new>{_NAME})[ \t]*+="
+    r"[ \t]*+(?P<value>[^\n=]{3,200})$",
+    re.MULTILINE,
+)
+"""The value of a name on a line that is a comment: % where Delta = …"""
 _EACH = re.compile(rf"({_NAME})[ \t]*+=[ \t]*+({_NAME})")
 _SENTENCE = re.compile(
     rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{_NAME})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
@@ -69,6 +78,7 @@ def with_stated_letters(
             if all(says(*pair) or says(*reversed(pair)) for pair in _EACH.findall(match["said"])):
                 behind = text[text.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
                 edits.append((*match.span("mark"), "; " if behind else " "))
+        edits += _values_in_comments(text, taken)
     for match in _SENTENCE.finditer(written.text):
         if says(match["new"], match["own"]):
             edits.append((*match.span(), _statement(match, latex=latex)))
@@ -81,6 +91,21 @@ def with_stated_letters(
         if all(a and all(map(taken, a)) and not taken(new) for a, (new, _) in zip(named, pairs, strict=True)):
             edits.append((*match.span(), "; " + "; ".join(f"{new} = {value}" for new, value in pairs) + ";"))
     return written.edited(sorted(edits))
+
+
+def _values_in_comments(text: str, taken: Callable[[str], bool]) -> list[Edit]:
+    """The marks in front of values of names that other lines use and none defines."""
+    edits: list[Edit] = []
+    for match in islice(_COMMENTED.finditer(text), MOST_VALUES):
+        new, whole = match["new"], re.escape(match["new"])
+        names = [x for x in re.findall(r"[^\W\d_²³]\w*", match["value"]) if function_of(x) is None]
+        if taken(new) or not names or not all(_is_product(x, taken) for x in names):
+            continue
+        defined = re.search(rf"^[ \t]*+{whole}[ \t]*+:?=(?!=)", text, re.MULTILINE)
+        used = re.search(rf"^(?![ \t]*+(?:[#%]|//))[^\n#%]*(?<!\w){whole}(?!\w)", text, re.MULTILINE)
+        if defined is None and used is not None:
+            edits.append((*match.span("mark"), " "))
+    return edits
 
 
 _WORD = r"[^\W\d_]{2,20}+"
