@@ -138,3 +138,25 @@ def test_names_of_the_system_are_no_rates() -> None:
     answer = parse_answer("m*x_pp + k*(x - x_p) = 0", s.model)
     assert answer.lines[0].lhs == parse_answer("m*x'' + k*(x - x_p) = 0", s.model).lines[0].lhs
     assert s.derive().check("m*x_pp + k*(x - x_p) = 0").right
+
+
+ENERGIES_ALONE = """T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2
+V = m g l cos(theta)
+Q_x = F - b x', Q_theta = 0
+"""
+
+
+@pytest.mark.parametrize(
+    "result",
+    [
+        "so that the first equation is (M+m) times the acceleration plus the rest of it = F - b x', see ## above",
+        "and so Lagrange's two equations of motion are (M+m) x°° + m l cos(theta) theta°° + sin = F and the second one",
+    ],
+)
+def test_energies_alone_are_not_right_in_front_of_a_result_that_was_not_read(result: str) -> None:
+    pole = derivation("cart-pole")
+    assert pole.check(ENERGIES_ALONE).right
+    with pytest.raises(ParseError):
+        pole.check(f"{ENERGIES_ALONE}{result}")
+    assert pole.check(f"{result}\n{ENERGIES_ALONE}").right
+    assert pole.check(f"{ENERGIES_ALONE}The zero of the height is at the axle, where V = 0 as it should be").right

@@ -67,9 +67,20 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
         derivation = other
     if isinstance(given, Answer):
         verdict = _of_readings(derivation, given, hint)
+        if verdict.right and (hidden := _hidden_result(given, verdict)) is not None:
+            raise hidden
     else:
         verdict = check.check(derivation, given, hint=hint)
     return CheckedAnswer(**vars(verdict), model=derivation.model)
+
+
+def _hidden_result(answer: Answer, verdict: check.Verdict) -> ParseError | None:
+    """The error of a sentence behind all right energies and forces that was not read, where no equation of motion was
+    judged: it may be the result."""
+    if any(f.line.kind in ("equation", "left") for f in verdict.findings):
+        return None
+    last = max((f.line.number for f in verdict.findings), default=0)
+    return next((e for e in answer.sentences if e.place is not None and (e.place.line or 0) > last), None)
 
 
 def _expanded(model: Model) -> Derived | None:

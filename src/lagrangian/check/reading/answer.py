@@ -129,6 +129,9 @@ class Answer:
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 
+    sentences: tuple[ParseError, ...] = field(default=(), repr=False, compare=False)
+    """The errors of sentences that were not read and may say an equation of motion."""
+
     @property
     def equations(self) -> tuple[AnswerLine, ...]:
         """The lines that state equations."""

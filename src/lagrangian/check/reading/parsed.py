@@ -28,6 +28,8 @@ from lagrangian.errors import ParseError, Place
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
 
+FEWEST_NAMES = 3
+"""The fewest names of the system in a sentence that may hold a result."""
 MANY_WORDS = 2
 """English words in a row that make it a sentence."""
 
@@ -79,11 +81,18 @@ def parsed(
             if not stated and latex is None:
                 found += [replace(x, remark=remark) for x in _meanings(own, parser, lines, words_of)]
             lines.results += [error] if may_be_result(whole) else []
+            words_of.unread += [error] if _may_hide_result(whole, words_of) else []
             if len(errors) >= MOST_LACKING or error.code == "E703":
                 break
     aside = dict.fromkeys(e.place.line for e in words if e.place is not None and e.place.line) if found else {}
     notes = [f"Line {line} has a part that was not read and not judged." for line in list(aside)[:MOST_TOLD]]
     return found, errors if found or errors or lines.remarks else words[:1], notes
+
+
+def _may_hide_result(whole: str, words: Words) -> bool:
+    """Whether a sentence has an equals sign and several names of the system, so that it may say an equation of motion
+    in words."""
+    return "=" in whole and len({x for x in re.findall(NAME, whole) if words.is_name(x)}) >= FEWEST_NAMES
 
 
 def places_of_marks(

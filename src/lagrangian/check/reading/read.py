@@ -249,7 +249,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     own = {key(name) for name in model.symbols}
     lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)
-    words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
+    _choose(reading, words, lines)
     text = text if latex else with_spoken_signs(text, words)
     source = source if latex else plain.source(typed, text)
     written = written_out(source) if latex else None
@@ -262,7 +262,6 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
-    lines.names.relations.put = reading.put
     marked = partial(places_of_marks, rows, source, written, words)
     try:
         made = lines.read(statements, errors)
@@ -287,8 +286,15 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         bool(comments),
-        stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
+        senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
+        sentences=tuple(words.unread),
     )
+
+
+def _choose(reading: Choices, words: Words, lines: Lines) -> None:
+    """Set how words and relations of coordinates are read."""
+    words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
+    lines.names.relations.put = reading.put
 
 
 def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:

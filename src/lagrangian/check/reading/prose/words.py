@@ -13,7 +13,7 @@ from unicodedata import normalize
 
 from lagrangian.check.reading.names import COLUMNS, Names, spelled_rates
 from lagrangian.check.reading.prose.splits import LONGEST, splits
-from lagrangian.errors import did_you_mean
+from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
 from lagrangian.read.functions import ALIASES
@@ -129,6 +129,8 @@ class Words:
         """Whether cosθ1-θ2, written without gaps, is read as cos(θ1 - θ2)."""
         self.summed_asked = False
         """Whether there was such an argument."""
+        self.unread: list[ParseError] = []
+        """The errors of sentences with an equals sign and names of the system that were not read."""
 
     def known(self, word: str) -> bool:
         """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
