@@ -7,7 +7,7 @@ twin, which stays wrong.
 import pytest
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.parts import tell_general
 from lagrangian.errors import Place
@@ -189,3 +189,16 @@ def test_no_note_quotes_accelerations_that_only_the_reading_names() -> None:
     names.notes.clear()
     tell_general(Source("v' = qdd", "", Place(line=1, column=1, text="dz = [v; vdot]")), ["qdd"], names)
     assert not names.notes
+
+
+def test_maple_indexes_parameters_in_brackets() -> None:
+    system = System("two masses")
+    x, y = system.coordinates("x y")
+    m1, m2, k_a = system.parameters("m1 m2 k_a")
+    system.kinetic((m1 * x.diff() ** 2 + m2 * y.diff() ** 2) / 2)
+    system.spring(k_a, deflection=y - x)
+    masses = system.derive()
+    rows = "eq1 := m[1]*diff(x(t), t, t) = k[a]*(y(t) - x(t));\neq2 := m[2]*diff(y(t), t, t) = -k[a]*(y(t) - x(t));"
+    assert masses.check(rows).right
+    assert not masses.check(rows.replace("m[2]", "m[1]")).right
+    assert not masses.check(rows.replace("= k[a]", "= -k[a]")).right

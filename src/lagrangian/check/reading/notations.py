@@ -23,6 +23,7 @@ from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.programs.functions import without_functions
+from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
@@ -91,6 +92,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
     if not LATEX.search(session.text):
+        session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
         session = with_derivative_legends(session, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
