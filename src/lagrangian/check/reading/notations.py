@@ -108,7 +108,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
-        with_variations(tagless, taken), names.changes, taken, latex=bool(LATEX.search(tagless.text))
+        with_variations(tagless, taken, None if latex else names.changes),
+        names.changes,
+        taken,
+        latex=bool(LATEX.search(tagless.text)),
     )
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]
