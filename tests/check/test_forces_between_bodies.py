@@ -81,3 +81,16 @@ def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None
     for right, wrong in (("phi = x/R", "phi = 2 x/R"), ("1/2 J", "J"), ("1/2 k x^2", "k x^2"), ("= F", "= -F")):
         assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, wrong)).right
     assert not wheel().check(f"{ENERGIES}\n(M + m) x'' + k x = F").right
+
+
+BESIDE = """Forces: H is a force of the floor, A of the axle.
+   box: M ax = A - k x      ax = x''
+   m x'' = F - H - A
+   J phi'' = R H
+   x'' = R phi''"""
+
+
+def test_a_name_is_defined_behind_a_gap_and_no_product_with_an_article() -> None:
+    assert wheel().check(BESIDE).right
+    assert not wheel().check(BESIDE.replace("ax = x''", "ax = 2 x''")).right
+    assert not wheel().check(BESIDE.replace("A - k x", "A + k x")).right

@@ -246,6 +246,8 @@ class Words:
             return extra
         if _GREEK_LETTER.fullmatch(part):
             return True  # 2λx
+        if part in ("a", "I") and key(part) not in self._used:
+            return False  # words of sentences: ax is no a x
         alone = key(part) in self._alone or key(undotted(part)[0]) in self._alone
         return alone and key(part) != key(word) and not self.is_product(part)
 
