@@ -84,13 +84,15 @@ def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None
 
 
 BESIDE = """Forces: H is a force of the floor, A of the axle.
-   box: M ax = A - k x      ax = x''
+   box: M acc = A - k x      acc = x''
    m x'' = F - H - A
    J phi'' = R H
    x'' = R phi''"""
 
 
-def test_a_name_is_defined_behind_a_gap_and_no_product_with_an_article() -> None:
-    assert wheel().check(BESIDE).right
-    assert not wheel().check(BESIDE.replace("ax = x''", "ax = 2 x''")).right
-    assert not wheel().check(BESIDE.replace("A - k x", "A + k x")).right
+@pytest.mark.parametrize("name", ["acc", "ab", "ax"])
+def test_a_name_is_defined_behind_a_gap_and_is_no_product_with_an_article(name: str) -> None:
+    answer = BESIDE.replace("acc", name)
+    assert wheel().check(answer).right
+    assert not wheel().check(answer.replace(f"{name} = x''", f"{name} = 2 x''")).right
+    assert not wheel().check(answer.replace("A - k x", "A + k x")).right
