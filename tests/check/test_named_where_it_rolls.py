@@ -122,3 +122,13 @@ def test_values_that_are_worked_out_stand_beside_equations_in_numbers() -> None:
     assert judged(NUMBERS.replace("- 0.00045", "- 0.0009")) == (False, [False, True])
     assert judged(NUMBERS.replace("= 0.13,", "= 0.12,"))[0] is False
     assert judged(NUMBERS.replace("+ 0.05 =", "- 0.05 ="))[1][-2:] == [True, True]
+
+
+def test_the_square_of_a_deflection_keeps_its_constant() -> None:
+    sys = lg.System("block on a spring")
+    s = sys.coordinate("s")
+    m, k, s0 = sys.parameters("m k s0")
+    sys.kinetic(m * s.diff() ** 2 / 2)
+    sys.spring(k, deflection=s - s0)
+    verdict = sys.derive().check("V = 1/2 k s^2\nm s'' + k s = 0")
+    assert "½ k s² should be ½ k (s − s₀)²" in str(verdict)
