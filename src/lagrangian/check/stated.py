@@ -149,7 +149,12 @@ def _without_constants(truth: Reference, differing: Sequence[TermDifference]) ->
         if not bounded.expand(right - written).has(*moving):
             continue
         constant = sp.Add(*[x for x in sp.Add.make_args(right) if not x.has(*moving)])
-        if constant in (0, right) or (written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written))):
+        squared = any(x.base.is_Add for x in d.term.atoms(sp.Pow))  # ½ k (s − s₀)² as it is
+        if (
+            squared
+            or constant in (0, right)
+            or (written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written)))
+        ):
             yield d
             continue
         term = cast("sp.Expr", sp.factor_terms(right - constant))
