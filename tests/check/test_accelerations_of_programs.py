@@ -42,6 +42,11 @@ end"""
 HANDLES = """A = @(q) [M+m, m*l*cos(q(2)); m*l*cos(q(2)), J+m*l^2];
 h = @(q,qd,F) [F - b*qd(1) + m*l*qd(2)^2*sin(q(2)); m*g*l*sin(q(2))];
 qdd = @(q,qd,F) A(q)\\h(q,qd,F);"""
+ARRAYS = """import numpy as np
+def qdd(q, qd, F):
+    H = np.array([[M+m, m*l*np.cos(q[1])],[m*l*np.cos(q[1]), J+m*l**2]])
+    h = np.array([m*l*np.sin(q[1])*qd[1]**2 - b*qd[0], m*g*l*np.sin(q[1])])
+    return np.linalg.inv(H) @ (h + np.array([F, 0]))"""
 RESIDUAL = """function res = cart_res(t, y, yp, p)
 theta = y(2); v = y(3); omega = y(4);
 res = [ yp(1) - v;
@@ -70,6 +75,7 @@ def right(text: str, model: str = "cart-pole") -> bool:
         (PAIRS, "omega**2", "v**2"),
         (ENTRIES, "v = z(3); w = z(4)", "v = z(4); w = z(3)"),
         (HANDLES, "m*g*l*sin", "m*g*sin"),
+        (ARRAYS, "[F, 0]", "[0, F]"),
         (RESIDUAL, "yp(2) - omega", "yp(2) + omega"),
         (RESIDUAL, "+ p.b*v", "- p.b*v"),
         (RESIDUAL, "cos(theta)*yp(3)", "cos(theta)*yp(4)"),
@@ -164,3 +170,22 @@ def test_a_multiplier_may_be_eliminated_by_matrices() -> None:
         ("lam = @(q, qd, F) -", "lam = @(q, qd, F) "),
     ):
         assert old in CONSTRAINED and not wheel().check(CONSTRAINED.replace(old, new)).right
+
+
+COUNTED = """syms x theta dx dtheta ddx ddtheta M m l J b g F real
+q = [x theta]; dq = [dx dtheta]; ddq = [ddx ddtheta];
+T = 1/2*(M+m)*dx^2 + m*l*dx*dtheta*cos(theta) + 1/2*(J+m*l^2)*dtheta^2;
+L = T - m*g*l*cos(theta);
+Q = [F - b*dx, 0];
+for i = 1:numel(q)
+  eq(i) = jacobian(diff(L,dq(i)),[q dq])*[dq ddq].' - diff(L,q(i)) - Q(i);
+end
+simplify(eq)"""
+
+
+@pytest.mark.parametrize("last", ["simplify(eq)", ""])
+def test_loops_of_matlab_over_numbers_are_carried_out(last: str) -> None:
+    program = COUNTED.replace("simplify(eq)", last)
+    assert right(program)
+    for old, new in (("- Q(i)", "+ Q(i)"), ("- diff(L,q(i))", "+ diff(L,q(i))"), ("1:numel(q)", "1:1")):
+        assert old in program and not right(program.replace(old, new))

@@ -7,7 +7,7 @@ function dx = f(t, x)     def f(t, x) -> "dx":         [a, b; c d]   Matrix([[a,
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from lagrangian.check.reading.carried_out.values import AbandonedError
 
@@ -23,21 +23,33 @@ _HEADER = re.compile(
 _KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", "elseif", "case", "otherwise", "catch"])
 _DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
 _SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
-_ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\d, \t]++)\)[ \t]*+=(?!=)")
+_ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\w, \t]++)\)[ \t]*+=(?!=)")
+_FOR = re.compile(
+    r"for[ \t]++(?P<name>[^\W\d]\w{0,12}+)[ \t]*+=[ \t]*+(?P<first>\d{1,2})[ \t]*+:[ \t]*+"
+    r"(?P<last>\d{1,2}|\w{1,12}(?:\([ \t]*+\w{1,12}+[ \t]*+\))?)[ \t]*+[;,]?\Z"
+)
+"""A loop over numbers: for i = 1:numel(q)."""
 _PLACE = r"[ \t]*+(?:\d*+[ \t]*+:[ \t]*+(?:\d++|end\b)?+|\d++)[ \t]*+"
 _PLACES = re.compile(rf"(?=[^()]*:){_PLACE}(?:,{_PLACE})?\)")
 _OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not "}
 
 
 def in_python(text: str) -> str:
-    """Return the program in Python's syntax, with the same lines; `AbandonedError` if it has branches or loops."""
+    """Return the program in Python's syntax, with the same lines; `AbandonedError` if it has branches, or loops over
+    anything but numbers."""
     lines = _joined([_without_comment(x) for x in text.split("\n")])
     made: list[str] = []
-    indent = 0
+    indent, counted = 0, set[str]()
     for line in lines:
         bare = line.strip()
         if not bare or _DROPPED.fullmatch(line):
             made.append("")
+            continue
+        if (loop := _FOR.fullmatch(bare)) is not None:
+            last = _Expression(loop["last"]).written()
+            made.append(" " * indent + f"for {loop['name']} in range({loop['first']}, {last} + 1):")
+            indent += 1
+            counted.add(loop["name"])
             continue
         if bare.split("(")[0].split()[0].rstrip(",;") in _KEYWORDS:
             raise AbandonedError
@@ -50,11 +62,11 @@ def in_python(text: str) -> str:
             indent = 1
         elif bare.rstrip(";,") in ("end", "endfunction", "return"):
             made.append("")
-            indent = indent if bare.startswith("return") else 0
+            indent = indent if bare.startswith("return") else max(indent - 1, 0)
         elif (syms := _SYMS.fullmatch(line)) is not None:
             made.append(" " * indent + _declared(syms["names"]))
         else:
-            made.append(" " * indent + "; ".join(_statement(x) for x in _statements(line)))
+            made.append(" " * indent + "; ".join(_statement(x, counted) for x in _statements(line)))
     return "\n".join(_with_bodies(made)) + "\n"
 
 
@@ -113,13 +125,14 @@ def _statements(line: str) -> list[str]:
     return [x for x in found if x.strip()]
 
 
-def _statement(text: str) -> str:
-    """One statement, in Python's syntax."""
+def _statement(text: str, counted: Set[str] = frozenset()) -> str:
+    """One statement, in Python's syntax; ``counted`` are the names that loops count with."""
     text = text.strip()
     if (several := re.match(r"\[([\w,~ \t]+)\][ \t]*=(?!=)", text)) is not None:  # [t, z] = ode45(…)
         targets = [x if x != "~" else "unused" for x in re.split(r"[\s,]+", several[1].strip())]
         return f"{', '.join(targets)} = {_statement(text[several.end() :])}"
-    if (entry := _ENTRY.match(text)) is not None:  # M(1,2) = …
+    entry = _ENTRY.match(text)
+    if entry is not None and all(x.isdigit() or x in counted for x in re.findall(r"\w+", entry["at"])):  # M(1,2) = …
         return f"{entry['name']}[{entry['at']}] = {_statement(text[entry.end() :])}"
     return _Expression(text).written()
 

@@ -21,6 +21,7 @@ from lagrangian.check.reading.carried_out.values import (
     Inverse,
     Value,
     checked,
+    is_scalar,
     listed,
     matrix,
     number,
@@ -228,6 +229,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         value = given[0]
         make = PLAIN[name]
         return checked(value.applyfunc(make) if isinstance(value, MatrixBase) else make(scalar(value)))
+    if name in ("array", "asarray") and isinstance(given[0], list) and given[0] and all(map(is_scalar, given[0])):
+        return matrix(given[0])  # whose sums are no longer lists
     if name in SAME:
         return given[0] if given else UNKNOWN
     if name in ("symbols", "Symbol", "sym", "var"):
@@ -257,7 +260,13 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "atan2": lambda: sp.atan2(scalar(given[0]), scalar(given[1])),
         "len": lambda: sp.Integer(len(listed(given[0]))),
     }
-    for alias, same in (("ImmutableMatrix", "Matrix"), ("arctan2", "atan2"), ("Subs", "subs"), ("mat", "Matrix")):
+    for alias, same in (
+        ("ImmutableMatrix", "Matrix"),
+        ("arctan2", "atan2"),
+        ("Subs", "subs"),
+        ("mat", "Matrix"),
+        *((x, "len") for x in ("numel", "length")),
+    ):
         table[alias] = table[same]
     if name in ("concatenate", "hstack", "vstack"):
         return stacked(given)

@@ -50,7 +50,9 @@ _MATLAB = re.compile(
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
-_ACCELERATES = re.compile(r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|\\ddot")
+_ACCELERATES = re.compile(
+    r"['’′]{2}|[\u0308″]|Derivative\([^\n]{1,40}2\)\)|\w(?:_?ddot|dd|_tt|pp)\b|(?<!\w)dd(?=[a-zA-Z])|\\ddot"
+)
 _LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
 """An entry of a column of the program, in a comment: eom(1) = …"""
 _COMMENTED = re.compile(r"[#%][^\n]*+")
