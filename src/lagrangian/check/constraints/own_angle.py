@@ -36,7 +36,7 @@ def _without(truth: Reference, lines: Sequence[AnsweredLine], angle: Any) -> tup
     """The lines without an angle; None if no two of them say what it is."""
     cosine, sine = sp.Dummy("cos"), sp.Dummy("sin")
     table = {sp.cos(angle): cosine, sp.sin(angle): sine}
-    put = [_expanded(line.expr, angle).xreplace(table) for line in lines]
+    put = [cast("sp.Expr", _expanded(line.expr, angle).xreplace(table)) for line in lines]
     if any(expr.has(angle) for expr in put):
         return None
     places = [k for k, (line, expr) in enumerate(zip(lines, put, strict=True)) if _is_place(truth, line, expr, table)]
@@ -45,7 +45,7 @@ def _without(truth: Reference, lines: Sequence[AnsweredLine], angle: Any) -> tup
         det = cast("sp.Expr", matrix.det())
         if matrix.has(cosine, sine) or det == 0:
             continue
-        rest = sp.Matrix([-put[k].xreplace({cosine: sp.S.Zero, sine: sp.S.Zero}) for k in pair])
+        rest = sp.Matrix([-cast("sp.Expr", put[k].xreplace(dict.fromkeys((cosine, sine), sp.S.Zero))) for k in pair])
         solved: Any = matrix.adjugate() * rest / det
         values = dict(zip((cosine, sine), solved, strict=True))
         left = cast("sp.Expr", solved[0] ** 2 + solved[1] ** 2 - 1)
