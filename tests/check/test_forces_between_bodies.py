@@ -81,3 +81,18 @@ def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None
     for right, wrong in (("phi = x/R", "phi = 2 x/R"), ("1/2 J", "J"), ("1/2 k x^2", "k x^2"), ("= F", "= -F")):
         assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, wrong)).right
     assert not wheel().check(f"{ENERGIES}\n(M + m) x'' + k x = F").right
+
+
+BESIDE = """Forces: H is a force of the floor, A of the axle.
+   box: M acc = A - k x      acc = x''
+   m x'' = F - H - A
+   J phi'' = R H
+   x'' = R phi''"""
+
+
+@pytest.mark.parametrize("name", ["acc", "ab", "ax"])
+def test_a_name_is_defined_behind_a_gap_and_is_no_product_with_an_article(name: str) -> None:
+    answer = BESIDE.replace("acc", name)
+    assert wheel().check(answer).right
+    assert not wheel().check(answer.replace(f"{name} = x''", f"{name} = 2 x''")).right
+    assert not wheel().check(answer.replace("A - k x", "A + k x")).right

@@ -156,3 +156,45 @@ def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
     assert not lift().check(answer.replace("V = m g (a", "V = 2 m g (a")).right
     assert not lift().check(answer.replace("1/2 (J + m u^2)", "1/2 (J + 2 m u^2)")).right
     assert not lift().check(answer.replace("sqrt(l^2", "sqrt(2 l^2")).right
+
+
+PRESSED = """a cos(theta) + l cos(beta) = c
+a sin(theta) + l sin(beta) = z
+J theta'' = tau - N a sin(beta - theta)
+m z'' = N sin(beta) - m g"""
+TWO_MULTIPLIERS = """a cos(theta) + l cos(beta) - c = 0      lambda1
+a sin(theta) + l sin(beta) - z = 0      lambda2
+J theta'' = tau - lambda1 a sin(theta) + lambda2 a cos(theta)
+m z'' + m g = -lambda2
+0 = -lambda1 l sin(beta) + lambda2 l cos(beta)"""
+
+
+@pytest.mark.parametrize(
+    ("answer", "changes"),
+    [
+        (
+            PRESSED,
+            [
+                ("tau - N", "tau + N"),
+                ("(beta - theta)", "(beta + theta)"),
+                ("sin(theta) + l sin(beta)", "sin(theta) + 2 l sin(beta)"),
+                ("a cos(theta) + l", "a cos(theta) - 2 l"),
+                ("N sin(beta) -", "N cos(beta) -"),
+            ],
+        ),
+        (
+            TWO_MULTIPLIERS,
+            [
+                ("0 = -lambda1", "0 = lambda1"),
+                ("tau - lambda1", "tau + lambda1"),
+                ("= -lambda2", "= lambda2"),
+                ("m z''", "2 m z''"),
+                ("+ l cos(beta) - c", "+ 2 l cos(beta) - c"),
+            ],
+        ),
+    ],
+)
+def test_the_geometry_says_what_an_angle_of_the_answer_is(answer: str, changes: list[tuple[str, str]]) -> None:
+    assert lift().check(answer).right
+    for right, wrong in changes:
+        assert right in answer and not lift().check(answer.replace(right, wrong)).right

@@ -137,3 +137,47 @@ def test_so_is_the_factor_of_an_acceleration() -> None:
     total = "J + m r^2 + m_c (e^2 + r^2/4)"
     told = _told(crane().check(f"J_t = {total}\nT = 1/2 J_t psi'^2 + 1/2 (m + m_c/4) r'^2"), 1)
     assert "the factor of ψ̈" in told and "the term m_c e r is missing." in told
+
+
+@cache
+def trough() -> Derivation:
+    """A trough that a crank drives by a spring; its guide damps it, and a damper joins it to a block."""
+    sys = System("trough")
+    x, y = sys.coordinates("x y")
+    m, k, c, d, e, Omega = sys.parameters("m k c d e Omega")
+    sys.particle(m, at=sys.point("trough", (x, 0)), name="trough")
+    sys.particle(m, at=sys.point("block", (y, 0)), name="block")
+    sys.spring(k, deflection=x, rest=e * sin(Omega * time), name="drive")
+    sys.damper(c, deflection=x, name="guide")
+    sys.damper(d, deflection=x - y, name="link")
+    return sys.derive()
+
+
+@pytest.mark.parametrize(
+    ("D", "told", "hint"),
+    [
+        (
+            "1/2 c (x' - e Omega cos(Omega t))^2 + 1/2 d (x' - y')^2",
+            "is taken as ẋ − e Ω cos(Ω t); it is ẋ.",
+            "relative",
+        ),
+        ("c x'^2 + 1/2 d (x' - y')^2", "The ½ of damper 'guide' in D is missing.", "½ b (rate)²"),
+        ("1/2 c x'^2 + 1/4 d (x' - y')^2", "Half of what damper 'link' adds to D is missing", "½ b (rate)²"),
+        ("1/2 c x'^2 + 1/2 d x'^2", "damper 'link'", "damper"),
+    ],
+)
+def test_what_is_wrong_in_the_function_of_the_dampers(D: str, told: str, hint: str) -> None:
+    energies = "T = 1/2 m x'^2 + 1/2 m y'^2\nV = 1/2 k (x - e sin(Omega t))^2\nD = "
+    assert trough().check(energies + "1/2 c x'^2 + 1/2 d (x' - y')^2").right
+    verdict = trough().check(energies + D)
+    text = " ".join(verdict.to_text().split())
+    assert not verdict.right and told in text and "twice." not in text.replace("counts twice.", "")
+    assert hint in str(verdict.mistakes[0].why)
+
+
+def test_hints_speak_of_no_derivative_of_an_energy_that_nobody_stated() -> None:
+    row = "m x'' = -k (x - e sin(Omega t)) - c x' - d (x' - y'), m y'' = "
+    assert trough().check(row + "d (x' - y')").right
+    verdict = trough().check(row + "d (x' - y') + m y'^2")
+    assert not verdict.right and verdict.mistakes
+    assert not any("∂" in str(x) for m in verdict.mistakes for x in (m.what, m.why))

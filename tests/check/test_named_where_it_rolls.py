@@ -95,6 +95,14 @@ def test_right_lines_are_right_beside_one_that_nothing_explains() -> None:
     assert [f.status.right for f in verdict.findings] == [True, False, True]
 
 
+def test_a_square_keeps_its_constant() -> None:
+    sys = lg.System("spring")
+    s, (m, k, s0) = sys.coordinate("s"), sys.parameters("m k s0")
+    sys.particle(m, at=sys.point("P", (s, 0)))
+    sys.spring(k, deflection=s - s0)
+    assert "½ k s² should be ½ k (s − s₀)²" in str(sys.derive().check("T = m s'^2/2\nV = k s^2/2"))
+
+
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
@@ -118,7 +126,17 @@ def test_values_that_are_worked_out_stand_beside_equations_in_numbers() -> None:
         verdict = reel_with(**VALUES).check(answer)
         return verdict.right, [f.status.right for f in verdict.findings]
 
-    assert judged(NUMBERS) == (True, [True, True])
-    assert judged(NUMBERS.replace("- 0.00045", "- 0.0009")) == (False, [False, True])
+    assert judged(NUMBERS) == (True, [True] * 3)
+    assert judged(NUMBERS.replace("- 0.00045", "- 0.0009")) == (False, [True, False, True])
     assert judged(NUMBERS.replace("= 0.13,", "= 0.12,"))[0] is False
     assert judged(NUMBERS.replace("+ 0.05 =", "- 0.05 ="))[1][-2:] == [True, True]
+
+
+def test_the_square_of_a_deflection_keeps_its_constant() -> None:
+    sys = lg.System("block on a spring")
+    s = sys.coordinate("s")
+    m, k, s0 = sys.parameters("m k s0")
+    sys.kinetic(m * s.diff() ** 2 / 2)
+    sys.spring(k, deflection=s - s0)
+    verdict = sys.derive().check("V = 1/2 k s^2\nm s'' + k s = 0")
+    assert "½ k s² should be ½ k (s − s₀)²" in str(verdict)

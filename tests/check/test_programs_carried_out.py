@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 from built_in import derivation
@@ -272,3 +273,31 @@ def test_a_hostile_program_is_not_executed_and_ends(text: str, tmp_path: Path) -
 )
 def test_other_texts_are_no_programs(text: str) -> None:
     assert carried_out(text, derivation("cart-pole").model) is None
+
+
+BOOM = """import sympy as sp
+t, u = sp.symbols("t u")
+m, L, g, c = sp.symbols("m L g c")
+th = sp.Function("theta")(t)
+def speed2(u):
+    v = sp.Matrix([u*sp.sin(th), -u*sp.cos(th)]).diff(t)
+    return v.dot(v)
+T = sp.integrate(m/L*speed2(u)/2, (u, 0, L))
+V = sp.integrate(-m/L*g*u*sp.cos(th), (u, 0, L))
+lagrange = T - V
+print(sp.Eq(lagrange.diff(th.diff(t)).diff(t) - lagrange.diff(th), 0))
+"""
+
+
+def test_integrals_along_a_body_are_worked_out() -> None:
+    sys = lg.System("thin rod on a pin")
+    theta = sys.coordinate("theta")
+    m, length, g = sys.parameters("m L g")
+    sys.kinetic(m * length**2 * theta.diff() ** 2 / 6)
+    sys.potential(-m * g * length * sp.cos(theta) / 2)
+    judge = sys.derive()
+    assert judge.check(BOOM).right
+    assert not judge.check(BOOM.replace("(u, 0, L))\nV", "(u, 0, L/2))\nV")).right
+    assert not judge.check(BOOM.replace("g*u*sp.cos", "g*u**2*sp.cos")).right
+    none = BOOM.replace("speed2(u)/2", "speed2(u)/2/(u + L)")
+    assert carried_out(none, judge.model) is None

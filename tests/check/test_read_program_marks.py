@@ -7,7 +7,7 @@ twin, which stays wrong.
 import pytest
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.parts import tell_general
 from lagrangian.errors import Place
@@ -197,3 +197,16 @@ def test_the_end_of_an_equation_in_a_comment_gives_no_name_its_meaning() -> None
     comment = "% cart: (M + m)*xdd + m*l*thetadd*cos(theta) - m*l*thetad^2*sin(theta) + b*xd = F\n"
     twins(comment + rows, "b*xd -", "b*xd +")
     assert right("% - v = x'\n" + rows.replace("xd ", "v "))
+
+
+def test_maple_indexes_parameters_in_brackets() -> None:
+    system = System("two masses")
+    x, y = system.coordinates("x y")
+    m1, m2, k_a = system.parameters("m1 m2 k_a")
+    system.kinetic((m1 * x.diff() ** 2 + m2 * y.diff() ** 2) / 2)
+    system.spring(k_a, deflection=y - x)
+    masses = system.derive()
+    rows = "eq1 := m[1]*diff(x(t), t, t) = k[a]*(y(t) - x(t));\neq2 := m[2]*diff(y(t), t, t) = -k[a]*(y(t) - x(t));"
+    assert masses.check(rows).right
+    assert not masses.check(rows.replace("m[2]", "m[1]")).right
+    assert not masses.check(rows.replace("= k[a]", "= -k[a]")).right

@@ -35,3 +35,14 @@ def test_a_list_of_notation_with_words_says_what_names_are() -> None:
     cart, pole = cart.replace("xd'", "xdd"), pole.replace("xd'", "xdd")
     assert right(f"{cart}\n{pole}\n\n{said}")
     assert not right(f"{cart}\n{pole}\n\n{said.replace('Mc = M', 'Mc = m')}")
+
+
+VIRTUAL = """Principle of virtual work (d'Alembert): xs = x + l sin(theta), ys = l cos(theta)
+d(xs) = dx + l cos(theta) dtheta, d(ys) = -l sin(theta) dtheta
+0 = (F - b x' - M x'') dx - J theta'' dtheta - m xs'' d(xs) - m (ys'' + g) d(ys)"""
+
+
+def test_virtual_displacements_may_be_written_as_differentials() -> None:
+    assert right(f"{VIRTUAL}\n{CART}\n{POLE}")
+    assert not right(f"{VIRTUAL}\n{CART}\n{POLE.replace('- m g', '+ m g')}")
+    assert not right(VIRTUAL)

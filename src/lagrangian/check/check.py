@@ -13,6 +13,7 @@ from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
+from lagrangian.check.constraints.own_angle import without_own_angles
 from lagrangian.check.constraints.own_constraints import unfolded
 from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
@@ -101,7 +102,7 @@ def _checked(
         verdict = _checked(truth.with_values(numbers.values), numbers.lines, numbers.lines, hint, explain)
         return replace(verdict, notes=(*verdict.notes, *numbers.notes))
     if truth.derivation.multipliers:
-        read = unfolded(truth, written)
+        read = unfolded(truth, without_own_angles(truth, written))
         verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
         verdict = energies_on_rows(truth, read.lines, verdict, hint)
         verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict

@@ -92,7 +92,8 @@ def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlo
     0.05; None for another."""
     values, kept = values_of(truth, ()), list[AnsweredLine]()
     for line in lines:
-        gives = any(line.expr in (p - v, v - p) for p, v in values.items()) or _is_worked_out(truth, line, values)
+        gives = any(line.expr in (p - v, v - p) for p, v in values.items())
+        line = replace(line, expr=sp.S.Zero) if not gives and _is_worked_out(truth, line, values) else line
         kept += [] if gives or line.kind in ("definition", "statement") else [line]
     lettered = [x for x in kept if not _is_constant(x, values)]
     if not lettered or not in_numbers(truth, lettered):

@@ -149,8 +149,9 @@ def _without_constants(truth: Reference, differing: Sequence[TermDifference]) ->
         if not bounded.expand(right - written).has(*moving):
             continue
         constant = sp.Add(*[x for x in sp.Add.make_args(right) if not x.has(*moving)])
-        if constant in (0, right) or (written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written))):
-            yield d
+        kept = written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written))
+        if constant in (0, right) or kept or any(isinstance(x.base, sp.Add) for x in d.term.atoms(sp.Pow)):
+            yield d  # ½ k (s − s₀)² stays as it is
             continue
         term = cast("sp.Expr", sp.factor_terms(right - constant))
         yield replace(d, term=term, kind="sign" if bounded.expand(term + written) == 0 else d.kind)

@@ -36,6 +36,8 @@ def told_apart(s: Ingredients, right: sp.Expr, written: sp.Expr) -> tuple[str | 
     pair = _pair(ring, pieces)
     if pair is None:
         return ()
+    if 0 not in pair and any(sp.fraction(x)[1].free_symbols for x in pair):
+        return (": the term ", pair[0], " should be ", pair[1], ".")
     if pair[1] != 0 and (number := bounded.cancel(pair[0] / pair[1])).is_number and number not in (0, -1):
         return (": the term ", pair[0], " should be ", cast("sp.Expr", pair[0] / number), ".")
     first, *more = term_replaced(*pair)[1].parts

@@ -15,7 +15,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.own_terms import WHY, term_replaced
-from lagrangian.check.explain.spoken import in_lagrangian
+from lagrangian.check.explain.spoken import in_dissipation, in_lagrangian
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
@@ -93,6 +93,9 @@ def of_derivative_of(
     if told and line.kind == "p":
         terms = of_differences(line, findings)
         return [*([_with_slip(told[0], terms[0])] if terms else told[:1]), *told[1:]], tuple(others)
+    if told and line.kind == "D":
+        said = [in_dissipation(m) for m in told]
+        return said, tuple(m for m in map(in_dissipation, others) if str(m.what) not in [str(x.what) for x in said])
     if told and line.kind == "L":
         right = {STEP_OF[f.line.kind] for f in findings if f.status.right and f.line.kind in STEP_OF}
         return [in_lagrangian(told[0], line) if told[0].step in right else told[0], *told[1:]], tuple(others)

@@ -59,7 +59,10 @@ def named_beside_multipliers(
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
-    told = (*of_constraints, *named.told) if own is not None else (*named.told, *of_constraints)
+    slipped = [lines[j].number for j in read.wrong]
+    others = [f.line.number for f in judged if f.status is Status.WRONG and not f.follows]
+    above = own is not None or (not wrong and min(slipped, default=0) < min(others, default=0))
+    told = (*of_constraints, *named.told) if above else (*named.told, *of_constraints)
     if not told:
         return verdict
     origin = {k: kept[j][0] for k, j in zip(keys_of(read.lines), read.sources, strict=True)}
@@ -70,11 +73,8 @@ def named_beside_multipliers(
         k: replace(better[k], status=Status.WRONG, note=None, follows=follow and wrong[0].finding.line.number < k[0])
         for k in amiss
     }
-    for j, other in zip(read.clashing, read.clashing[::-1], strict=True):
-        title = lines[other].title
-        if title == lines[j].title:  # both in one line, as of matrices
-            title = f"the equation of {better[kept[other][0]].coordinate}"
-        better[kept[j][0]] = replace(better[kept[j][0]], clash=title)
+    at = [kept[j][0] for j in read.clashing]
+    better |= {k: _clashing(better[k], better[other]) for k, other in zip(at, at[::-1], strict=True)}
     better |= {k: replace(x.finding, follows=x.follows) for k, x in aside.items()}
     forces = [*(m.symbol for m in truth.derivation.multipliers.values()), *read.own]
     for k, f in zip(keys, verdict.findings, strict=True):
@@ -86,6 +86,12 @@ def named_beside_multipliers(
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
+
+
+def _clashing(finding: Finding, other: Finding) -> Finding:
+    """The finding of a line that does not fit another one, which may stand in the same line, as of matrices."""
+    title = other.line.title if other.line.title != finding.line.title else f"the equation of {other.coordinate}"
+    return replace(finding, clash=title)
 
 
 SECOND = 2

@@ -17,13 +17,14 @@ from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.say import WHY_PART
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, time
-from lagrangian.page.formula import Left, text
+from lagrangian.page.formula import Left, Text, text
 from lagrangian.records import dataclass
 
 _SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
@@ -51,12 +52,13 @@ WHY = {
     "rotation": text("An angular velocity is squared, and so is the radius by which a velocity is divided for it."),
     "translation": text(_SPEED),
     "kinetic": text("Every body has the kinetic energy of its translation and, if it turns, that of its rotation."),
-    "potential": text("Every spring and every weight has its own potential energy; heights are counted upwards."),
+    "potential": text(WHY_PART[3]),
     "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
     "damping": text(_DAMPER),
     "restoring": text(_DEFLECTION),
     "mass": text("Every body that moves with this coordinate adds to it, by its mass and by its moment of inertia."),
 }
+WHY_TERM = text("Go through it term by term: a sum is squared as a whole, with twice the product of its parts.")
 CALLED = {
     "component": "velocity",
     "along": "velocity",
@@ -146,7 +148,14 @@ class SaidWrongly:
         title = owner.title if owner is not None else None
         words = of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
         brief = text("The ", *words, " is not right.")
-        return Mistake(own, what, WHY[kind], STEPS.get(kind, 2), title, of.coordinate, brief)
+        return Mistake(own, what, self._why, STEPS.get(kind, 2), title, of.coordinate, brief)
+
+    @property
+    def _why(self) -> Text:
+        """Why it is wrong: a term of letters that all are there is one of a sum that was not squared as a whole."""
+        of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
+        whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
+        return WHY_TERM if whole else WHY[of.kind]
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:

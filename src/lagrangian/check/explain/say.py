@@ -48,7 +48,8 @@ ANGLES = "Look where the angle is measured from, and try a special position, suc
 WHY_PART = {
     2: "Every body has the kinetic energy of its translation and, if it turns, that of its rotation. Take the total "
     "velocity, seen from the ground.",
-    3: "Every spring and every weight has its own potential energy; heights are counted upwards.",
+    3: "Every spring and every weight has its own potential energy: the whole deflection is squared, and heights are "
+    "counted upwards.",
     5: "Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.",
     6: "Change only this coordinate a little. Does the point where the force acts move, and how far?",
 }

@@ -23,6 +23,13 @@ AS_LIKELY = 1.1
 NUMBERS = ("half_forgotten", "half_in_kinetic_energy", "wrong_number", "counted_twice", "part")
 """The names of mistakes that only change the number of an energy."""
 
+HALVES = {
+    "element_twice": "The ½ of {} in D is missing.",
+    "damper_half": "Half of what {} adds to D is missing: its ½ counts twice.",
+}
+"""What mistakes in the size of a damper are in D."""
+WHY_HALF = "D = ½ b (rate)² of each damper, so that its force −∂D/∂ξ̇ is b times the rate."
+
 
 def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
     """A possible mistake in words."""
@@ -41,6 +48,14 @@ def in_lagrangian(mistake: Mistake, line: AnsweredLine) -> Mistake:
     words = f"{str(first)[:1].lower()}{str(first)[1:]}" if isinstance(first, str) else first
     where = f"Not above, where it is right, but in {line.title}: "
     return replace(mistake, what=text(where, words, *more), why=text(WHY_COPIED), step=4)
+
+
+def in_dissipation(mistake: Mistake) -> Mistake:
+    """A mistake in the size of a damper where D is stated: it is the ½ of ½ b δ̇² that is missing, or counts twice."""
+    said = HALVES.get(mistake.name)
+    if said is None or mistake.element is None or mistake.coordinate is not None:
+        return mistake
+    return replace(mistake, what=text(said.format(mistake.element)), why=text(WHY_HALF))
 
 
 def of_either(

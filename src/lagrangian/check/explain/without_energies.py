@@ -11,9 +11,11 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from lagrangian.check.explain.say import WHY_PART
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
 from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
+WHY_EQUATION = text("Go through this equation once more, term by term, and mind the signs.")
 WHOLE = {"T*": "the terms of the kinetic energy", "V": "the terms of the weights and springs"}
 """What an energy is in equations."""
 _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-slope")}
@@ -30,7 +32,9 @@ def of_equations(mistakes: Sequence[Mistake], lines: Sequence[AnsweredLine]) -> 
     parts = {x[0] for x in named if _PART.fullmatch(x)}
     kinds = {line.kind for line in lines}
     silent = {e for e, own in _ENERGY.items() if kinds.isdisjoint(own) and parts.isdisjoint(set(own) | {"U", "E", "e"})}
-    return tuple(replace(m, what=_said(m, silent)) for m in mistakes) if silent else tuple(mistakes)
+    found = [replace(m, what=_said(m, silent)) for m in mistakes] if silent else list(mistakes)
+    newton = len(silent) == len(_ENERGY) and not kinds & {"Xi", "D"}
+    return tuple(replace(m, why=WHY_EQUATION) if newton and str(m.why) == WHY_PART[5] else m for m in found)
 
 
 def _said(mistake: Mistake, silent: set[str]) -> Text:

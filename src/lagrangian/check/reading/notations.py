@@ -23,6 +23,7 @@ from lagrangian.check.reading.latex.layout import with_open_text
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.markup import sentences_apart
 from lagrangian.check.reading.operators import without_operators
+from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
 from lagrangian.check.reading.programs.names import with_program_names
@@ -88,6 +89,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     names.in_order(told_order(text))
     own = {key(name) for name in lines.model.symbols}
     if not LATEX.search(session.text):
+        session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
         paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
@@ -104,7 +106,10 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         tagless = without_lists(without_operators(without_program_marks(tagless, taken), taken))
         tagless = entered_matrices(tagless, len(lines.model.coordinates), taken)
     said = with_stated_letters(
-        with_variations(tagless, taken), names.changes, taken, latex=bool(LATEX.search(tagless.text))
+        with_variations(tagless, taken, None if latex else names.changes),
+        names.changes,
+        taken,
+        latex=bool(LATEX.search(tagless.text)),
     )
     said = with_called_dissipation(with_values_above(said), taken)
     of = [c.name for c in lines.model.coordinates]

@@ -38,8 +38,8 @@ NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(
 
 _LETTERS = r"[^\W\d]\w{0,11}"
 _MEANING = re.compile(
-    rf"(?<![^\s,;(])(?P<name>{_LETTERS})[ \t]{{0,3}}=[ \t]{{0,3}}"
-    rf"(?P<value>{_LETTERS}(?:[ \t]?[-+*/][ \t]?{_LETTERS}){{0,3}})"
+    rf"(?:^|[,;])[ \t]{{0,9}}(?P<said>(?P<name>{_LETTERS})[ \t]{{0,3}}=[ \t]{{0,3}}"
+    rf"(?P<value>{_LETTERS}(?:[ \t]?[-+*/][ \t]?{_LETTERS}){{0,3}}))"
     r"(?=[ \t]*(?:[,;.)]|$))"
 )
 """A name with a value in names, between commas."""
@@ -131,8 +131,8 @@ def _meanings(own: Source, parser: Callable[[Source], Parser], lines: Lines, wor
         named = re.findall(NAME, match["value"])
         if lines.names.known(match["name"]) or not named or not all(words.is_name(x) for x in named):
             continue
-        start = match.start()
-        part = Source(match.group(), own.what, own.place, lambda at, k=start: own.at(k + at))
+        start = match.start("said")
+        part = Source(match["said"], own.what, own.place, lambda at, k=start: own.at(k + at))
         try:
             found.append(_statement(part, parser, lines))
         except ParseError:

@@ -185,7 +185,7 @@ class WorkChanges:
         for p in self.s.model.parameters:
             if rate.has(p.symbol):
                 listed.append((put(rate, {p.symbol: sp.S.One}), "damper_rate", 2.0))
-        carried = [self.s.rate(x) for x in self.s.carried]
+        carried = [self.s.rate(x) for x in self.s.driven]
         listed += [(rate + g * x, "damper_rate", 1.9) for x in carried for g in (1, -1)]
         seen: set[sp.Expr] = {sp.S.Zero, rate, -rate}
         for other, kind, cost in sorted(listed, key=lambda x: x[2]):

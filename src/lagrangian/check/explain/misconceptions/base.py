@@ -7,7 +7,7 @@ one only by the contribution of the mistake: wrong row i = right row i + d/dt �
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Protocol, cast
 
@@ -230,7 +230,15 @@ class Ingredients:
     @cached_property
     def carried(self) -> list[sp.Expr]:
         """The prescribed motions in positions of bodies, such as A sin ωt of a shaken pivot."""
-        pieces = [p for b in self.bodies for x in self.position(b) for p in sp.Add.make_args(bounded.expand(x))]
+        return self._prescribed(x for b in self.bodies for x in self.position(b))
+
+    @cached_property
+    def driven(self) -> list[sp.Expr]:
+        """These, and those of the ends of springs, such as e sin Ωt of a crank."""
+        return list(dict.fromkeys([*self.carried, *self._prescribed(x for _, x, _ in self.springs())]))
+
+    def _prescribed(self, exprs: Iterable[sp.Expr]) -> list[sp.Expr]:
+        pieces = [p for x in exprs for p in sp.Add.make_args(bounded.expand(x))]
         return list(dict.fromkeys(p for p in pieces if p.has(time) and not p.has(*self.q)))
 
     def angles(self, expr: sp.Expr) -> list[sp.Expr]:

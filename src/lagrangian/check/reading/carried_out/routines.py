@@ -10,7 +10,9 @@ import sympy as sp
 from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.carried_out.values import (
+    HIGHEST,
     NAME,
     TIME,
     UNKNOWN,
@@ -202,6 +204,25 @@ def _matrix_or_equations(value: Value) -> Value:
     return parts if parts and all(isinstance(x, Equation) for x in parts) else matrix(value)
 
 
+def integrated(value: sp.Expr, over_: Sequence[Value]) -> Value:
+    """The integral of a polynomial along a body: integrate(f, (u, 0, l)) in SymPy, int(f, u, 0, l) in MATLAB."""
+    x, low, high = listed(over_[0]) if isinstance(over_[0], (list, tuple)) and len(over_) == 1 else over_
+    if not isinstance(x, sp.Symbol):
+        raise AbandonedError
+    rest, factors = bounded.expand(value), list[sp.Expr]()
+    for k in range(HIGHEST):
+        factors.append(rest.xreplace({x: sp.S.Zero}) / sp.factorial(k))
+        rest = slope(rest, x)
+        if not rest.has(x):
+            break
+    else:
+        raise AbandonedError  # no polynomial of low degree
+    factors.append(rest / sp.factorial(len(factors)))
+    ends = (scalar(high), scalar(low))
+    parts = [c * (ends[0] ** (k + 1) - ends[1] ** (k + 1)) / (k + 1) for k, c in enumerate(factors)]
+    return checked(sp.Add(*parts))
+
+
 def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, matlab: bool = False) -> Value:
     """The value of a function of a library; `AbandonedError` if it is none of these."""
     if name in PLAIN:
@@ -220,6 +241,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         return dynamic(given[0], number(given[1]) if len(given) > 1 else number(options.get("level", 0)))
     if name in ("diff", "Derivative", "Diff"):
         return differentiated(given[0], given[1:])
+    if name in ("integrate", "int") and len(given) > 1:
+        return integrated(scalar(given[0]), given[1:])
     table: dict[str, Callable[[], Value]] = {
         "Rational": lambda: scalar(given[0]) / (scalar(given[1]) if len(given) > 1 else 1),
         "Matrix": lambda: _matrix_or_equations(given[0] if len(given) == 1 else list(given)),

@@ -105,7 +105,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     if not any(_ACCELERATES.search(x) for _, x in found):
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
-    foreign = {x for x in own if not _is_of_system(scope, x)}
+    foreign = {x for x in own if x != TIME.name and not _is_of_system(scope, x)}
     found = [*_renamed(run, text, found, scope, model), *found]
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]

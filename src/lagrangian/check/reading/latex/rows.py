@@ -276,7 +276,7 @@ def _continues(before: str, piece: str, hard: bool, apart: re.Match[str] | None)
 def _tidy(row: AnswerRow) -> AnswerRow:
     text = _outer(row.text)
     end = _content_end(text)
-    while end and text[end - 1] in ".,;:":
+    while end and text[end - 1] in (".,;:" if "=" in text else ".,;"):
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
         end = _content_end(text[:end])
     return AnswerRow(row.start, text[:end])

@@ -43,11 +43,17 @@ _BEHIND = re.compile(
     re.MULTILINE,
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
+_MULTIPLIER = re.compile(
+    r"(?<=[\w)²³])[ \t]{3,60}+[(\[]?(?:\|[ \t]?)?(?:λ|μ|lambda|lam|mu)[_ ]?(?:\d|[₁₂₃])?[)\]]?[ \t]*$", re.MULTILINE
+)
+"""The multiplier of a constraint, behind a gap at the end of its line."""
 
 
 def without_legend(written: TracedText) -> TracedText:
-    """Return an answer without the parts that only say how rates are spelled, or what a name on the line means."""
-    return written.sub(_LEGEND, _blank).sub(_BEHIND, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
+    """Return an answer without the parts that only say how rates are spelled, what a name on the line means, or which
+    multiplier belongs to a constraint."""
+    written = written.sub(_LEGEND, _blank).sub(_BEHIND, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
+    return written.sub(_MULTIPLIER, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
 
 
 def _blank(match: re.Match[str]) -> str:

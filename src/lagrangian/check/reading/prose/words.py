@@ -60,8 +60,8 @@ _INDEXED = re.compile(r"(?!e_)[^\W\d_]_\w{1,12}")
 _LED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d]\w{1,23})['’′″]{1,2}[ \t]*+=(?![=>])", re.MULTILINE)
 _DOTTED = re.compile(r"(?:^|[:;,])[^\S\n]*+([^\W\d][\w\u0307\u0308]{1,23})[ \t]*+=(?![=>])", re.MULTILINE)
 
-_FORCES = frozenset(["lam", "lmbda"])
-"""Short spellings of a multiplier."""
+_FORCE = re.compile(r"(?:lam|lmbda|lambda|mu)(?:_?\d)?")
+"""Spellings of a multiplier."""
 _COMPONENT = re.compile(r"[A-Z][xyz]")
 
 
@@ -161,11 +161,8 @@ class Words:
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
         named = named or self._is_component(word)
-        return named or self._is_force(word) or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
-
-    def _is_force(self, word: str) -> bool:
-        """Whether a word is a short spelling of a multiplier, perhaps with a number, where there are constraints."""
-        return word.rstrip("0123456789_") in _FORCES and bool(self.names.model.constraints)
+        force = _FORCE.fullmatch(word) is not None and bool(self.names.model.constraints)
+        return named or force or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
 
     def _is_component(self, word: str) -> bool:
         """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
@@ -256,6 +253,8 @@ class Words:
             return extra
         if _GREEK_LETTER.fullmatch(part):
             return True  # 2λx
+        if part in ("a", "I") and key(part) not in self._used:
+            return False  # words of sentences: ax is no a x
         alone = key(part) in self._alone or key(undotted(part)[0]) in self._alone
         return alone and key(part) != key(word) and not self.is_product(part)
 

@@ -254,8 +254,26 @@ _VARIATION = re.compile(r"(?<![\w\\])delta[ \t_]?+(?=[^\W\d])")
 _VIRTUAL_WORK = re.compile(r"(?<![\w\\])delta[ \t_]?W(?!\w)")
 
 
-def with_variations(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
-    """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x."""
+_VIRTUAL = re.compile(r"\bvirtual|virtuelle?[rn]?\b|\bvirtuel|d['’]?[ ]?alembert", re.IGNORECASE)
+_DISPLACED = re.compile(
+    r"(?<![\w\\/∂])d(?:\([ ]?(?P<inside>[^\W\d]\w{0,11})[ ]?\)|(?P<bare>[^\W\d]\w{0,11}))(?![\w(]|[ ]?/[ ]?d|['’′]|\.)"
+)
+"""A virtual displacement written as a differential, dx or d(xm)."""
+
+
+def with_variations(
+    written: TracedText, taken: Callable[[str], bool], moves: Callable[[str], bool] | None = None
+) -> TracedText:
+    """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x, and dx, dφ
+    where the answer speaks of these. ``moves``: whether a name changes with time."""
+    if moves is not None and _VIRTUAL.search(written.text) is not None:
+
+        def displaced(match: re.Match[str]) -> str:
+            name = match["inside"] or match["bare"]
+            own = moves(name) or (match["inside"] is not None and not taken(name))
+            return f"δ{name}" if own and not taken(f"d{name}") else match.group()
+
+        written = written.sub(_DISPLACED, displaced)
     if taken("delta") or _VIRTUAL_WORK.search(written.text) is None:
         return written
     return written.edited([(*match.span(), "δ") for match in _VARIATION.finditer(written.text)])
