@@ -265,6 +265,6 @@ def test_a_comment_may_say_what_a_name_is_that_nothing_else_defines() -> None:
     pole = derivation("cart-pole")
     assert pole.check(SOLVED).right
     assert not pole.check(SOLVED.replace(") - m^2*l^2*cos", ") + m^2*l^2*cos")).right
-    assert pole.check(
-        f"Delta = (M+m)*(J+m*l^2) - (m*l*cos(theta))^2\n{SOLVED.replace('- m^2*l^2*cos', '+ m^2*l^2*cos')}"
-    )
+    defined = f"Delta = (M+m)*(J+m*l^2) - (m*l*cos(theta))^2\n{SOLVED.partition('%')[0]}"
+    assert pole.check(f"{defined}% Delta = (M+m)*(J+m*l^2)").right
+    assert not pole.check(f"{defined.replace(') - (m', ') + (m')}% Delta = (M+m)*(J+m*l^2)").right

@@ -161,8 +161,11 @@ class Words:
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
         named = named or self._is_component(word)
-        force = _FORCE.fullmatch(word) is not None and bool(self.names.model.constraints)
-        return named or force or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+        return named or self._is_force(word) or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+
+    def _is_force(self, word: str) -> bool:
+        """Whether a word is a short spelling of a multiplier, perhaps with a number, where there are constraints."""
+        return _FORCE.fullmatch(word) is not None and bool(self.names.model.constraints)
 
     def _is_component(self, word: str) -> bool:
         """Whether a word is a component of a vector of the answer's own, which has another one: Ax, where Ay is."""
