@@ -93,8 +93,9 @@ def _without_pushes(
         names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - truth.names | {*forces}
         own = sorted((x for x in names if line.expr.has(x)), key=str)
         row = places.get(str(line.name)) if line.kind == "Xi" else None
-        slopes = [bounded.diff(line.expr, x) for x in own]
-        if row is None or not own or any(f.has(*own, sp.Derivative) for f in slopes):
+        by_others = any(set(d.variables) - {time} for d in line.expr.atoms(sp.Derivative))
+        slopes = [] if row is None or by_others else [bounded.diff(line.expr, x) for x in own]
+        if row is None or not slopes or any(f.has(*own, sp.Derivative) for f in slopes):
             kept.append(line)
             continue
         pushed = sp.Add(*[x * f for x, f in zip(own, slopes, strict=True)])
