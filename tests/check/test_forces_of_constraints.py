@@ -198,3 +198,12 @@ def test_the_geometry_says_what_an_angle_of_the_answer_is(answer: str, changes: 
     assert lift().check(answer).right
     for right, wrong in changes:
         assert right in answer and not lift().check(answer.replace(right, wrong)).right
+
+
+def test_a_general_equation_with_names_of_forces_is_read() -> None:
+    left = r"\frac{d}{dt}\frac{\partial L}{\partial\dot q_i} - \frac{\partial L}{\partial q_i}"
+    general = rf"${left} + \frac{{\partial D}}{{\partial\dot q_i}} = Q_i + \lambda a_i$"
+    rows = r"\[m\ddot r - m r\dot\phi^2 + b\dot r = \lambda\]\[(J + m r^2)\ddot\phi + 2 m r\dot r\dot\phi = \tau\]"
+    last = r"\[M\ddot z - M g = \lambda\]\[r + z = L\]"
+    assert spinner().check(f"{general}\n{rows}{last}").right
+    assert not spinner().check(f"{general}\n{rows}{last.replace('= ', '= -')}").right

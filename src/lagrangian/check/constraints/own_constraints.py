@@ -92,7 +92,8 @@ def _without_pushes(
     for line in lines:
         names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - truth.names | {*forces}
         row = places.get(str(line.name)) if line.kind == "Xi" else None
-        own = sorted((x for x in names if line.expr.has(x)), key=str) if row is not None else []
+        by_others = any(set(d.variables) - {time} for d in line.expr.atoms(sp.Derivative))
+        own = sorted((x for x in names if line.expr.has(x)), key=str) if row is not None and not by_others else []
         slopes = [bounded.diff(line.expr, x) for x in own]
         if row is None or not own or any(f.has(*own, sp.Derivative) for f in slopes):
             kept.append(line)
