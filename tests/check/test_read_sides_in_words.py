@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+import lagrangian as lg
 from student_answers import CART, POLE, right
 
 ROD = "(J + m l^2) theta'' = moment of the weight − moment of inertia forces = m g l sin(theta) - m l x'' cos(theta)"
@@ -46,3 +47,14 @@ def test_virtual_displacements_may_be_written_as_differentials() -> None:
     assert right(f"{VIRTUAL}\n{CART}\n{POLE}")
     assert not right(f"{VIRTUAL}\n{CART}\n{POLE.replace('- m g', '+ m g')}")
     assert not right(VIRTUAL)
+
+
+def test_a_damper_d_makes_no_virtual_displacement_of_a_rate() -> None:
+    sys = lg.System("damped mass")
+    y = sys.coordinate("y")
+    m, d, g = sys.parameters("m d g")
+    sys.kinetic(m * y.diff() ** 2 / 2)
+    sys.potential(m * g * y)
+    sys.damper(d, deflection=y)
+    assert sys.derive().check("Virtual work:\n\nmÿ = −dẏ − mg").right
+    assert not sys.derive().check("Virtual work:\n\nmÿ = dẏ − mg").right

@@ -20,7 +20,7 @@ from itertools import islice
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
-from lagrangian.read.letters import SPELLED, key
+from lagrangian.read.letters import SPELLED, key, undotted
 
 _NAME = r"[^\W\d]\w{0,15}+"
 MOST_VALUES = 20
@@ -265,12 +265,12 @@ def with_variations(
     written: TracedText, taken: Callable[[str], bool], moves: Callable[[str], bool] | None = None
 ) -> TracedText:
     """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x, and dx, dφ
-    where the answer speaks of these. ``moves``: whether a name changes with time."""
+    where the answer speaks of these; dẋ is the product of a damper. ``moves``: whether a name changes with time."""
     if moves is not None and _VIRTUAL.search(written.text) is not None:
 
         def displaced(match: re.Match[str]) -> str:
             name = match["inside"] or match["bare"]
-            own = moves(name) or (match["inside"] is not None and not taken(name))
+            own = undotted(name)[1] == 0 and (moves(name) or (match["inside"] is not None and not taken(name)))
             return f"δ{name}" if own and not taken(f"d{name}") else match.group()
 
         written = written.sub(_DISPLACED, displaced)
