@@ -166,7 +166,7 @@ class Interpreter(Evaluator):
         larger[: made.shape[0], : made.shape[1]] = made
         larger[row, column] = scalar(value)
         names[held.id] = larger
-        self.stated.append(Shown(target.lineno, held.id, larger))
+        self.stated.append(Shown(held.lineno, held.id, larger))
 
     def _put_several(self, held: ast.Name, at: ast.Slice, value: Value, names: dict[str, Value]) -> None:
         """The entries from one place to another get values: dz(1:2) = v."""
