@@ -8,10 +8,6 @@ import pytest
 
 from built_in import derivation
 from lagrangian import ParseError, System
-from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.parts import tell_general
-from lagrangian.errors import Place
-from lagrangian.quantities.source import Source
 
 MATRICES = "MM = [M + m,             m*l*cos(theta);\n      m*l*cos(theta),    J + m*l^2];\n"
 RIGHT_SIDE = "f = [F - b*x' + m*l*theta'^2*sin(theta);\n     m*g*l*sin(theta)];\n"
@@ -178,17 +174,6 @@ def test_a_name_that_moves_and_that_nothing_explains_is_asked_about(row: str, na
     with pytest.raises(ParseError, match=f"cannot be read: what is '{name}'"):
         right(row, "pendulum")
     assert right("m L^2 w' + b w + m g L sin theta = 0", "pendulum")  # it can only be θ'
-
-
-def test_no_note_quotes_accelerations_that_only_the_reading_names() -> None:
-    """vdot = M\\f is read as M qdd = f: qdd stands nowhere in the file, or it does."""
-    names = Lines(derivation("cart-pole").model).names
-    for written in ("dz = [v; vdot]", "dz = [v; qdd]"):
-        tell_general(Source("v' = qdd", "", Place(line=1, column=1, text=written)), ["qdd"], names)
-    assert list(names.notes) == ["'v' = qdd' was not judged: nothing says what qdd is."]
-    names.notes.clear()
-    tell_general(Source("v' = qdd", "", Place(line=1, column=1, text="dz = [v; vdot]")), ["qdd"], names)
-    assert not names.notes
 
 
 def test_the_end_of_an_equation_in_a_comment_gives_no_name_its_meaning() -> None:

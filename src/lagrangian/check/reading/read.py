@@ -245,7 +245,9 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
     source = plain.source(typed, text)
-    source.check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
+    if len(text) > MAX_ANSWER:
+        longest = f"written out, the answer has more than {MAX_ANSWER} characters"
+        raise source.error(longest, 0, fix="give the equations alone", code="E703")
     own = {key(name) for name in model.symbols}
     lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)

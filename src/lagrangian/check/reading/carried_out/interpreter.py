@@ -36,9 +36,9 @@ from lagrangian.records import dataclass
 class Interpreter(Evaluator):
     """Carries out a program, statement by statement."""
 
-    def run(self, tree: ast.Module) -> dict[str, Value]:
-        """Carry out a whole program; return its names."""
-        names: dict[str, Value] = {}
+    def run(self, tree: ast.Module, given: dict[str, Value]) -> dict[str, Value]:
+        """Carry out a whole program, with names that are ``given``; return its names."""
+        names = dict(given)
         self.outer = names
         self.carry_out(tree.body, names)
         return names

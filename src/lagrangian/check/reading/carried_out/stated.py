@@ -16,6 +16,7 @@ from sympy.printing.str import StrPrinter
 
 from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
+from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
@@ -82,8 +83,10 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
     if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
         return None
-    if matlab and (_MATLAB.search(text) is None or _LATEX.search(text) is not None):
+    loose = loose_rates(text) if matlab else None
+    if matlab and ((_MATLAB.search(text) is None and loose is None) or _LATEX.search(text) is not None):
         return None
+    matlab = matlab and (loose is None or not loose.from_zero)
     bare = _MARKS.sub(lambda m: "" if "`" not in m.group() else "#", text)
     scope = AnswerScope(Scope(model.symbols))
     try:
@@ -93,10 +96,10 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
             tree = ast.parse(in_python(bare) if matlab else bare)
         known = partial(_is_constant, scope, model=model)
         run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates))
-        names = run.run(tree)
+        names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, _Rates(model, scope)))
         try:
-            found += _of_states(run, names, text, model, scope)
+            found += _of_states(run, names, StateReader(run, text, model, scope), loose)
         except TROUBLES:  # a function of its own that returns no rates
             if not any(_ACCELERATES.search(x) for _, x in found):
                 raise
@@ -187,11 +190,12 @@ def _in_quotes(text: str) -> bool:
 
 
 def _of_states(
-    run: Interpreter, names: dict[str, Value], text: str, model: Model, scope: AnswerScope
+    run: Interpreter, names: dict[str, Value], reader: StateReader, loose: Loose | None
 ) -> Iterator[tuple[int, str]]:
     """The accelerations that the functions of a program return, as equations of motion."""
-    reader = StateReader(run, text, model, scope)
-    for found in reader.functions(names):
+    coordinates = reader.model.coordinates
+    in_the_open = None if loose is None else reader.in_the_open(loose, names.get(loose.rates))
+    for found in reader.functions(names) if in_the_open is None else (in_the_open,):
         yield from _equations(run, found, reader)
     for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
@@ -199,8 +203,8 @@ def _of_states(
             continue
         called = reader.in_comments(one.name)
         rates = [sp.Symbol(called[k + 1]) for k in range(len(solved)) if k + 1 in called]
-        if not rates and len(solved) == len(model.coordinates):
-            rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in model.coordinates]
+        if not rates and len(solved) == len(coordinates):
+            rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in coordinates]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
             yield from _equations(run, found, reader)

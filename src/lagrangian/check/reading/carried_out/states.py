@@ -12,6 +12,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.layouts import Layouts
+from lagrangian.check.reading.carried_out.loose import Loose
 from lagrangian.check.reading.carried_out.routines import PLAIN
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -67,6 +68,15 @@ class StateReader:
             found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)
+
+    def in_the_open(self, loose: Loose, value: Value) -> StateFunction | None:
+        """What rates without a function say, whose state a comment may name: dz = [w; …] with z = [phi; w]."""
+        rates, state = _rates(value), loose.state
+        if rates is None:
+            return None
+        table = {sp.Symbol(name): state.entry(k) for k, name in self.in_comments(state.name).items()}
+        found = self._of_state([state], [x.xreplace(table) for x in rates])
+        return None if found is None else StateFunction(loose.line, *found)
 
     def _of_arguments(self, arguments: Sequence[str], rates: Sequence[sp.Expr]) -> Any:
         """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd)."""
