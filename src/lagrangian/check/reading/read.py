@@ -245,9 +245,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     text = bullets.without(reading.listed, lines.names.notes, marked=text != plain.text and not latex)
     listing = text == signed if bullets.doubtful else None
     source = plain.source(typed, text)
-    if len(text) > MAX_ANSWER:
-        longest = f"written out, the answer has more than {MAX_ANSWER} characters"
-        raise source.error(longest, 0, fix="give the equations alone", code="E703")
+    _check_length(source)
     own = {key(name) for name in model.symbols}
     lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)
@@ -322,6 +320,13 @@ def _rows(
         outside = _beside(latex, words)
         rows = sorted([*rows, *outside], key=lambda row: row.start)
     return without_indices(rows, lambda name: bool(lines.names.scope.meanings(name)[0])), outside
+
+
+def _check_length(source: Source) -> None:
+    """Raise `ParseError` if an answer whose notation is written out is too long."""
+    if len(source.text) > MAX_ANSWER:
+        longest = f"written out, the answer has more than {MAX_ANSWER} characters"
+        raise source.error(longest, 0, fix="give the equations alone", code="E703")
 
 
 def _check_number(rows: Sequence[AnswerRow], source: Source, latex: ExpandedLatex | None) -> None:
