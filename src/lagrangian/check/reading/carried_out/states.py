@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
@@ -75,7 +75,7 @@ class StateReader:
         if rates is None:
             return None
         table = {sp.Symbol(name): state.entry(k) for k, name in self.in_comments(state.name).items()}
-        found = self._of_state([state], [x.xreplace(table) for x in rates])
+        found = self._of_state([state], [cast("sp.Expr", x.xreplace(table)) for x in rates])
         return None if found is None else StateFunction(loose.line, *found)
 
     def _of_arguments(self, arguments: Sequence[str], rates: Sequence[sp.Expr]) -> Any:
