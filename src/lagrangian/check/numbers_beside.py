@@ -94,6 +94,7 @@ def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlo
     for line in lines:
         gives = any(line.expr in (p - v, v - p) for p, v in values.items())
         line = replace(line, expr=sp.S.Zero) if not gives and _is_worked_out(truth, line, values) else line
+        line = replace(line, expr=line.expr.xreplace(values)) if _relates(truth, line) else line
         kept += [] if gives or line.kind in ("definition", "statement") else [line]
     lettered = [x for x in kept if not _is_constant(x, values)]
     if not lettered or not in_numbers(truth, lettered):
@@ -101,6 +102,14 @@ def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlo
     put = tuple(values)
     named = [x for p in sorted(put, key=str) for x in (p, ", ")][:-1]
     return NumbersAlone(tuple(kept), values, (text("The values of ", *named, " are substituted."),))
+
+
+def _relates(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line only relates coordinates, x = R φ, or their rates, as a constraint does."""
+    moving = {x for c in truth.model.coordinates for x in (c.symbol, c.rate)}
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    related = [x for x in moving if line.expr.has(x)]
+    return line.kind == "equation" and len(related) > 1 and not line.expr.has(*accelerations)
 
 
 def _is_constant(line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> bool:

@@ -35,18 +35,20 @@ _MAX = 100
 """The largest number of such quantities."""
 
 
-_CALLED_ENERGY = re.compile(
-    r"(?<![\w\\])(?P<name>[TVUKLE])(?P<prime>\s?['’′])?\s{0,3}"
+_CALLED = re.compile(
+    rf"(?P<name>{_NAME})(?P<prime>\s?['’′])?\s{{0,3}}"
     r"(?:\\left)?\((?P<of>[\\\w ,{}'’′\u0307\u0308]{1,60}?)(?:\\right)?\)"
 )
-"""An energy with coordinates or rates in brackets: V(θ), U'(x), T(ẋ)."""
+"""A name with coordinates or rates in brackets: V(θ), U'(x), T(ẋ), J_P(θ)."""
+_LETTERS_IN = re.compile(r"\\?[^\W\d_]\w*+")
+_ENERGIES = frozenset(["T", "V", "U", "K", "L", "E"])
 _OF_RATE = re.compile(r"\\d?dot(?![A-Za-z])|['’′\u0307\u0308]")
 
 
 def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> frozenset[str]:
-    """Return the quantities that an answer states with what they depend on, as I(r), and its energies with coordinates
+    """Return the quantities that an answer states with what they depend on, as I(r), or that it has with coordinates
     behind them; ``taken`` are names of the system, which are no such quantities unless they are given a matrix."""
-    found = {f"{m['name']}({written(m['of'])})" for m in _called_energies(text, taken, changes) if not m["prime"]}
+    found = {f"{written(m['name'])}({written(m['of'])})" for m in _called(text, taken, changes) if not m["prime"]}
     for match in _STATED.finditer(text):
         name, of = written(match["name"]), match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right")
         before = _BEFORE.search(text, max(0, match.start() - 40), match.start())
@@ -57,14 +59,16 @@ def dependents(text: str, taken: Callable[[str], bool], changes: Callable[[str],
     return frozenset(found)
 
 
-def _called_energies(
-    text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]
-) -> Iterator[re.Match[str]]:
-    """The energies with coordinates behind them that the answer states without these: V(θ) where V = m g l cos θ."""
-    for match in islice(_CALLED_ENERGY.finditer(text), _MAX):
-        stated = rf"(?<![\w\\]){match['name']}\s{{0,3}}&?\s{{0,3}}=(?!=)"
-        listed = [written(_OF_RATE.sub("", x)) for x in match["of"].split(",")]
-        if not taken(match["name"]) and all(map(changes, listed)) and re.search(stated, text):
+def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bool]) -> Iterator[re.Match[str]]:
+    """The quantities with coordinates behind them that the answer states without these: V(θ) where V = m g l cos θ, and
+    J_P(θ) where J_P = J + m (a² − 2 a b cos θ)."""
+    for match in islice(_CALLED.finditer(text), _MAX):
+        name, listed = match["name"], [written(_OF_RATE.sub("", x)) for x in match["of"].split(",")]
+        if taken(written(name)) or changes(written(name)) or not all(map(changes, listed)):
+            continue
+        stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
+        energy = name in _ENERGIES
+        if stated is not None and (energy or {*listed} <= {written(x) for x in _LETTERS_IN.findall(stated["value"])}):
             yield match
 
 
@@ -121,8 +125,8 @@ def with_primes_as_slopes(
     for match in islice(_STATED.finditer(text.text), _MAX):
         of = match["of"].removeprefix("\\left")[1:-1].removesuffix("\\right").strip()
         found.setdefault(written(match["name"]), (match["name"], of))
-    for match in _called_energies(text.text, system, changes):
-        found.setdefault(match["name"], (match["name"], match["of"].strip()))
+    for match in _called(text.text, system, changes):
+        found.setdefault(written(match["name"]), (match["name"], match["of"].strip()))
     found = {
         x: (name, of) for x, (name, of) in found.items() if re.fullmatch(r"\\?\w{1,24}", of) and changes(written(of))
     }
