@@ -301,3 +301,28 @@ def test_integrals_along_a_body_are_worked_out() -> None:
     assert not judge.check(BOOM.replace("g*u*sp.cos", "g*u**2*sp.cos")).right
     none = BOOM.replace("speed2(u)/2", "speed2(u)/2/(u + L)")
     assert carried_out(none, judge.model) is None
+
+
+IN_COMMENT = """% cart with a pole, state [x theta xd thetad]
+A = @(q) [M + m, m*l*cos(q(2)); m*l*cos(q(2)), J + m*l^2];
+h = @(q,v) [b*v(1) - m*l*v(2)^2*sin(q(2));
+            -m*g*l*sin(q(2))];
+B = [1; 0];
+% equations of motion: A(q)*qdd + h(q,v) = B*F
+"""
+OF_MATRICES = """Mq = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2];
+Dq = [b -m*l*thetad*sin(theta); 0 0];
+fq = [F; m*g*l*sin(theta)];
+% Mq*qdd + Dq*qd = fq
+Ass = [zeros(2) eye(2); zeros(2) -Mq\\Dq];
+"""
+
+
+@pytest.mark.parametrize("program", [IN_COMMENT, OF_MATRICES])
+def test_an_equation_of_matrices_in_a_comment_is_carried_out(program: str) -> None:
+    judge = derivation("cart-pole")
+    assert judge.check(program).right
+    for right, wrong in (("m*g*l", "2*m*g*l"), ("J + m*l^2", "J - m*l^2"), ("B*F", "-B*F"), ("+ Dq*qd", "- Dq*qd")):
+        assert right not in program or not judge.check(program.replace(right, wrong)).right
+    turned = "% q = [theta; x]\n" + program
+    assert not judge.check(turned).right

@@ -38,6 +38,7 @@ from lagrangian.check.reading.carried_out.values import (
     constant,
     entry_of,
     equated,
+    has_unknown,
     is_scalar,
     is_square,
     listed,
@@ -107,8 +108,6 @@ class Evaluator:
     def flat(self, value: Value) -> list[Value]:
         """The entries of a list or a matrix, or a value alone."""
         return listed(value) if isinstance(value, (list, tuple, MatrixBase)) else [value]
-
-    # -- values ------------------------------------------------------------------------------------------------------
 
     def value(self, node: ast.expr, names: dict[str, Value]) -> Value:
         """The value of an expression."""
@@ -196,14 +195,14 @@ class Evaluator:
             return power(a, b)
         raise AbandonedError
 
-    def _solution(self, A: MatrixBase, b: MatrixBase) -> MatrixBase:
-        """The column x of A x = b, as unknowns."""
+    def _solution(self, A: MatrixBase, b: MatrixBase) -> Value:
+        """The column x of A x = b, as unknowns; of several columns nothing is known."""
         n = A.shape[0]
-        if A.shape != (n, n) or b.shape != (n, 1):
+        if A.shape != (n, n) or b.shape[0] != n:
             raise AbandonedError
-        unknowns = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n))
-        self.solved |= dict.fromkeys(unknowns, (A, b, unknowns))
-        return sp.Matrix(unknowns)
+        x = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n if b.shape[1] == 1 else 0))
+        self.solved |= dict.fromkeys(x, (A, b, x))
+        return sp.Matrix(x) if x else UNKNOWN
 
     def _attribute(self, node: ast.Attribute, names: dict[str, Value]) -> Value:
         if node.attr == "_t":
@@ -294,7 +293,7 @@ class Evaluator:
         return UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
-        if any(isinstance(x, Outside) for x in given):
+        if any(map(has_unknown, given)):
             return UNKNOWN
         if (of := made(name, given, options) or method(name, given, options)) is not None:
             self.methods += [(node.lineno, of)] if isinstance(of, MechanicsMethod) else []

@@ -9,7 +9,7 @@ from lagrangian.records import dataclass
 
 _HEADER = re.compile(r"^[ \t]*+(?:function|def)[ \t]|@\(|\blambda\b", re.MULTILINE)
 _RATES = re.compile(
-    r"^[ \t]*+(?P<out>[dD](?P<of>[^\W\d_]\w{0,12}?)(?:_?dt)?|(?P<dotted>[^\W\d_]\w{0,12}?)_?(?:dot|prime))"
+    r"^[ \t]*+(?P<out>d(?P<of>[^\W\d_]\w{0,12}?)(?:_?dt)?|(?P<dotted>[^\W\d_]\w{0,12}?)_?(?:dot|prime))"
     r"[ \t]*+(?:(?P<index>[(\[]\d[\d:]{0,3}[)\]])[ \t]*+=(?!=)|=(?!=)[ \t]*+\[)",
     re.MULTILINE,
 )

@@ -6,6 +6,7 @@ import ast
 import re
 import warnings
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import Any, cast
 
@@ -14,6 +15,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 from sympy.printing.str import StrPrinter
 
+from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
 from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
@@ -98,11 +100,12 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates))
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, _Rates(model, scope)))
-        try:
-            found += _of_states(run, names, StateReader(run, text, model, scope), loose)
-        except TROUBLES:  # a function of its own that returns no rates
-            if not any(_ACCELERATES.search(x) for _, x in found):
-                raise
+        reader = StateReader(run, text, model, scope)
+        with suppress(*TROUBLES):  # a function of its own that returns no rates
+            found += _of_states(run, names, reader, loose)
+        if not any(_ACCELERATES.search(x) for _, x in found):
+            told = equations_in_comments(run, names, reader)
+            found += [(line, f"{written(x)} = 0") for line, entries in told for x in entries]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):

@@ -41,6 +41,11 @@ class Outside:
 UNKNOWN = Outside()
 
 
+def has_unknown(value: Value) -> bool:
+    """Whether a value, or an entry of a list, is one of which nothing is known."""
+    return isinstance(value, Outside) or (isinstance(value, (list, tuple)) and any(map(has_unknown, value)))
+
+
 @dataclass(frozen=True, eq=False)
 class Routine:
     """A function of a library by its name."""

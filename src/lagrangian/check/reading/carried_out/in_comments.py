@@ -1,0 +1,65 @@
+"""Equations of motion that only a comment of a program states, with its matrices: % A(q)*qdd + h(q, v) = B*tau."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from itertools import islice
+from typing import Any
+
+import sympy as sp
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.check.reading.carried_out.interpreter import Interpreter
+from lagrangian.check.reading.carried_out.matlab import in_python
+from lagrangian.check.reading.carried_out.states import StateReader
+from lagrangian.check.reading.carried_out.values import TIME, Value, matrix
+from lagrangian.check.reading.names import COLUMNS, spelled_rates
+
+_COMMENT = re.compile(
+    r"(?:[%#]|//)++[ \t]*+(?:[^\n:=]{0,60}:(?!=))?+(?P<left>[^\n=]{3,200}+)=(?P<right>[^\n=]{1,200}+)$", re.MULTILINE
+)
+_WORD = re.compile(r"[^\W\d]\w*+")
+_TWICE = re.compile(r"(?<=[\w])(?:''|’’|″)")
+MOST = 20
+"""The most comments that are looked at."""
+
+
+def equations_in_comments(
+    run: Interpreter, names: dict[str, Value], reader: StateReader
+) -> Iterator[tuple[int, list[sp.Expr]]]:
+    """The entries of equations in columns that comments state, with their lines; each entry is 0."""
+    for match in islice(_COMMENT.finditer(reader.text), MOST):
+        sides = [_TWICE.sub("dd", match[k]).strip().rstrip(".;,") for k in ("left", "right")]
+        known = _columns(" ".join(sides), names, reader)
+        if known is None:
+            continue
+        left, right = (_value(run, side, names | known) for side in sides)
+        if isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
+            yield reader.text.count("\n", 0, match.start()) + 1, list((left - right).flat())
+
+
+def _value(run: Interpreter, side: str, names: dict[str, Value]) -> Value:
+    """The value of one side of an equation."""
+    written = ast.parse((in_python(side) if run.matlab else side).strip(), mode="eval").body
+    value = run.value(written, names)
+    return matrix(value) if isinstance(value, (list, MatrixBase)) else value
+
+
+def _columns(said: str, names: dict[str, Value], reader: StateReader) -> dict[str, Any] | None:
+    """What the columns of coordinates, of rates and of accelerations are called; None without accelerations."""
+    words = [x for x in dict.fromkeys(_WORD.findall(said)) if x not in names]
+    free = [x for x in words if not reader.scope.meanings(x)[0] or x in COLUMNS]
+    stems = {stem for x in free for k, stem in spelled_rates(x) if k == 2 and stem in COLUMNS}
+    if len(stems) != 1:
+        return None
+    (stem,) = stems
+    coordinates = [c.name for c in reader.model.coordinates]
+    listed = reader.in_comments(stem)
+    order = [listed[k + 1] for k in range(len(coordinates)) if k + 1 in listed]
+    q = [sp.Function(x)(TIME) for x in (order if len(order) == len(coordinates) else coordinates)]
+    orders = {x: k for x in free for k, of in [(0, x), *spelled_rates(x)] if of == stem}
+    if "v" in free and 1 not in orders.values():
+        orders["v"] = 1
+    return {x: sp.Matrix([c.diff(TIME, k) if k else c for c in q]) for x, k in orders.items()}
