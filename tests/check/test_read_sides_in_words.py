@@ -58,3 +58,9 @@ def test_a_damper_d_makes_no_virtual_displacement_of_a_rate() -> None:
     sys.damper(d, deflection=y)
     assert sys.derive().check("Virtual work:\n\nmÿ = −dẏ − mg").right
     assert not sys.derive().check("Virtual work:\n\nmÿ = dẏ − mg").right
+
+
+@pytest.mark.parametrize("words", ["for a 1-dof system we have: ", "As a 2-DOF system: "])
+def test_degrees_of_freedom_with_a_number_are_words(words: str) -> None:
+    assert right(f"{CART}\n{words}{POLE}")
+    assert not right(f"{CART}\n{words}{POLE.replace('m g l', '2 m g l')}")

@@ -68,7 +68,9 @@ def _called(text: str, taken: Callable[[str], bool], changes: Callable[[str], bo
             continue
         stated = re.search(rf"(?<![\w\\]){re.escape(name)}\s{{0,3}}&?\s{{0,3}}=(?!=)(?P<value>[^\n=;$]{{0,300}})", text)
         energy = name in _ENERGIES
-        if stated is not None and (energy or {*listed} <= {written(x) for x in _LETTERS_IN.findall(stated["value"])}):
+        if stated is not None and (
+            energy or {*map(key, listed)} <= {key(written(x)) for x in _LETTERS_IN.findall(stated["value"])}
+        ):
             yield match
 
 

@@ -43,6 +43,8 @@ _UMLAUT = re.compile("(?<=[A-Za-z])[aeiou]\u0308|[AOUaeiou]\u0308(?=[A-Za-zß])"
 """A letter within a word whose dots are a character of their own: für."""
 _GAP = re.compile("[\u2061\u2062]")  # the signs of a function and of a product, which are not shown
 _TRANSPOSED = re.compile(r"(?<=[\w)\]⎦⎤⎥])ᵀ")
+_FREEDOMS = re.compile(r"(?<![\w.])\d[-‑]dof(?!\w)", re.IGNORECASE)
+"""A word for the degrees of freedom that begins with a number: for a 1-dof system."""
 _SMALL = re.compile(r"(?<![\w)\]}⁰-⁹¹²³₀-₉])(?P<above>[⁰¹²³⁴-⁹]{1,3})[⁄/](?P<below>[₀-₉]{1,3})(?P<glued>(?=\w))?")
 """A fraction of small digits: ³⁄₂, also in front of a letter."""
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉", "01234567890123456789")
@@ -57,7 +59,7 @@ def plainer(text: str) -> str:
     characters without width left out."""
     text = _UMLAUT.sub(lambda m: unicodedata.normalize("NFC", m.group()), _SMALL.sub(_fraction, text))
     text = _GAP.sub(" ", _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n"))).translate(_TABLE)
-    text = _TRANSPOSED.sub("^T", text)
+    text = _FREEDOMS.sub(lambda m: " " * len(m.group()), _TRANSPOSED.sub("^T", text))
     return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))
 
 
