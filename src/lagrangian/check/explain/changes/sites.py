@@ -197,7 +197,6 @@ class Sites:
         if len(self.translations) + len(self.rotations) + len(self.others) > 1:
             yield Site(words=(Name("T*"),), brief=(Name("T*"),), step=2, T=T, surcharge=0.1)
         yield from alike.products({self.ring.atom(v) for v in self.of.v}, self.kinetic, self.translations)
-        yield from alike.carried(self.of, self.difference)
         yield from alike.bodies(self.of.bodies, self.kinetic, self.translations, self.weights)
         yield from alike.springs(self.energies)
         yield from alike.forces(self.shares, self.of.q)
