@@ -97,3 +97,52 @@ def test_the_letter_of_a_kinetic_energy_may_be_that_of_the_hamiltonian() -> None
     for wrong in (sheet.replace("- m/2", "+ m/2"), sheet.replace("K =", "T ="), sheet.replace("-m*g", "+m*g")):
         assert not derivation("bead-on-hoop").check(wrong).right
     assert derivation("bead-on-hoop").check(f"K = {WHOLE}\n{BEAD}").right
+
+
+TURNING = "J/2*(theta' + Omega)^2"
+EXPANDED = "m/2*(r'^2 + r^2*(theta' + Omega)^2 + a^2*Omega^2 + {}*(r'*sin(theta) + r*(theta' + Omega)*cos(theta)))"
+RELATIVE_ALONE = "In the velocity of particle 'slider', theta' alone stands in place of Omega + theta'."
+
+
+@pytest.mark.parametrize(
+    ("energy", "name", "words"),
+    [
+        (f"{SLIDER.replace(chr(39) + ' + Omega', chr(39))} + {TURNING}", "relative_rate", RELATIVE_ALONE),
+        (f"{EXPANDED.format('a*Omega')} + {TURNING}", "wrong_number", "count half"),
+        (f"{EXPANDED.format('4*a*Omega')} + {TURNING}", "wrong_number", "count twice"),
+        (f"{EXPANDED.format('(-2)*a*Omega')} + {TURNING}", "prescribed_sign", "wrong sign"),
+        (f"{SLIDER} + J/2*theta'^2", "omega|left_out_of_a_sum", "Omega"),
+    ],
+)
+@pytest.mark.parametrize("constant", ["", " + M/2*a^2*Omega^2", " + M*a^2*Omega^2"])
+def test_a_mistake_is_named_whatever_constant_stands_beside_it(
+    carried: lg.Derivation, energy: str, name: str, words: str, constant: str
+) -> None:
+    verdict = carried.check(f"T = {energy}{constant}")
+    assert not verdict.right, verdict.to_text()
+    assert len(verdict.mistakes) == 1 and verdict.mistakes[0].name in name.split("|"), verdict.to_text()
+    assert words in " ".join(str(verdict.mistakes[0].what).split())
+    if "omega" not in name:
+        assert "the arm" not in verdict.to_text()  # nothing but a constant of it is missing
+
+
+def test_a_constant_is_no_difference_of_a_wrong_energy(carried: lg.Derivation) -> None:
+    energy = f"T = {SLIDER} + 7*r*theta'"
+    [finding] = carried.check(f"{energy} + {TURNING}").findings
+    assert {o.element for d in finding.differences for o in d.origins} <= {"particle 'slider'"}
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "named"),
+    [
+        ("2 m r r' (Omega + theta')", "2 m r r' theta'", True),
+        ("m r (Omega + theta')^2", "m r theta'^2", True),
+        ("m r (Omega + theta')^2", "m r (theta'^2 + Omega^2)", False),
+        ("m r (Omega + theta')^2", "m r (2*Omega + theta')^2", False),
+    ],
+)
+def test_a_relative_rate_in_one_equation_is_named(carried: lg.Derivation, right: str, wrong: str, named: bool) -> None:
+    verdict = carried.check(ROWS.replace(right, wrong))
+    assert verdict.status.value == "wrong"
+    assert ("stands in place of θ̇ + Ω" in " ".join(verdict.to_text().split())) is named, verdict.to_text()
+    assert carried.check(ROWS).right

@@ -137,7 +137,7 @@ def judge(
     follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i, line.expr) if mine is not None and own is not None else ()
-    differing = tuple(_without_constants(truth, differing)) if line.kind in ("V", "L") else differing
+    differing = tuple(_without_constants(truth, differing)) if line.kind in ("T", "V", "L") else differing
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
 
 

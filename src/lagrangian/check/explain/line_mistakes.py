@@ -81,12 +81,27 @@ def of_line(
     found = singles(pool, [change], values)
     if found and found[0].cost <= EXOTIC:
         return found, []
+    if line.kind == "T" and (level := _up_to_a_constant(pool, values)):
+        return level, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
     found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
     own = own_term(pool, line.expr, whole, line.kind, i)
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _up_to_a_constant(pool: Pool, values: Array) -> list[Explanation]:
+    """The likely mistakes in T* that lead to what differs but for a constant: ½ m a² Ω² of what is carried around at a
+    given rate may be left out, whatever else is wrong."""
+    level = without_constant(values)
+    if (
+        np.abs(level).max() <= 1e-9 * np.abs(values).max()
+        or np.abs(level - values).max() <= 1e-9 * np.abs(values).max()
+    ):
+        return []
+    change: Array = pool.kept(("level", "T"), lambda: without_constant(pool.T))
+    return [e for e in singles(pool, [change], level) if e.cost <= EXOTIC]
 
 
 def of_forces(pool: Pool, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[Explanation]:

@@ -55,6 +55,7 @@ WHY_PART = {
 }
 WHY_NUMBER = "Check the factor in front of the mass or moment of inertia."
 WHY_INERTIA = f"{WHY_NUMBER} Is the moment of inertia about the centre of mass?"
+WHY_PRODUCTS = "A sum is squared as a whole, and velocities add before they are squared: (a + b)² = a² + 2 a b + b²."
 WAY = "Go along the way from the fixed point to the body: every piece of it counts, with its direction."
 VELOCITY = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
 MEASURE = "Look at the sketch: how far is it, and does the number belong to this length or to another one?"
@@ -264,6 +265,7 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
         why = WHY_PART.get(site.step, WHY_PART[5])
         if name == "wrong_number" and site.step == 2:
             why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER
+            why = WHY_PRODUCTS if str(site.words[0]).startswith("the products") else why
     if why == MEASURE and isinstance(site.element, Spring):
         why = DEFLECTION
     if why == UNITS and _has_no_unit(change):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import sympy as sp
 
 from lagrangian.check.explain.changes.change import Site, Words
 from lagrangian.check.explain.changes.ring import Sum, plus
+from lagrangian.check.explain.misconceptions.base import Ingredients, put
 from lagrangian.model import Element
 
 MOST_SHARES = 5
@@ -96,6 +97,27 @@ def products(rates: set[int], kinetic: Mapping[Any, Sum], translations: Mapping[
                 words: Words = (f"the products of different rates in {what} of {b.title}",)
                 brief: Words = (f"the products of different rates in the kinetic energy of {b.title}",)
                 yield Site(words=words, brief=brief, step=2, element=b, T=mixed, surcharge=0.2)
+
+
+def carried(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum | None]) -> Iterator[Site]:
+    """The products m v_P · (v − v_P) in ½mv² of a body whose place is given from a point P that moves as it is given.
+
+    2·a·b of (a + b)²: of the velocity of P, what no rate brings is no product of different rates.
+    """
+    for b in s.bodies:
+        base = [s.rate(x) for x in s.parent(b)]
+        if not any(put(x, dict.fromkeys(s.v, sp.S.Zero)) != 0 for x in base):
+            continue
+        own = [x - y for x, y in zip(s.velocity(b), base, strict=True)]
+        mixed = sp.Add(*[x * y for x, y in zip(base, own, strict=True)])
+        T = difference(s.expand(b.mass) * mixed, sp.S.Zero)
+        if T:
+            point = b.at.parent.name or "the point before"
+            brief: Words = (f"the products of two velocities in the kinetic energy of {b.title}",)
+            words = (
+                f"the products of the velocity of {point} and that relative to it in the kinetic energy of {b.title}"
+            )
+            yield Site(words=(words,), brief=brief, step=2, element=b, T=T, surcharge=0.2)
 
 
 def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:

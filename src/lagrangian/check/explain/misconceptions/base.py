@@ -246,6 +246,10 @@ class Ingredients:
         found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}
         return sorted((a for a in found if a.has(AppliedUndef)), key=sp.default_sort_key)
 
+    def is_carried(self, angle: sp.Expr) -> bool:
+        """Whether a part of an angle is given in time, such as Ω t in Ω t + ψ."""
+        return any(x.has(time) and not x.has(*self.q) for x in sp.Add.make_args(bounded.expand(angle)))
+
 
 def _slopes(vector: sp.Matrix, by: sp.Expr) -> sp.Matrix:
     """The derivative of every component."""
