@@ -304,11 +304,8 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     be, have, count = _verbs(site)
     if times == -1:
         name = "term_forgotten" if site.single else "left_out"
-        return (
-            name,
-            _text(*whole, f" {be} missing", *where, "."),
-            _text("Something is missing: ", *site.brief, *where, "."),
-        )
+        what = _text(*whole, f" {be} missing", *where, ".")
+        return name, what, _text("Something is missing: ", *site.brief, *where, ".")
     if times == -2:
         name = "sign_of_a_term" if site.single else "wrong_sign"
         hint = _text("There is a wrong sign: ", *site.brief, *where, ".")
