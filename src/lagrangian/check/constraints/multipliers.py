@@ -95,6 +95,9 @@ def with_own_multipliers(
         doubtful = clashes and not any(_is_zero_of_positions(line) for line in lines)
         return _beside_rivals(truth, right, lines, [x for x, _ in fixed if doubtful])
     found = _likeliest(truth, lines, rows, possible)
+    if found.notes and found.mistakes and not clashes:  # a wrong constraint tells nothing of its sense
+        others = (_read(truth, lines, rows, x) for x in possible[:2] if all(c == 1 for _, c in x.values()))
+        found = next((x for x in others if _are(x.mistakes) == _are(found.mistakes)), found)
     rivals = (_read(truth, lines, rows, x) for x in possible) if clashes and len(found.mistakes) == 1 else ()
     return _beside_rivals(truth, found, lines, rivals)
 
@@ -234,6 +237,11 @@ def _signs(truth: Reference, exprs: Sequence[sp.Expr], reading: _Reading, found:
     compared = [(a, b) for a, b in pairs if a != 0 and b is not None and b != 0]
     values = CompiledExpressions([y for pair in compared for y in pair]).at(truth.states) if compared else []
     return sum(bool((a * b > 0).all()) for a, b in zip(values[::2], values[1::2], strict=True))
+
+
+def _are(mistakes: Iterable[Mistake]) -> list[str]:
+    """The names of mistakes."""
+    return [m.name for m in mistakes]
 
 
 def _is_odd(mistake: Mistake) -> bool:

@@ -38,6 +38,7 @@ WHY = (
 WHY_SLOPE = text(
     "Change one coordinate alone, hold the others, and mind the sign of the derivative of a sine or cosine."
 )
+WHY_SENSE = text("Let one coordinate grow a little, and see in the sketch whether the other one grows, too.")
 SLOPE = -1
 """The order of a line ∂f/∂ξ = …"""
 
@@ -150,7 +151,8 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         return None
     if best is None or best.same < max(1, len(best.right) // 2):
         return None
-    said = _said(ring, best, line)
+    opposed = _opposed(ring, best, line)
+    said = opposed or _said(ring, best, line)
     if said is None:
         return None
     title, of = best.row.element.title, NAMES[best.order]
@@ -160,7 +162,8 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         is_not = f" is not {title}" if best.order == 0 else f" is not the {of[1]}derivative of {title}"
     what = text(_begin(line), f"{is_not}: ", *said)
     brief = text(_begin(line), f"{is_not}.")
-    return Mistake(of[0], what, WHY[best.order], 1, title, None, brief), best.order
+    why = WHY_SENSE if opposed else WHY[best.order]
+    return Mistake(of[0], what, why, 1, title, None, brief), best.order
 
 
 def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterator[_Compared]:
@@ -207,6 +210,22 @@ def _scaled(ring: SumRing, row: Row, order: int, right: Sum, written: Sum) -> It
     (ratio, number), (same, _) = max(votes.items(), key=lambda x: (*x[1], not x[0][0], abs(x[0][1]) == 1))
     there = {product([m, ratio]): c * number for m, c in right.items()}
     yield _Compared(row, order, there, written, same)
+
+
+def _opposed(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:
+    """Of two terms that are 0 together, ẋ + R θ̇ = 0, neither has the wrong sign: they have, against each other."""
+    whole = line.text.rstrip(" )$.,;&}\\").replace(" ", "").endswith(("=0", ",0"))
+    if not whole or len(found.right) != 2 or found.written.keys() != found.right.keys():
+        return None
+    if any(sum(ring.changes(a) for a, _ in m) != 1 for m in found.right):
+        return None  # both terms of x ẋ + y ẏ = 0 come from a sum of squares, which has signs
+    turned = [m for m, c in found.right.items() if found.written[m] == -c]
+    if len(turned) != 1 or len(found.difference) != 1:
+        return None
+    terms = [ring.expr({m: abs(found.written[m])}) for m in sorted(found.written, key=len)]
+    first, second = found.written.values()
+    are, must = ("the same sign", "opposite ones") if first * second > 0 else ("opposite signs", "the same one")
+    return ("the terms ", terms[0], " and ", terms[1], f" have {are} and must have {must}.")
 
 
 def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:

@@ -12,6 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.apart import beside, folded, rescales, told_apart
+from lagrangian.check.explain.dampers_said import damper_share
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
@@ -73,6 +74,7 @@ CALLED = {
     "rotation": "kinetic energy of the rotation",
     "translation": "kinetic energy of the translation",
     "potential": "potential energy",
+    "Xi": "generalized force",
 }
 NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
 NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
@@ -279,6 +281,10 @@ def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
 
 def _in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords:
     """What is wrong in a quantity, as the answer counts it."""
+    if (share := damper_share(s, q, written)) is not None:
+        return replace(
+            told(share.of, [share.right], [share.written], (share.right,), (share.written,)), apart=share.ending
+        )
     of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
     right = folded(s, right)
     apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else ()

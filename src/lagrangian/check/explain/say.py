@@ -306,15 +306,15 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     be, have, count = _verbs(site)
     if times == -1:
         name = "term_forgotten" if site.single else "left_out"
-        return (
-            name,
-            _text(*whole, f" {be} missing", *where, "."),
-            _text("Something is missing: ", *site.brief, *where, "."),
-        )
+        what = _text(*whole, f" {be} missing", *where, ".")
+        return name, what, _text("Something is missing: ", *site.brief, *where, ".")
     if times == -2:
         name = "sign_of_a_term" if site.single else "wrong_sign"
         hint = _text("There is a wrong sign: ", *site.brief, *where, ".")
         return name, _text(*_as_written(whole, site), f" {have} the wrong sign", *where, *_true_sign(site), "."), hint
+    if times == 1 and site.against:
+        what = _text(*whole, " is left over", *where, ": ", *site.against, " cancels it.")
+        return "left_over", what, _text("Something should cancel: ", *site.brief, *where, ".")
     number = 1 + times
     name = "factor_of_a_term" if site.single else "wrong_number"
     hint = _text(*brief, *where, f" {have} a wrong factor.")

@@ -37,6 +37,8 @@ class Site:
     surcharge: float = 0.0
     single: bool = False
     whole: bool = False
+    against: Words = ()
+    """What cancels it in the right equations."""
     members: tuple[Sum, ...] = ()
     """What each element adds, if its words name several."""
     sign_cost: float = 0.15

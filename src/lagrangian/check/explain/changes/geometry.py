@@ -18,6 +18,7 @@ from lagrangian.check.explain.changes.pieces import (
     instead_of_segment,
     segment,
 )
+from lagrangian.check.explain.changes.ring import TooLong
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import half_square
 from lagrangian.check.explain.misconceptions.base import put as replaced
@@ -152,10 +153,13 @@ class GeometryChanges:
                     yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
         yield from self._carried(b, velocity, own, mass)
         rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
-        for v in rates if len(rates) > 1 else ():
+        rates = rates if len(rates) > 1 else []
+        parallel = 2 <= len(rates) <= 3 and self._parallel(velocity, rates)
+        for v in rates[1:] if parallel and len(rates) == 2 else rates:  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
             gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
-            yield from self._kinetic(b, half_square(mass, gone), own, "rate_sign", 1.7, brief, brief, v)
-        if 2 <= len(rates) <= 3:
+            cost = 1.55 if parallel else 1.7
+            yield from self._kinetic(b, half_square(mass, gone), own, "rate_sign", cost, brief, brief, v)
+        if 2 <= len(rates) <= 3 and not parallel:
             yield from self._as_numbers(b, velocity, rates, own, mass, brief)
 
     def _carried(self, b: Any, velocity: list[sp.Expr], own: sp.Expr, mass: sp.Expr) -> Iterator[LocalChange]:
@@ -187,6 +191,17 @@ class GeometryChanges:
             total = sp.Add(*[g * s * v for g, s, v in zip(signs, speeds, rates, strict=False)])
             cost = 1.3 if signs == (1, 1, 1) else 1.6
             yield from self._kinetic(b, mass / 2 * total**2, own, "speeds_as_numbers", cost, brief, brief, None, total)
+
+    def _parallel(self, velocity: list[sp.Expr], rates: list[Any]) -> bool:
+        """Whether what every rate adds to a velocity points along the same line, which is that of no axis."""
+        if sum(x.has(*rates) for x in velocity) < 2:
+            return False
+        first, *others = [[bounded.diff(x, v) for x in velocity] for v in rates]
+        pairs = list(combinations(range(len(velocity)), 2))
+        try:
+            return not any(self.sites.sum(first[j] * w[k] - first[k] * w[j]) for w in others for j, k in pairs)
+        except TooLong:
+            return False
 
     def _rates_everywhere(self) -> Iterator[LocalChange]:
         """A rate taken as absolute or relative: ξ̇_i ± ξ̇_j in place of ξ̇_i, in one body or in all of T*."""

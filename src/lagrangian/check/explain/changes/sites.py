@@ -383,7 +383,9 @@ class Sites:
                     continue
                 rate = self.of.v[int(k)]
                 words = ("what ", rate, " adds to ", Total(Partial(T, v)), *of)
-                yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: x}, **step)
+                both = all(slope.get(m) == -c for m, c in x.items())
+                against: Words = (Partial(T, q), *of) if both else ()
+                yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: x}, against=against, **step)
             if sum(bool(x) for k, x in parts.items() if k != "a") > 1:
                 words = ("what the changing coefficients add to ", Total(Partial(T, v)), *of)
                 yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: moved}, **step)

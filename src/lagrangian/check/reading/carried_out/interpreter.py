@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
@@ -29,12 +29,18 @@ from lagrangian.check.reading.carried_out.values import (
     scalar,
 )
 from lagrangian.errors import Error
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
+
+NEAR = 1e-6
+"""The relative difference of a value that is rounding."""
 
 
 @dataclass(eq=False)
 class Interpreter(Evaluator):
     """Carries out a program, statement by statement."""
+
+    valued: Mapping[str, float] = field(default_factory=dict)
+    """The values of the parameters of the system that a program does not name."""
 
     def run(self, tree: ast.Module, given: dict[str, Value]) -> dict[str, Value]:
         """Carry out a whole program, with names that are ``given``; return its names."""
@@ -132,6 +138,8 @@ class Interpreter(Evaluator):
             given = isinstance(value, sp.Symbol) and not self.known(value.name) and "[" not in value.name
             if isinstance(value, sp.Expr) and (value.is_number or given) and self.known(target.id):
                 value = sp.Symbol(target.id)
+            elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
+                value = self._of_value(value)
             names[target.id] = value
             if isinstance(value, sp.Symbol) and "[" in value.name:
                 self.aliases.setdefault(value, target.id)
@@ -144,6 +152,15 @@ class Interpreter(Evaluator):
             raise AbandonedError
         elif target.attr == "potential_energy" and isinstance(body := self.value(target.value, names), Mass):
             body.potential = scalar(value)
+
+    def _of_value(self, value: sp.Expr) -> sp.Expr:
+        """A number that a program gives to a name of its own; the one parameter that it does not name, of this value:
+        slope = pi/12 for α = 15°. A whole number may count something, and ½ is one."""
+        if not self.valued or (2 * value).is_Integer or not value.is_real:
+            return value
+        size = value.evalf()
+        same = [name for name, x in self.valued.items() if abs(size - x) <= NEAR * abs(x)]
+        return sp.Symbol(same[0]) if len(same) == 1 else value
 
     def _put(self, target: ast.Subscript | ast.Call, value: Value, names: dict[str, Value]) -> None:
         """An entry of a list or a column gets a value; in MATLAB a column grows."""

@@ -97,7 +97,8 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
             bare = in_matlab(bare) if matlab and is_julia(bare) else bare
             tree = ast.parse(in_python(bare) if matlab else bare)
         known = partial(_is_constant, scope, model=model)
-        run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates))
+        valued = _unnamed(tree, scope, model)
+        run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates), valued=valued)
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, _Rates(model, scope)))
         reader = StateReader(run, text, model, scope)
@@ -141,6 +142,18 @@ def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
     """Whether a name is a parameter or an input."""
     found = scope.meanings(name)[0]
     return any(x.name in found for x in (*model.parameters, *model.inputs))
+
+
+def _unnamed(tree: ast.Module, scope: AnswerScope, model: Model) -> dict[str, float]:
+    """The parameters that a program does not name, with their values."""
+    said: set[str] = set()
+    for x in ast.walk(tree):
+        if isinstance(x, ast.Constant) and isinstance(x.value, str):
+            said.update(NAME.findall(x.value))  # symbols("m g")
+        elif isinstance(x, (ast.Name, ast.Attribute, ast.arg)):
+            said.add(x.id if isinstance(x, ast.Name) else x.attr if isinstance(x, ast.Attribute) else x.arg)
+    named = {y for x in said for y in scope.meanings(x)[0]}
+    return {p.name: float(p.value) for p in model.parameters if p.name not in named and p.value is not None}
 
 
 def _depth(text: str) -> int:
