@@ -119,9 +119,10 @@ def _brackets(text: str) -> str:
     """Indices in round brackets, columns with semicolons: x[1] as x(1), [a, b] as [a; b], du .= (a, b) as a list."""
     out: list[str] = []
     open_: list[str] = []
-    whole = {m.end() - 1 for m in _WHOLE.finditer(text) if m["bare"]}
-    starts = {m.end("to") for m in _WHOLE.finditer(text)}
-    skipped = {k for m in _WHOLE.finditer(text) for k in range(m.end("to"), m.end() - bool(m["bare"]))}
+    assigned = list(_WHOLE.finditer(text))
+    whole = {m.end() - 1 for m in assigned if m["bare"]}
+    starts = {m.end("to") for m in assigned}
+    skipped = {k for m in assigned for k in range(m.end("to"), m.end() - bool(m["bare"]))}
     rows = set(_with_rows(text))
     comment = False
     for k, c in enumerate(text):

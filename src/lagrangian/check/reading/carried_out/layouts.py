@@ -117,9 +117,7 @@ class Layouts:
             used = {k for k, x in yp.entries.items() if any(r.has(x) for r in rates)}
             if not rate_of or not used <= {*rate_of, *rate_of.values()}:
                 continue
-            names = self.comments(y.name) | {
-                k: self.run.aliases[x] for k, x in y.entries.items() if x in self.run.aliases
-            }
+            names = self._said(y)
             coordinates = [c.name for c in self.model.coordinates]
             if len(rate_of) != len(coordinates) and not all(i in names for i in rate_of):
                 continue

@@ -135,28 +135,23 @@ class OfKane(MechanicsMethod):
         return fr + star
 
     def _rates(self) -> dict[Any, sp.Expr]:
-        """The rates of the coordinates in the speeds: the factors of the rates in these equations are numbers."""
-        rates = [q.diff(TIME) for q in self.coordinates]
-        if not self.kinematic:
-            return {}
-        A = sp.Matrix([[slope(x, v) for v in rates] for x in self.kinematic])
-        rest = sp.Matrix([x.xreplace(dict.fromkeys(rates, sp.S.Zero)) for x in self.kinematic])
-        if A.shape[0] != A.shape[1] or A.atoms(sp.Symbol, AppliedUndef) or A.det() == 0:
-            raise AbandonedError
-        return dict(zip(rates, (-A.inv() * rest).flat(), strict=True))
+        """The rates of the coordinates in the speeds."""
+        return self._solved([q.diff(TIME) for q in self.coordinates])
 
     def _meanings(self) -> dict[Any, sp.Expr]:
         """The speeds in rates of the coordinates; none where the speeds are these rates."""
-        own = [u for u in self.speeds if not isinstance(u, sp.Derivative)]
-        if not own or not self.kinematic:
+        found = self._solved([u for u in self.speeds if not isinstance(u, sp.Derivative)])
+        return {u.diff(TIME): slope(x, TIME) for u, x in found.items()} | found
+
+    def _solved(self, unknowns: Sequence[Any]) -> dict[Any, sp.Expr]:
+        """What the kinematic equations say of unknowns, whose factors in these are numbers."""
+        if not unknowns or not self.kinematic:
             return {}
-        A = sp.Matrix([[slope(x, u) for u in own] for x in self.kinematic])
-        rest = sp.Matrix([x.xreplace(dict.fromkeys(own, sp.S.Zero)) for x in self.kinematic])
+        A = sp.Matrix([[slope(x, u) for u in unknowns] for x in self.kinematic])
+        rest = sp.Matrix([x.xreplace(dict.fromkeys(unknowns, sp.S.Zero)) for x in self.kinematic])
         if A.shape[0] != A.shape[1] or A.atoms(sp.Symbol, AppliedUndef) or A.det() == 0:
             raise AbandonedError
-        values = (-A.inv() * rest).flat()
-        moved = {u.diff(TIME): slope(x, TIME) for u, x in zip(own, values, strict=True)}
-        return moved | dict(zip(own, values, strict=True))
+        return dict(zip(unknowns, (-A.inv() * rest).flat(), strict=True))
 
     def _parts(self) -> tuple[MatrixBase, MatrixBase]:
         own = any(not isinstance(u, sp.Derivative) for u in self.speeds)
