@@ -82,6 +82,11 @@ def names(expr: sp.Basic) -> set[sp.Basic]:
     return found | {node.expr for node in found if isinstance(node, sp.Derivative)}
 
 
+def letters(expr: sp.Basic) -> set[Any]:
+    """Return the symbols and functions of time in an expression, with time and what stands only below a derivative."""
+    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}
+
+
 def terms(expr: sp.Basic) -> int:
     """Return an upper bound on the number of terms in the longest sum that expanding an expression makes."""
     found: dict[int, int] = {}

@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import sympy as sp
-from sympy.core.function import AppliedUndef
-
 from lagrangian import bounded
 from lagrangian.check.names.needless import accelerates
 from lagrangian.check.reference import Reference
@@ -36,7 +33,7 @@ def as_equation(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     row = next((r for c, r in zip(truth.model.coordinates, truth.rows, strict=True) if c.name == line.name), None)
     if line.kind not in RATES or row is None:
         return line
-    more = _names(line.expr) - _names(truth.T) - {c.symbol for c in truth.model.coordinates} - {time}
+    more = bounded.letters(line.expr) - bounded.letters(truth.T) - {c.symbol for c in truth.model.coordinates} - {time}
     if not more:
         return line
     if line.kind == "T-rate":
@@ -45,7 +42,3 @@ def as_equation(truth: Reference, line: AnsweredLine) -> AnsweredLine:
     if line.expr.has(*(c.acceleration for c in truth.model.coordinates)):
         return line
     return replace(line, kind="equation", name=None, expr=bounded.diff(momentum, time) - line.expr)
-
-
-def _names(expr: sp.Expr) -> set[sp.Basic]:
-    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}

@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.explain.misconceptions.small_angle import first_order, small
 from lagrangian.check.places import (
@@ -78,7 +79,7 @@ def _remark(truth: Reference, line: AnsweredLine) -> str | None:
     """Why a line of a remark is not judged: all but a position at rest, and an equation in a check that is wrong in
     every special case."""
     known = {x.symbol for x in (*truth.model.parameters, *truth.model.inputs, *truth.model.coordinates)} | {time}
-    foreign = (line.expr.free_symbols | line.expr.atoms(AppliedUndef)) - known
+    foreign = bounded.letters(line.expr) - known
     accelerates = line.expr.has(*(c.acceleration for c in truth.model.coordinates))
     if not line.beside & {"check", "case"}:
         return None

@@ -30,7 +30,7 @@ def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterat
         if line.kind != "statement" or line.name is not None or not (used := _slopes(truth, line.expr)):
             continue
         expr = cast("sp.Expr", line.expr.xreplace({x: value for x, (_, value) in used.items()}))
-        if not expr.free_symbols | expr.atoms(AppliedUndef) <= truth.names:
+        if not bounded.letters(expr) <= truth.names:
             continue
         moving = expr.has(*[c.acceleration for c in truth.model.coordinates])
         if moving and truth.derivation.multipliers:

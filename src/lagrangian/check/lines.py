@@ -9,6 +9,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.prescribed import as_prescribed, with_own_definitions
 from lagrangian.check.reading import Answer, generalized_force
 from lagrangian.check.reading.placeholders import ENERGIES
@@ -113,7 +114,7 @@ def without_forms(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tupl
     model = truth.model
     known = {x.symbol for x in (*model.parameters, *model.coordinates, *model.inputs, *model.definitions)}
     known |= {m.symbol for m in truth.derivation.multipliers.values()}
-    names = [{x for x in (*a.expr.free_symbols, *a.expr.atoms(AppliedUndef)) if x != time} for a in lines]
+    names = [{x for x in bounded.letters(a.expr) if x != time} for a in lines]
     forms: set[int] = set()
     for k, line in enumerate(lines):
         elsewhere = known.union(*(own for j, own in enumerate(names) if j != k))

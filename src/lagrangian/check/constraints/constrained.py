@@ -18,7 +18,6 @@ from typing import Any, Protocol, TypeAlias, cast
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.balances import as_equation
@@ -234,7 +233,7 @@ def _worst(statuses: Sequence[Status]) -> Status:
 
 def _names_in(truth: Compared, line: AnsweredLine) -> set[sp.Basic]:
     """The names in a line, and the multipliers in the named quantities among them."""
-    used: set[sp.Basic] = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+    used: set[sp.Basic] = bounded.letters(line.expr)
     return used | {x for name in used & truth.holding.keys() for x in truth.holding[name]}
 
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import cast
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
@@ -92,7 +91,7 @@ def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
     known: set[sp.Basic] = {time, *(p.symbol for p in model.parameters), *(c.symbol for c in model.coordinates)}
     known |= {*(u.symbol for u in model.inputs), *(d.symbol for d in model.definitions)}
     told = [line.expr for line in lines if line.kind == "equation"]
-    return {x for expr in told for x in (*expr.free_symbols, *expr.atoms(AppliedUndef))} - known
+    return {x for expr in told for x in bounded.letters(expr)} - known
 
 
 def _slope(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:

@@ -15,7 +15,6 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.align import agreeing
@@ -76,7 +75,7 @@ def with_own_multipliers(
     accelerations = [c.acceleration for c in model.coordinates]
     rows = [line for line in lines if line.kind == "equation"]
     rows = [line for line in rows if line.expr.has(*accelerations) or line.expr.has(*own)]
-    used: set[Any] = {x for line in rows for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
+    used: set[Any] = {x for line in rows for x in bounded.letters(line.expr)}
     names = sorted(used - truth.names, key=str)
     if not own or len(names) > len(own) or len(names) > MOST or not rows:
         return None

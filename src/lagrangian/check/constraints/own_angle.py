@@ -13,7 +13,6 @@ from itertools import combinations
 from typing import Any, cast
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
@@ -25,8 +24,8 @@ MOST, LONGEST = 2, 60
 
 def without_own_angles(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines with the sines and cosines of such angles written out."""
-    every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
-    turning = {x for line in lines for f in line.expr.atoms(sp.sin, sp.cos) for x in _names(f)}
+    every = {x for line in lines for x in bounded.letters(line.expr)}
+    turning = {x for line in lines for f in line.expr.atoms(sp.sin, sp.cos) for x in bounded.letters(f)}
     for angle in sorted((every - truth.names) & turning, key=str)[:MOST]:
         lines = _without(truth, lines, angle) or lines
     return tuple(lines)
@@ -61,14 +60,12 @@ def _is_place(truth: Reference, line: AnsweredLine, expr: sp.Expr, table: dict[A
     new = {*table.values()}
     if line.kind != "equation" or expr.has(sp.Derivative) or not expr.has(*new):
         return False
-    return _names(expr) - new <= truth.names and bounded.operations(expr) <= LONGEST
+    return bounded.letters(expr) - new <= truth.names and bounded.operations(expr) <= LONGEST
 
 
 def _expanded(expr: sp.Expr, angle: Any) -> sp.Expr:
     """An expression with sin(β − θ) as sin β cos θ − cos β sin θ."""
-    sums = {f: sp.expand_trig(f) for f in expr.atoms(sp.sin, sp.cos) if f.args[0] != angle and angle in _names(f)}
+    sums = {
+        f: sp.expand_trig(f) for f in expr.atoms(sp.sin, sp.cos) if f.args[0] != angle and angle in bounded.letters(f)
+    }
     return cast("sp.Expr", expr.xreplace(sums))
-
-
-def _names(expr: sp.Expr) -> set[Any]:
-    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}

@@ -90,7 +90,7 @@ def _without_pushes(
     kept: list[AnsweredLine] = []
     pushes: list[AnsweredLine] = []
     for line in lines:
-        names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - truth.names | {*forces}
+        names = bounded.letters(line.expr) - truth.names | {*forces}
         row = places.get(str(line.name)) if line.kind == "Xi" else None
         by_others = any(set(d.variables) - {time} for d in line.expr.atoms(sp.Derivative))
         own = sorted((x for x in names if line.expr.has(x)), key=str) if row is not None and not by_others else []
@@ -111,7 +111,7 @@ def _without_multipliers_in_L(truth: Reference, lines: Sequence[AnsweredLine]) -
     if len(stated) != 1:
         return Unfolded(tuple(lines))
     model, L = truth.model, stated[0].expr
-    own = sorted({*L.free_symbols, *L.atoms(AppliedUndef)} - truth.names, key=str)
+    own = sorted(bounded.letters(L) - truth.names, key=str)
     slopes = [cast("sp.Expr", L.diff(x)) for x in own]
     if not own or any(f.has(sp.Derivative, *own) for f in slopes):
         return Unfolded(tuple(lines))

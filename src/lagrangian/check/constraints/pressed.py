@@ -18,8 +18,8 @@ from typing import TypeAlias, cast
 
 import numpy as np
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import Friction, Model
 from lagrangian.model.rows import rows_of
@@ -114,7 +114,7 @@ def _sizes(expr: sp.Expr, known: set[sp.Basic]) -> Iterator[sp.Expr]:
 
 
 def _letters(size: sp.Expr) -> list[sp.Expr]:
-    letters = {*size.free_symbols, *size.atoms(AppliedUndef)} - {sp.Symbol("t")}
+    letters = bounded.letters(size) - {sp.Symbol("t")}
     return cast("list[sp.Expr]", sorted(letters, key=str))
 
 

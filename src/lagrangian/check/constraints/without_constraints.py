@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.constraints.counted_together import integrated, ways_together
 from lagrangian.check.coordinates.chart import OF_COORDINATES
 from lagrangian.check.coordinates.relations import solutions
@@ -54,7 +55,7 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
             continue
         other = _reference(truth, table, [*kept, *(Coordinate(str(x.func), x) for x in new)])
         if other is not None:
-            every = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
+            every = {x for line in lines for x in bounded.letters(line.expr)}
             unknown = every - other.names - own
             return InStatedCoordinates(other, tuple(_moved(truth, lines, change, table, unknown)), change)
     return None
@@ -148,7 +149,7 @@ def _moved(
         if line.kind == "statement" or (line.kind == "definition" and line.name in gone):
             continue
         slopes = {x for d in line.expr.atoms(sp.Derivative) for x in d.variables} - {time}
-        names = {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+        names = bounded.letters(line.expr)
         if slopes or names & unknown or (line.kind in OF_COORDINATES and line.name in gone):
             if line.kind != "definition":
                 yield replace(line, kind="statement")
@@ -167,7 +168,7 @@ def _is_zero(truth: Reference, expr: sp.Expr) -> bool:
 
 def _others(truth: Reference, expr: sp.Expr) -> set[Any]:
     """The names that the system does not have."""
-    return {*expr.free_symbols, *expr.atoms(AppliedUndef)} - truth.names
+    return bounded.letters(expr) - truth.names
 
 
 def _words(table: dict[sp.Expr, sp.Expr]) -> Any:

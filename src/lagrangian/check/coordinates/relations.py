@@ -54,7 +54,7 @@ def without_relations(
 
 def _is_zero(expr: sp.Expr) -> bool:
     """Whether an expression of positions is 0, as it may be only if it is at some place."""
-    letters = sorted(expr.free_symbols | expr.atoms(AppliedUndef), key=sp.default_sort_key)
+    letters = sorted(bounded.letters(expr), key=sp.default_sort_key)
     value = cast("sp.Expr", expr.xreplace({x: sp.Float((7 * k + 5) / 11) for k, x in enumerate(letters)}))
     return not (value.is_Float and abs(value) > FAR) and bounded.cancel(expr) == 0
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.constraint_slips import SLOPE, WrongConstraint
@@ -59,7 +58,7 @@ def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine
     pairs: list[tuple[sp.Expr, sp.Expr]] = []
     symbols: set[Any] = set()
     for expr, (i, c) in zip(rows, (coordinates[name] for name in said if name is not None), strict=True):
-        names: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in truth.names}
+        names: set[Any] = {x for x in bounded.letters(expr) if x not in truth.names}
         symbols |= names
         mine, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
         if len(symbols) > 1 or mine == 0 or right == 0:

@@ -77,7 +77,7 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
         expr = f.line.expr
         if f.line.kind != "equation" or f.status is not Status.WRONG:
             continue
-        if not {*expr.free_symbols, *expr.atoms(AppliedUndef)} <= truth.names or not expr.has(*places):
+        if not bounded.letters(expr) <= truth.names or not expr.has(*places):
             continue
         above = next((x for x in found if _derived(x.expr, expr)), None)
         if above is not None:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool
@@ -35,7 +34,7 @@ def effort_of(pool: Pool, kind: str, row: int | None, term: sp.Expr, scale: sp.E
     if kind not in ("equation", "Xi"):
         return None
     above, _ = sp.fraction(bounded.cancel(term / scale) if scale is not None else term)
-    held = above.free_symbols | above.atoms(AppliedUndef)
+    held = bounded.letters(above)
     found = [e for e, own in _own_letters(pool).items() if own & held]
     if not found:
         return None
@@ -67,7 +66,7 @@ def _own_letters(pool: Pool) -> dict[Element, set[Any]]:
         listed: dict[Element, set[Any]] = {}
         for element in s.acting:
             efforts = [s.expand(a.effort) for a in s.actions(element)]
-            letters = {x for e in efforts for x in (*e.free_symbols, *e.atoms(AppliedUndef))}
+            letters = {x for e in efforts for x in bounded.letters(e)}
             listed[element] = letters - conservative - moving
         return listed
 

@@ -228,7 +228,7 @@ def _written(truth: Reference, expr: sp.Expr) -> tuple[list[sp.Expr], int, Array
 def foreign_names(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
     """The names that the system does not have, with both signs: alone they are the name of a line, not its term."""
     own = truth.names | {m.symbol for m in truth.derivation.multipliers.values()}
-    found: set[Any] = {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x not in own}
+    found: set[Any] = {x for x in bounded.letters(expr) if x not in own}
     return {y for x in found for y in (x, -x)}
 
 
@@ -275,7 +275,7 @@ def _idle(pool: Pool, row: int | None, term: sp.Expr) -> Element | None:
 
     A rate is no letter of a damper: it may be given that of another point.
     """
-    letters = cast("set[sp.Expr]", term.free_symbols | term.atoms(AppliedUndef))
+    letters = cast("set[sp.Expr]", bounded.letters(term))
     ring = pool.sites.ring
     atoms = {ring.atom(x) for x in letters}
     rates = {ring.atom(v) for v in pool.sites.of.v}

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.model import time
 
@@ -59,4 +59,4 @@ def claimed(mistake: Mistake) -> Iterator[sp.Expr]:
 
 def letters_in(expr: sp.Expr) -> set[Any]:
     """The letters, coordinates and inputs in an expression."""
-    return {x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x != time}
+    return {x for x in bounded.letters(expr) if x != time}

@@ -118,7 +118,7 @@ def _contradictions(aside: Sequence[AnsweredLine], unknown: Collection[sp.Basic]
 def _forms(expr: sp.Expr, unknown: Collection[sp.Basic]) -> list[Any]:
     """The unknown names in an expression, and their rates."""
     rates = [d for d in expr.atoms(sp.Derivative) if d.args[0] in unknown]
-    atoms = [x for x in (*expr.free_symbols, *expr.atoms(AppliedUndef)) if x in unknown and x != time]
+    atoms = [x for x in bounded.letters(expr) if x in unknown and x != time]
     return sorted(rates, key=str) or sorted(atoms, key=str)
 
 

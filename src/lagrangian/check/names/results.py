@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence, Set
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine
@@ -18,7 +17,7 @@ FORCE = text("the force of the constraint")
 
 def results_in(model: Model, known: Set[sp.Basic], equations: Sequence[AnsweredLine]) -> dict[sp.Basic, AnsweredLine]:
     """The equations λ = … without accelerations, by a name λ that is not ``known`` and that no other equation uses."""
-    used = [{*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)} - known for line in equations]
+    used = [bounded.letters(line.expr) - known for line in equations]
     found: dict[sp.Basic, AnsweredLine] = {}
     for k, (line, new) in enumerate(zip(equations, used, strict=True)):
         alone = len(new) == 1 and not any(new & others for j, others in enumerate(used) if j != k)

@@ -10,8 +10,8 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.align import agreement
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE
@@ -139,7 +139,7 @@ def may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
 
 def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """Numbers that can only be the value of a parameter that the answer lacks, such as 9.81 for g."""
-    used = {s for line in lines for s in line.expr.free_symbols | line.expr.atoms(AppliedUndef)}
+    used = {s for line in lines for s in bounded.letters(line.expr)}
     table: dict[sp.Basic, sp.Expr] = {}
     notes: list[Text] = []
     for p in truth.model.parameters:

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.lines import filled, lines_of
 from lagrangian.check.names.results import is_factor_of_forces
 from lagrangian.check.reading import Answer, Unknown
@@ -116,7 +117,7 @@ def _is_last(
 
     Words say what it is, or the units of the terms agree, and no other value of it would make the answer right.
     """
-    used = {x for line in lines for x in (*line.expr.free_symbols, *line.expr.atoms(AppliedUndef))}
+    used = {x for line in lines for x in bounded.letters(line.expr)}
     free = [x.symbol for x in (*derivation.model.parameters, *derivation.model.inputs) if x.symbol not in used]
     if (
         derivation.form == "structured"

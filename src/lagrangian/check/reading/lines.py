@@ -138,7 +138,7 @@ class Lines:
     def _forget(self, lines: Sequence[AnswerLine]) -> None:
         """Drop the unknown names of sides that are not judged."""
         exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
-        used = {x for expr in exprs for x in expr.free_symbols | expr.atoms(AppliedUndef)}
+        used = {x for expr in exprs for x in bounded.letters(expr)}
         for base in [base for base, u in self.names.unknown.items() if u.symbol not in used]:
             del self.names.unknown[base]
 

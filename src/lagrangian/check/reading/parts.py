@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import sympy as sp
 from lark import Tree
-from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import listed_names
 from lagrangian.check.reading.meaning import Meaning
@@ -37,7 +37,7 @@ def tells(kind: Kind, value: Value, after: Sequence[Value], names: Names) -> boo
     usual = all(str(x)[0] in _PARTS + _INSIDE or str(x)[0].islower() for x in new)
     if new and usual and any(isinstance(x, sp.Expr) and not _new_in(x, names) for x in after):
         return False
-    whole = value.free_symbols | value.atoms(AppliedUndef)
+    whole = bounded.letters(value)
     return not new or not all(str(x)[:1] in _PARTS for x in new) or bool(whole - new)
 
 
@@ -72,4 +72,4 @@ def tell_general(source: Source, new: Sequence[str], names: Names) -> None:
 
 def _new_in(value: sp.Expr, names: Names) -> set[sp.Basic]:
     """The names in an expression that neither the system nor the answer explains."""
-    return {x for x in value.free_symbols | value.atoms(AppliedUndef) if names.is_unknown(x)}
+    return {x for x in bounded.letters(value) if names.is_unknown(x)}

@@ -13,6 +13,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reading.names import Names
@@ -36,7 +37,7 @@ def contradicting(names: Names, sources: Sequence[Source]) -> Iterator[tuple[int
         for a, b in _pairs(above, value):
             if not _differ(a, b):
                 continue
-            if not _comparable(a, b) or any(map(names.is_unknown, _atoms(a) | _atoms(b))):
+            if not _comparable(a, b) or any(map(names.is_unknown, bounded.letters(a) | bounded.letters(b))):
                 names.notes.setdefault(f"'{told}' was not judged: the value that is used is another one.")
                 continue
             kind: Kind = "equation" if accelerates(a) or accelerates(b) else "identity"
@@ -58,13 +59,9 @@ def _pairs(above: Any, value: Any) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 def _comparable(above: sp.Expr, value: sp.Expr) -> bool:
     """Whether two values are expressions that can be judged: not a formula beside the number that follows from it."""
-    if any(is_vector(x) or any(map(is_placeholder, _atoms(x))) for x in (above, value)):
+    if any(is_vector(x) or any(map(is_placeholder, bounded.letters(x))) for x in (above, value)):
         return False
     return bool(above.is_number) == bool(value.is_number) or 0 in (above, value)
-
-
-def _atoms(expr: sp.Expr) -> set[sp.Basic]:
-    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}
 
 
 def _differ(above: sp.Expr, value: sp.Expr) -> bool:
