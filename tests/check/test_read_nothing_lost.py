@@ -54,6 +54,14 @@ def test_tags_are_taken_off() -> None:
     assert not judged_right("m L² θ'' + b θ' <b g> + m g L sin θ = 0")
 
 
+def test_a_letter_behind_a_subscript_of_a_web_page_is_another_name() -> None:
+    data = "<p>I<sub>c</sub>&theta; and m<sub>1</sub>g l = 3, J + m<sub>1</sub>l<sup>2</sup>x = 2</p>"
+    assert without_tags(TracedText(data)).text.strip() == "I_c θ and m_1 g l = 3, J + m_1 l^2 x = 2"
+    assert without_tags(TracedText("x<sub>1</sub>ddot + x<sub>2</sub>&#775;")).text == "x_1ddot + x_2\u0307"
+    pressed = "<p>m<sub>e</sub>L = 2, m<sub>e</sub>L<sup>2</sup> + J = 3</p>"
+    assert without_tags(TracedText(pressed)).text.split("\n")[1] == "m_e L = 2, m_e L^2 + J = 3"
+
+
 @pytest.mark.parametrize("unknown", ["∂A_1/∂θ - ∂B_1/∂θ'", "∂A_1/∂m - ∂B_1/∂m", "∂A_1/∂θ - ∂A_1/∂θ'"])
 def test_derivatives_of_different_unknown_quantities_do_not_cancel(unknown: str) -> None:
     verdict = derivation("pendulum").check(f"{LEFT} = {unknown}")

@@ -26,6 +26,8 @@ _FRACTION = re.compile(
     re.IGNORECASE,
 )
 _ENTITY = re.compile(r"&(?:#(?:[xX][0-9A-Fa-f]{1,6}|[0-9]{1,7})|[A-Za-z][A-Za-z0-9]{1,31});")
+_MARK = re.compile(r"d{0,3}dot|prime")
+"""Words for a rate, which belong to the name: x<sub>1</sub>ddot."""
 _SHORT = re.compile(r"\w+\Z")
 _ROWS = frozenset(["p", "br", "div", "tr", "li", "table", "pre", "h1", "h2", "h3", "h4", "h5", "h6", "ul", "ol"])
 _LETTERS = frozenset("biu")
@@ -42,12 +44,15 @@ def without_tags(written: TracedText) -> TracedText:
 
 
 def _raised(match: re.Match[str]) -> str:
-    """x<sup>2</sup> as x^2, e<sup>-t</sup> as e^(-t)."""
+    """x<sup>2</sup> as x^2, e<sup>-t</sup> as e^(-t), and m<sub>2</sub>s as m_2 s: a letter behind is another name."""
     inside = html.unescape(match["inside"]).strip()
     mark = "_" if match["tag"].lower() == "sub" else "^"
     if not inside or (mark == "^" and set(inside) <= set("'’′″")):
         return inside
-    return f"{mark}{inside}" if _SHORT.match(inside) else f"{mark}({inside})"
+    entity = _ENTITY.match(match.string, match.end())
+    after = html.unescape(entity.group()) if entity else match.string[match.end() : match.end() + 6]
+    apart = " " if after[:1].isalnum() and not _MARK.match(after) else ""
+    return f"{mark}{inside}{apart}" if _SHORT.match(inside) else f"{mark}({inside}){apart}"
 
 
 def _tag(match: re.Match[str]) -> str:
