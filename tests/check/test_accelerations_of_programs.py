@@ -5,6 +5,8 @@ Oracle: the equations of the cart with a pole, and of a wheel that rolls. Every 
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from test_forces_between_bodies import wheel
 
@@ -189,3 +191,22 @@ def test_loops_of_matlab_over_numbers_are_carried_out(last: str) -> None:
     assert right(program)
     for old, new in (("- Q(i)", "+ Q(i)"), ("- diff(L,q(i))", "+ diff(L,q(i))"), ("1:numel(q)", "1:1")):
         assert old in program and not right(program.replace(old, new))
+
+
+LISTED = """syms p pd pdd q qd qdd real   % x, x', x'', theta, theta', theta''
+T = M*pd^2/2 + m*(pd^2 + 2*l*pd*qd*cos(q) + l^2*qd^2)/2 + J*qd^2/2;
+V = m*g*l*cos(q);
+eq1 = diff(T,pd,pd)*pdd + diff(T,pd,qd)*qdd + diff(T,pd,q)*qd == F - b*pd;
+eq2 = diff(T,qd,pd)*pdd + diff(T,qd,qd)*qdd + diff(T,qd,q)*qd - diff(T,q) + diff(V,q) == 0;"""
+
+
+def test_a_comment_lists_what_declared_symbols_are() -> None:
+    assert right(LISTED)
+    python = LISTED.replace(
+        "syms p pd pdd q qd qdd real   %", "p, pd, pdd, q, qd, qdd = symbols('p pd pdd q qd qdd')  #"
+    )
+    python = f"from sympy import *\nM, m, l, J, g, b, F = symbols('M m l J g b F')\n{python}".replace("^", "**")
+    assert right(re.sub(r"(eq. =) (.+) == (.+);", r"\1 Eq(\2, \3)", python))
+    assert not right(LISTED.replace("F - b*pd", "F + b*pd"))
+    assert not right(LISTED.replace("x, x', x'', theta, theta', theta''", "theta, theta', theta'', x, x', x''"))
+    assert not right(LISTED.replace("x, x', x'',", "x, x',"))

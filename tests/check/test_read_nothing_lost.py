@@ -9,7 +9,7 @@ import pytest
 import sympy as sp
 
 from built_in import derivation
-from lagrangian import ParseError, System
+from lagrangian import ParseError, System, loads
 from lagrangian.check.reading import parse_answer
 from lagrangian.check.reading.hypertext import without_tags
 from lagrangian.check.reading.traced_text import TracedText
@@ -168,3 +168,30 @@ def test_energies_alone_are_not_right_in_front_of_a_result_that_was_not_read(res
         pole.check(f"{ENERGIES_ALONE}{result}")
     assert pole.check(f"{result}\n{ENERGIES_ALONE}").right
     assert pole.check(f"{ENERGIES_ALONE}The zero of the height is at the axle, where V = 0 as it should be").right
+
+
+@pytest.mark.parametrize("slope", ["d delta/d theta", "ddelta/dtheta", "d delta / dtheta", "∂delta/∂theta"])
+def test_a_slope_of_a_quantity_in_long_letters_is_no_product_with_a_damper(slope: str) -> None:
+    flap = loads(
+        """
+        coordinates = ["theta"]
+        parameters = ["J", "k", "a", "d"]
+        [[frame]]
+        name = "flap"
+        angle = "theta"
+        [[rigid_body]]
+        mass = "1 kg"
+        inertia = "J"
+        at = ["0", "0"]
+        frame = "flap"
+        [[spring]]
+        k = "k"
+        deflection = "a*sin(theta)"
+        [[damper]]
+        b = "d"
+        deflection = "theta"
+        """
+    ).derive()
+    row = "J theta'' + d theta' + k a^2 sin(theta) cos(theta) = 0\ndelta = a sin(theta)\n"
+    assert flap.check(f"{row}{slope} = a cos(theta)").right
+    assert not flap.check(f"{row}{slope} = a sin(theta)").right

@@ -97,6 +97,8 @@ def test_what_may_belong_to_an_equation_is_not_left_out(row: str) -> None:
         "Check: for theta = 0 the first gives (M + m) x'' + b x' = F.",
         "If J = 0, the second becomes l theta'' + x'' cos theta = g sin theta, as for a point mass.",
         "For θ̇ = 0 this is a cart that carries a load.",
+        "Limits: l = 0 decouples both; m → 0, J → 0: the cart M alone. Fine.",
+        "With m = 0, J = 0 only the cart is left.",
     ],
 )
 def test_what_holds_under_a_condition_is_not_judged(said: str) -> None:

@@ -23,6 +23,12 @@ def test_a_side_in_words_says_what_the_terms_are(cart: str) -> None:
     assert right(f"{CART}\n{ROD}") and not right(f"{CART}\n{ROD.replace('= m g', '= -m g')}")
 
 
+def test_a_sentence_is_no_name_though_its_words_stand_elsewhere_too() -> None:
+    title = "The pole: moment of momentum about the hinge; sum of forces for the cart"
+    rod = ROD.replace("moment of the weight − moment of inertia forces", "sum of moments about hinge")
+    assert right(f"{title}\n{CART}\n{rod}") and not right(f"{title}\n{CART}\n{rod.replace('= m g', '= -m g')}")
+
+
 def test_a_word_that_is_a_name_is_no_word() -> None:
     drive = "M x'' + m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = drive = F - b x'"
     assert right(f"drive = F - b x'\n{drive}\n{POLE}")

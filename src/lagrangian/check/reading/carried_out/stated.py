@@ -64,6 +64,13 @@ _MEANS = re.compile(
     r"(?P<of>[^\W\d]\w{0,24})(?![\w'’(*/+-])"
 )
 """What a comment says of a name: R is r."""
+_DECLARED = re.compile(
+    r"^[ \t]*+(?:syms[ \t](?P<syms>[\w \t,]++)|(?P<names>[\w \t,]++)=[ \t]*+(?:\w++\.)?symbols\([^\n#]*+);?"
+    r"[ \t]*+[#%]++(?P<said>[^\n]++)$",
+    re.MULTILINE,
+)
+"""Symbols, and a comment that lists what they are: syms q qd qdd real  % x, x', x''."""
+_OF_RATE = re.compile(r"[^\W\d]\w{0,24}['’′]{0,2}")
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
@@ -129,13 +136,24 @@ def _is_of_system(scope: AnswerScope, name: str) -> bool:
 def _renamed(
     run: Interpreter, text: str, found: Sequence[tuple[int, str]], scope: AnswerScope, model: Model
 ) -> Iterator[tuple[int, str]]:
-    """What symbols in statements are that the system does not have: coordinates, by subs(…) or by a comment."""
+    """What symbols in statements are that the system does not have: coordinates, rates, by subs(…) or a comment."""
     coordinates = {c.name for c in model.coordinates}
     said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)} | run.renamed
-    for name, of in said.items():
+    for name, of in (_listed(text) | said).items():
         used = any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", x) for _, x in found)
-        if used and not scope.meanings(name)[0] and set(scope.meanings(of)[0]) & coordinates:
+        if used and not scope.meanings(name)[0] and set(scope.meanings(of.rstrip("'’′"))[0]) & coordinates:
             yield 1, f"{name} = {of}"
+
+
+def _listed(text: str) -> dict[str, str]:
+    """What a comment behind the declaration of symbols lists them as, each of them."""
+    found: dict[str, str] = {}
+    for m in _DECLARED.finditer(text):
+        names = [x for x in NAME.findall(m["syms"] or m["names"]) if x not in ("real", "positive")]
+        items = [x.strip() for x in m["said"].split(",")]
+        if len(items) == len(names) and all(map(_OF_RATE.fullmatch, items)):
+            found |= dict(zip(names, items, strict=True))
+    return found
 
 
 def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:

@@ -44,6 +44,12 @@ _CASE = re.compile(
     re.MULTILINE,
 )
 """A special case, from which an arrow leads to what it would mean: check: m2 = m3 ⇒ y'' = 0."""
+_GONE = re.compile(
+    rf"(?:^|[:;.,(]|(?<!\w)(?:with|and|or|also|mit|und|avec))[ \t]*(?P<said>{_NAME}[ \t]*(?:=|→|->)[ \t]*0"
+    rf"(?:{_LINK}{_NAME}[ \t]*(?:=|→|->)[ \t]*0){{0,4}})(?=[ \t]*(?:$|[,;:)⇒⟹→]|\.(?!\d))|[ \t]+[^\W\d_]{{3}})",
+    re.MULTILINE,
+)
+"""A special case, of constants that are 0: limits: a = 0 decouples both; m → 0, J → 0: the mass alone."""
 _SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
 _NAMED = re.compile(r"[^\W\d][\w\u0307\u0308]*")
@@ -53,10 +59,10 @@ _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions blanked out."""
     found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
-    found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
+    found += [m for x in (_CASE, _GONE) for m in x.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
-        text = blank(text, *match.span())
+        text = blank(text, *match.span("said" if match.re is _GONE else 0))
     for match in _REFERENCE.finditer(text):
         spoken = [x for x in _WORD.findall(f"{match['words']} {match['more']}") if not words.readable(x)]
         if spoken and words.names.changes(match["name"]):

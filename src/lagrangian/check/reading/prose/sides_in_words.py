@@ -15,6 +15,8 @@ _SAID = re.compile(
 """Words with nothing but signs of sums between them."""
 _WORD = re.compile(r"[^\W\d_]+")
 _PHRASE = re.compile(r"[^\W\d_]{2,}[ \t]+[^\W\d_]")
+_SENTENCE = re.compile(r"(?:[^\W\d_]{2,}[ \t]+){2}[^\W\d_]")
+"""Three words in a row, which the answer may well say elsewhere too: sum of moments about H."""
 _SHORTEST = 4
 """The fewest letters of a word; shorter ones are names but in a phrase."""
 
@@ -36,8 +38,12 @@ def _is_said(side: str, words: Words) -> bool:
         return False
     said = _WORD.findall(side)
     long = [x for x in said if len(x) >= _SHORTEST]
+    phrase = _SENTENCE.search(side) is not None
     own = (
-        words.names.known(x) or function_of(x) is not None or words.is_used(x) or words.count(x) > said.count(x)
+        words.names.known(x)
+        or function_of(x) is not None
+        or words.is_used(x)
+        or (not phrase and words.count(x) > said.count(x))
         for x in long
     )
     if not long or any(own) or any(words.is_product(x) for x in long):
