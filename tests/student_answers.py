@@ -1,4 +1,4 @@
-"""What tests of students' answers share: the equations of the cart with a pole, and whether an answer is right."""
+"""What tests of students' answers share: the cart with a pole, whether an answer is right, or why not."""
 
 from __future__ import annotations
 
@@ -16,3 +16,11 @@ def right(written: str, name: str = "cart-pole") -> bool:
     except ParseError as error:
         assert error.place is not None
         return False
+
+
+def told(name: str, answer: object) -> tuple[str, str | None, str]:
+    """The name, the element and the words of the one mistake that is told."""
+    verdict = derivation(name).check(answer)
+    assert not verdict.right
+    (mistake,) = verdict.mistakes
+    return mistake.name, mistake.element, str(mistake.what)

@@ -1,4 +1,4 @@
-"""Texts of 50 000 characters that cost the square or the cube of their length if they are read carelessly.
+"""Texts of up to 50 000 characters that cost the square or the cube of their length if they are read carelessly.
 
 A regular expression cannot be counted: there, the test is that it ends. Everything else is counted in calls.
 """
@@ -12,19 +12,25 @@ import pytest
 
 import built_in
 import lagrangian as lg
+import size
 from effort import at_most
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
+from lagrangian.check.reading.programs import sessions
 from lagrangian.check.reading.programs import spellings as programs
+from lagrangian.check.reading.prose import sketches
 from lagrangian.check.reading.prose import words_or_mathematics as prose
 from lagrangian.check.reading.said import stands_for
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
 from lagrangian.read.robots.markup import MarkupFile
 
-N = 50_000
+LONGEST = 50_000
+N = LONGEST if size.FULL else LONGEST // 5
+"""Characters of an answer; the longest are read among the tests that take long."""
 BLANK = " " * N
+BLANKS = " " * LONGEST
 CARTS = built_in.system("lecture-3b").model
 
 ANSWERS = {
@@ -92,9 +98,10 @@ ANSWERS = {
 }
 
 
+@size.also_in_full
 @pytest.mark.parametrize("text", ANSWERS.values(), ids=ANSWERS)
 def test_an_answer_is_read_or_refused(text: str) -> None:
-    with at_most(6_000_000):
+    with at_most(min(6_000_000, 250 * N)):
         try:
             parsed = parse_answer(text, CARTS)
         except ParseError as error:
@@ -110,19 +117,21 @@ def test_subscripts_cost_as_much_each_at_the_end_as_at_the_start() -> None:
 
 
 FORMS = {
-    "_TRAIL": (labels._TRAIL, "m=1" + BLANK + "y"),
-    "_LABEL": (labels._LABEL, BLANK + "y"),
-    "_AFTER": (labels._AFTER, "x = 1 " + "_" * N + "y"),
-    "_AFTER of a number": (labels._AFTER, "x = 1 (1)" + BLANK + "y"),
-    "_CALLED": (labels._CALLED, "ad" + BLANK + "y"),
-    "_DEFINED at newlines": (read._DEFINED, "\n" * N + "y"),
-    "_DEFINED at blanks": (read._DEFINED, "y" + BLANK + "y"),
-    "_IN_BRACKETS": (stands_for._IN_BRACKETS, "y" + BLANK + "z = 1"),
-    "_LINE_OF_CODE": (programs._LINE_OF_CODE, BLANK + "y"),
-    "_INSIDE": (prose._INSIDE, "(" + "so" * (N // 2) + ")"),
-    "_INSIDE with blanks": (prose._INSIDE, "(" + "so " * (N // 3) + ")"),
-    "_ENDS": (prose._ENDS, "1" + BLANK + "+"),
-    "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANK + "yy"),
+    "_TRAIL": (labels._TRAIL, "m=1" + BLANKS + "y"),
+    "_LABEL": (labels._LABEL, BLANKS + "y"),
+    "_AFTER": (labels._AFTER, "x = 1 " + "_" * LONGEST + "y"),
+    "_AFTER of a number": (labels._AFTER, "x = 1 (1)" + BLANKS + "y"),
+    "_CALLED": (labels._CALLED, "ad" + BLANKS + "y"),
+    "_DEFINED at newlines": (read._DEFINED, "\n" * LONGEST + "y"),
+    "_DEFINED at blanks": (read._DEFINED, "y" + BLANKS + "y"),
+    "_IN_BRACKETS": (stands_for._IN_BRACKETS, "y" + BLANKS + "z = 1"),
+    "_LINE_OF_CODE": (programs._LINE_OF_CODE, BLANKS + "y"),
+    "_INSIDE": (prose._INSIDE, "(" + "so" * (LONGEST // 2) + ")"),
+    "_INSIDE with blanks": (prose._INSIDE, "(" + "so " * (LONGEST // 3) + ")"),
+    "_ENDS": (prose._ENDS, "1" + BLANKS + "+"),
+    "_PROMPT": (sessions._PROMPT, "y" + BLANKS + "y"),
+    "_DRAWN": (sketches._DRAWN, "w" + "-" * LONGEST),
+    "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANKS + "yy"),
 }
 
 
@@ -149,7 +158,7 @@ def test_macros_that_become_too_long_are_refused_before_they_are_written(text: s
     finally:
         tracemalloc.stop()
     assert caught.value.code == "E703"
-    assert most < 100 * N  # bytes; the formula would have 8 million characters
+    assert most < 100 * LONGEST  # bytes; the formula would have 8 million characters
 
 
 def test_a_macro_keeps_its_arguments() -> None:
@@ -163,7 +172,7 @@ def test_a_macro_keeps_its_arguments() -> None:
         ("Lösung: für " * 5000, True),
         ("x = 1 " + "für " * 5000, False),
         ("x = 1 " + "für " * 5000 + ": y", True),
-        ("Lösung" + BLANK + "+ 1", False),
+        ("Lösung" + BLANKS + "+ 1", False),
     ],
     ids=["sentence", "equation", "label", "operator"],
 )

@@ -146,6 +146,7 @@ V = m g (a sin(theta) + w)
 (J + m u^2) theta'' + m u u' theta' + m g u = tau"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
     answer = ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT

@@ -8,6 +8,7 @@ import sympy as sp
 import lagrangian as lg
 from built_in import derivation
 from lagrangian.model import time
+from student_answers import told
 
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
@@ -17,13 +18,6 @@ SOLVED = (
     f"x'' = ((J+m*l^2)*{PUSH} - m^2*l^2*g*sin(theta)*cos(theta))/{DET}",
     f"theta'' = ((M+m)*m*g*l*sin(theta) - m*l*cos(theta)*{PUSH})/{DET}",
 )
-
-
-def told(name: str, answer: object) -> tuple[str, str | None, str]:
-    verdict = derivation(name).check(answer)
-    assert not verdict.right
-    (mistake,) = verdict.mistakes
-    return mistake.name, mistake.element, str(mistake.what)
 
 
 def test_solved_rows_are_right_as_they_stand() -> None:

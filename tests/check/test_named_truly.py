@@ -15,18 +15,11 @@ from built_in import derivation
 from lagrangian.check.explain.changes.pool import pool_of
 from lagrangian.check.reference import truth_of
 from lagrangian.model import time
+from student_answers import told
 
 SWING = "theta'' + b*L_b^2/(m*L_m^2)*theta' + k*L_k^2/(m*L_m^2)*theta + g/L_m*sin(theta) = tau"
 CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
-
-
-def told(name: str, answer: object) -> tuple[str, str | None, str]:
-    """The name, the element and the words of the one mistake that is told."""
-    verdict = derivation(name).check(answer)
-    assert not verdict.right
-    (mistake,) = verdict.mistakes
-    return mistake.name, mistake.element, str(mistake.what)
 
 
 @pytest.mark.parametrize(

@@ -8,20 +8,13 @@ from typing import Any
 
 import pytest
 import sympy as sp
+from drawn_carts import F, J, M, b, cart, g, l, m, t, theta, x
 
 from built_in import derivation
 from lagrangian import ParseError
 from lagrangian.check.reading.drawn.layout import LayoutError, in_line
 
-t, M, m, l, J, g, b, F, L = sp.symbols("t M m l J g b F L")
-x, theta = sp.Function("x")(t), sp.Function("theta")(t)
-
-
-def cart(sign: int) -> tuple[sp.Expr, sp.Expr]:
-    """The two equations, which are zero; with -1 the weight has the wrong sign."""
-    first = (M + m) * x.diff(t, 2) + m * l * sp.cos(theta) * theta.diff(t, 2) + b * x.diff(t) - F
-    second = (J + m * l**2) * theta.diff(t, 2) + m * l * sp.cos(theta) * x.diff(t, 2) - sign * m * g * l * sp.sin(theta)
-    return first - m * l * sp.sin(theta) * theta.diff(t) ** 2, second
+L = sp.Symbol("L")
 
 
 def drawn(thing: Any, wide: bool = True) -> str:

@@ -5,18 +5,9 @@ Oracle: SymPy draws the equations of known systems, of which each has a wrong tw
 
 import pytest
 import sympy as sp
+from drawn_carts import J, cart, l, m, t, theta, x
 
 from built_in import derivation
-
-t, M, m, l, J, g, b, F, k = sp.symbols("t M m l J g b F k")
-x, theta = sp.Function("x")(t), sp.Function("theta")(t)
-
-
-def cart(sign: int) -> tuple[sp.Expr, sp.Expr]:
-    """The two equations, which are zero; with -1 the weight has the wrong sign."""
-    first = (M + m) * x.diff(t, 2) + m * l * sp.cos(theta) * theta.diff(t, 2) + b * x.diff(t) - F
-    second = (J + m * l**2) * theta.diff(t, 2) + m * l * sp.cos(theta) * x.diff(t, 2) - sign * m * g * l * sp.sin(theta)
-    return first - m * l * sp.sin(theta) * theta.diff(t) ** 2, second
 
 
 def drawn(thing: sp.Basic, wide: bool = True) -> str:

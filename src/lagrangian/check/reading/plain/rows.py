@@ -86,7 +86,7 @@ _SUM_ALONE = re.compile(
 )
 _SUM = re.compile(r"∑|\\sum(?![A-Za-z])")
 _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
-_ARROWS = "<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
+_ARROWS = r"<?=+>|⇒|⟹|⇔|⟺|<?(?<![^\s>=]-)-++>|→|⟶|↔|⟷|∴"
 _LINKED = (
     "and|or|where|with|so|thus|hence|therefore|implies|then|i\\.e\\."
     "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
@@ -114,6 +114,7 @@ _STOP = (
 )
 _ENDS = re.compile(r"[;,]")
 _EQUALS = re.compile(r"(?<![=<>:!])=(?![=>])")
+_PARTED = re.compile(r"[;\t]| {3}")
 _BETWEEN = re.compile(
     rf"[(\[{{}}\])\n]|{_NEXT}|{_COLUMN}|{_COLON}|{_STOP}|(?<=[^\s>=])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}"
 )
@@ -267,9 +268,14 @@ def _both(text: str, start: int, end: int) -> bool:
 def _beside(text: str, start: int, end: int) -> bool:
     """Whether statements stand on both sides of a gap: p = m x'      dp/dt = m x'' is no product."""
     first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
-    left = re.split(r"[;\t]| {3}", text[first:start].rstrip())[-1]
-    right = re.split(r"[;\t]| {3}", text[end : last if last >= 0 else len(text)])[0]
-    return _EQUALS.search(left) is not None and _EQUALS.search(right) is not None
+    parted = _PARTED.search(text, end, last if last >= 0 else len(text))
+    right = text[end : parted.start() if parted else last if last >= 0 else len(text)]
+    if _EQUALS.search(right) is None:
+        return False
+    left = text[first:start].rstrip()
+    for mark in (";", "\t", "   "):
+        left = left[left.rfind(mark) + 1 :]
+    return _EQUALS.search(left) is not None
 
 
 def _is_meant(text: str, match: re.Match[str]) -> bool:

@@ -15,7 +15,7 @@ _BOX = r"(?:\[[ \t]?\w{1,8}[ \t]?\]|\([ \t]?\w{1,8}[ \t]?\))"
 _LINE = r"[-=~_–—─═]"
 _DRAWN = re.compile(
     rf"{_LINE}{_BOX}{_LINE}|{_LINE}{_BOX}(?=\s|$)"
-    rf"|\|{_LINE}{{2}}|{_LINE}{{2}}\||\|{_LINE}\w|\w{_LINE}\||/\\/|\\/\\|~~~|--+>|<--+"
+    rf"|\|{_LINE}{{2}}|{_LINE}{{2}}\||\|{_LINE}\w|\w{_LINE}\||/\\/|\\/\\|~~~|-{{2,40}}+>|<--+"
 )
 """What is drawn: a box on a line, a wall, a spring, an arrow."""
 _BOXED = re.compile(rf"{_LINE}{_BOX}|{_BOX}{_LINE}")
