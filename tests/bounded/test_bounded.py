@@ -10,6 +10,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import lagrangian as lg
 from effort import at_most
 from lagrangian import bounded
+from lagrangian.bounded import searches
 
 a, b, c, d, e = sp.symbols("a b c d e")
 q, w = dynamicsymbols("q w")
@@ -220,3 +221,29 @@ def test_the_derivative_of_a_deeply_nested_expression_takes_few_calls() -> None:
     with at_most(800_000):
         slope = bounded.diff(given, q)
     assert isinstance(slope, sp.Add) and len(slope.args) == 40
+
+
+def test_what_was_once_sought_is_not_sought_again() -> None:
+    """Lines of one answer, and of many, ask for the same."""
+    whole = (a * q + b * q) ** 2 * (sp.sin(w) + c)
+    asked = (bounded.cancel, bounded.factored, bounded.trigsimp, bounded.expand, lambda x: bounded.diff(x, q))
+    for k, ask in enumerate(asked, 11):
+        expr = cast("sp.Expr", whole / (a + b) + k * sp.sin(q) ** 2 + k * sp.cos(q) ** 2)
+        first = ask(expr)
+        with at_most(1_000):
+            assert ask(expr) == first
+
+
+def test_a_search_that_was_given_up_is_sought_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether it ends may depend on what is counted around it."""
+    expr = a * b + a * c
+    with monkeypatch.context() as patch:
+        patch.setattr(searches, "searched", lambda routine, x: None)
+        assert bounded.factored(expr) is None and bounded.cancel(expr) == expr
+    assert bounded.factored(expr) == a * (b + c)
+
+
+def test_sines_are_only_sought_where_there_are_some() -> None:
+    with at_most(500):
+        assert bounded.trigsimp((a + b) ** 2 * q - w / c) == (a + b) ** 2 * q - w / c
+    assert bounded.trigsimp(sp.cosh(q) ** 2 - sp.sinh(q) ** 2) == 1

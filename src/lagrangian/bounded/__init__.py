@@ -12,7 +12,7 @@ from lagrangian.bounded.effort import count_operations
 from lagrangian.bounded.operations import operations
 from lagrangian.bounded.parts import rebuilt, replaced
 from lagrangian.bounded.questions import answered, hard
-from lagrangian.bounded.searches import absolute, cancel, is_zero, searched, simplify, together, trigsimp
+from lagrangian.bounded.searches import absolute, cancel, factored, is_zero, searched, simplify, together, trigsimp
 from lagrangian.bounded.sizes import (
     MAX_OPERATIONS,
     TERMS,
@@ -39,6 +39,7 @@ __all__ = [
     "count_operations",
     "diff",
     "expand",
+    "factored",
     "hard",
     "is_one",
     "is_zero",

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, TypeVar, cast
 
 import sympy as sp
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from lagrangian.bounded.effort import CallCount, SpentError
 from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
@@ -61,7 +64,18 @@ def simplify(expr: sp.Expr) -> sp.Expr:
 
 def trigsimp(expr: sp.Expr) -> sp.Expr:
     """Return an expression with fewer sines and cosines, or unchanged if SymPy searches too long."""
-    return _found(sp.trigsimp, expr)
+    return _found(sp.trigsimp, expr) if expr.has(*_TURNING) else expr
+
+
+_TURNING: tuple[Any, ...] = (TrigonometricFunction, HyperbolicFunction, sp.exp)
+
+
+def factored(expr: sp.Expr) -> sp.Expr | None:
+    """Return an expression as a product, or None if the search takes too long."""
+    try:
+        return _searched_once(sp.factor, expr)
+    except _GivenUpError:
+        return None
 
 
 def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
@@ -69,5 +83,20 @@ def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
         return expr
     if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS:
         return expr
-    answer = searched(routine, expr)
-    return expr if answer is None else cast("sp.Expr", answer)
+    try:
+        return _searched_once(routine, expr)
+    except _GivenUpError:
+        return expr
+
+
+class _GivenUpError(Exception):
+    """A search was given up: how far it came may depend on what was counted around it, so this is not kept."""
+
+
+@lru_cache(maxsize=2_000)
+def _searched_once(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
+    """The result of a search, kept: the same is sought in many lines and in many answers."""
+    found = searched(routine, expr)
+    if found is None:
+        raise _GivenUpError
+    return cast("sp.Expr", found)

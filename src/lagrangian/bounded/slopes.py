@@ -32,6 +32,7 @@ def diff(expr: sp.Expr, *symbols: Any) -> sp.Expr:
     return expr
 
 
+@lru_cache(maxsize=5_000)
 def _diff(expr: sp.Expr, symbol: Any) -> sp.Expr:
     letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(bent(expr))}
     if not letters:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -24,6 +25,7 @@ def expand(expr: sp.Expr) -> sp.Expr:
     return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(sp.expand, expr)
 
 
+@lru_cache(maxsize=5_000)
 def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
     """Apply a routine to an expression in which symbols replace maxima and cases."""
     letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(bent(expr))}

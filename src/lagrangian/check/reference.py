@@ -181,6 +181,7 @@ class Reference:
             return {c.acceleration: a[i] for i, c in enumerate(self.model.coordinates)}
 
 
+@lru_cache(maxsize=5_000)
 def terms(expr: sp.Basic) -> int:
     """An upper bound on the number of terms of an expanded expression."""
     known: dict[sp.Basic, int] = {}

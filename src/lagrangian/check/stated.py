@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, cast
 
 import numpy as np
@@ -254,13 +254,14 @@ def _of_coordinate(kind: str, by: By, L: sp.Expr, force: Callable[[Any], sp.Expr
     own, name = by
     if kind == "Xi":
         return own.along(name, force)
+    slope = partial(bounded.diff, L)
     if kind == "slope":
-        return own.slope(name, 0, L.diff)
-    momentum = own.slope(name, 1, L.diff)
+        return own.slope(name, 0, slope)
+    momentum = own.slope(name, 1, slope)
     if kind == "p":
         return momentum
     rate = bounded.diff(momentum, time)
-    return rate if kind == "p-rate" else rate - own.slope(name, 0, L.diff)
+    return rate if kind == "p-rate" else rate - own.slope(name, 0, slope)
 
 
 def _forces(truth: Reference, Xi: Sequence[sp.Expr]) -> Callable[[Any], sp.Expr]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reading import generalized_force, of_coordinate
@@ -68,13 +69,18 @@ def _hold_all_forces(truth: Reference, read: Sequence[AnsweredLine], lines: Sequ
     places = {c.name: i for i, c in enumerate(truth.model.coordinates)}
     if not mine or truth.derivation.multipliers or any(x.name not in places for x in mine):
         return False
-    lagrangian = str(ENERGIES["L"].func)
-    if any(x.kind in ("L", "slope") or lagrangian in str(x.expr) for x in (*read, *lines)):
+    if any(x.kind in ("L", "slope") or _names_lagrangian(x.expr) for x in (*read, *lines)):
         return False
     equal = any(x.kind == "statement" and x.expr.has(generalized_force(str(y.name))) for x in read for y in mine)
     if not equal and any(x.kind == "V" and x.number < min(y.number for y in mine) for x in lines):
         return False
     return all(zero_everywhere(truth, x.expr - _whole_force(truth, places[str(x.name)])) for x in mine)
+
+
+def _names_lagrangian(expr: sp.Expr) -> bool:
+    """Whether an expression has the placeholder of L, or one of its derivatives."""
+    lagrangian = ENERGIES["L"].func.__name__
+    return any(lagrangian in x.func.__name__ for x in expr.atoms(AppliedUndef))
 
 
 def _whole_force(truth: Reference, i: int) -> sp.Expr:

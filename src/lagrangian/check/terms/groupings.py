@@ -61,7 +61,7 @@ def _products(truth: Reference, term: sp.Expr) -> Sequence[sp.Expr]:
     """What an element adds as a product if it is one: k₂ a (a sin θ − y) cos θ, or its terms."""
     form = truth.form(term)
     short = min((term, form.expr() if form is not None else term), key=bounded.operations)
-    product = bounded.searched(sp.factor, short) if isinstance(short, sp.Add) else None
+    product = bounded.factored(short) if isinstance(short, sp.Add) else None
     if product is not None and bounded.operations(product) < bounded.operations(short):
         return [cast("sp.Expr", product)]
     return cast("Sequence[sp.Expr]", sp.Add.make_args(short))

@@ -209,7 +209,7 @@ class _Sums:
         if not {motion(x.piece.expr) for x in lacking} <= {motion(p.expr) for p in term.pieces}:
             return None
         other = term.expr + sp.Add(*[-x.piece.expr if x.mine else x.piece.expr for x in lacking])
-        found = bounded.searched(sp.factor, other)
+        found = bounded.factored(other)
         if found is None or isinstance(found, sp.Add):
             return None
         for whole in (t.expr for t in self.theirs):

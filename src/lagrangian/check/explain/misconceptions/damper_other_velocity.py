@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
+from typing import cast
 
+import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
+from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import Body, Damper
 from lagrangian.page.formula import text
 
@@ -67,22 +71,38 @@ def _rates(s: Ingredients, rate: sp.Expr) -> list[sp.Expr]:
     found = [x for body in s.bodies for x in s.velocity(body)]
     if rate in s.v:
         i = s.v.index(rate)
-        found = [*(x for body in s.bodies for x in _along(s, body, i)), *found, _absolute(s, i)]
+        along = (x for body in s.bodies for x in s.kept(("along", body, i), partial(_along, s, body, i)))
+        found = [*along, *found, _absolute(s, i)]
     usable = [x for x in dict.fromkeys(found) if x not in (0, rate, -rate) and bounded.size(x) <= LONGEST]
     return [x for x in usable if any(x.has(v) for v in s.v)][:MOST_RATES]
 
 
-def _along(s: Ingredients, body: Body, i: int) -> Iterator[sp.Expr]:
-    """The component of a body's velocity in the direction in which a coordinate moves it: ṡ + ẋ cos α on a slope."""
+def _along(s: Ingredients, body: Body, i: int) -> list[sp.Expr]:
+    """The component of a body's velocity in the direction in which a coordinate moves it: ṡ + ẋ cos α on a slope.
+
+    Nothing unless it moves it equally far everywhere.
+    """
     velocity = s.velocity(body)
     slopes = [[bounded.diff(x, v) for x in velocity] for v in s.v]
 
-    def with_own(k: int) -> sp.Expr:
-        return bounded.trigsimp(sp.Add(*[a * b for a, b in zip(slopes[k], slopes[i], strict=True)]))
+    def product(k: int) -> sp.Expr:
+        return sp.Add(*[a * b for a, b in zip(slopes[k], slopes[i], strict=True)])
 
+    def with_own(k: int) -> sp.Expr:
+        return bounded.trigsimp(product(k))
+
+    if not _may_be_a_number(s, product(i)):
+        return []
     square = with_own(i)
-    if square != 0 and square.is_number:
-        yield sp.Add(*[with_own(k) * v for k, v in enumerate(s.v)]) / sp.sqrt(square)
+    if square == 0 or not square.is_number:
+        return []
+    return [cast("sp.Expr", sp.Add(*[with_own(k) * v for k, v in enumerate(s.v)]) / sp.sqrt(square))]
+
+
+def _may_be_a_number(s: Ingredients, expr: sp.Expr) -> bool:
+    """Whether an expression has the same value at a few random states; most have not, and need not be simplified."""
+    values = CompiledExpressions([expr]).at(States(s.model, 1))[0]
+    return not np.isfinite(values).all() or bool(np.ptp(values) <= 1e-9 * np.abs(values).max())
 
 
 def _absolute(s: Ingredients, i: int) -> sp.Expr:
