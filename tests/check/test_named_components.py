@@ -70,3 +70,34 @@ def test_a_rate_of_r_is_no_raw_string() -> None:
     right = "v_s = r' + r*theta'\nT = 1/2 m (v_s^2 - 2 r r' theta')"
     assert derivation("elastic-pendulum").check(right).right
     assert not derivation("elastic-pendulum").check(right.replace("+ r*theta'", "+ 2*r*theta'")).right
+
+
+@cache
+def table() -> Derivation:
+    """A block in a slot that misses the centre of a turning table by h."""
+    sys = System("table")
+    psi, s = sys.coordinates("psi s")
+    J, m, h, k = sys.parameters("J m h k")
+    frame = sys.frame(psi, name="table")
+    sys.rigid_body(0, J, at=sys.origin, frame=frame, name="disc")
+    sys.particle(m, at=sys.point("B", (s, h), frame=frame), name="block")
+    sys.spring(k, deflection=s)
+    return sys.derive()
+
+
+COMPONENTS = "v_x = {x}\nv_y = {y}\nT = 1/2 J psi'^2 + 1/2 m (({x})^2 + ({y})^2)\nV = 1/2 k s^2"
+
+
+def test_components_x_and_y_without_an_angle_are_along_the_axes_that_turn() -> None:
+    right = table().check(COMPONENTS.format(x="s' - h psi'", y="s psi'"))
+    assert right.right and "axes turned by ψ" in " ".join(right.to_text().split())
+    verdict = table().check(COMPONENTS.format(x="s' + h psi'", y="s psi'"))
+    told = " ".join(verdict.to_text().split())
+    assert not verdict.right and "axes turned by ψ is ṡ − h ψ̇, not h ψ̇ + ṡ" in told
+    assert [f.status.right for f in verdict.findings] == [False, True, False, True]
+
+
+def test_where_one_of_them_has_the_angle_the_axes_are_fixed() -> None:
+    wrong = COMPONENTS.format(x="s' - h psi'", y="s psi' cos(psi)")
+    verdict = table().check(wrong)
+    assert not verdict.right and "along axes turned" not in verdict.to_text()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from functools import cache
 
+import pytest
 import sympy as sp
 
 import lagrangian as lg
@@ -94,3 +95,26 @@ def test_a_cause_of_a_later_line_is_no_first_word_where_the_first_line_is_open()
     rows = "(2 M + 3 m) x'' + 5 m l theta'' - 7 b x' + 4 J = F\n" + POLE.replace("- m g", "+ m g")
     verdict = derivation("cart-pole").check(rows)
     assert verdict.mistakes and not verdict.sure
+
+
+ENERGIES = """T = 1/2 M x'^2 + 1/2 m (x'^2 + 2 l x' theta' cos theta + l^2 theta'^2) + 1/2 J theta'^2
+V = m g l cos theta
+"""
+ROWS = f"""dT/dx' = (M + m) x' + {{0}} m l theta' cos theta
+(M + m) x'' + {{1}} m l theta'' cos theta - {{1}} m l theta'^2 sin theta = F - b x'
+{POLE}"""
+
+
+@pytest.mark.parametrize("wrong", [2, sp.Rational(1, 2)])
+def test_what_follows_from_a_wrong_derivative_of_a_right_T_is_marked_so(wrong: int) -> None:
+    d = derivation("cart-pole")
+    assert d.check(ENERGIES + ROWS.format(1, 1)).right
+    verdict = d.check(ENERGIES + ROWS.format(wrong, wrong))
+    assert [f.follows for f in verdict.findings if f.status == "wrong"] == [False, True]
+    (said,) = (" ".join(str(m.what).split()) for m in verdict.mistakes)
+    assert said.startswith("In ∂T*/∂x'") and "2 too much" in said, said
+
+
+def test_another_mistake_below_a_wrong_derivative_of_T_does_not_follow() -> None:
+    verdict = derivation("cart-pole").check(ENERGIES + ROWS.format(2, 3))
+    assert [f.follows for f in verdict.findings if f.status == "wrong"] == [False, False]

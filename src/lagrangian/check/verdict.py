@@ -35,7 +35,7 @@ class Status(StrEnum):
 OWN_SLOPES = ("T-rate", "T-slope", "V-slope", "D-slope")
 """The kinds of lines that give derivatives of the answer's own T*, V and D that equations add up."""
 OWN_DERIVATIVES = ("T-p", *OWN_SLOPES)
-DERIVED = ("p-rate", "slope", "left", *OWN_SLOPES)
+DERIVED = ("p-rate", "slope", "left", *OWN_DERIVATIVES)
 """d/dt ∂L/∂ξ̇, ∂L/∂ξ, the first less the second, and derivatives of the answer's own T*, V and D."""
 
 

@@ -49,7 +49,7 @@ def _extra(truth: Reference, finding: Finding) -> Iterator[tuple[int, int, Array
     if i is None or right is None:
         return
     rest = line.expr - right
-    (values,) = CompiledExpressions([bounded.diff(rest, time) if line.kind == "p" else rest]).at(truth.states)
+    (values,) = CompiledExpressions([bounded.diff(rest, time) if line.kind in ("p", "T-p") else rest]).at(truth.states)
     if np.isfinite(values).all() and np.abs(values).max() > 0:
         yield line.number, i, values
 

@@ -14,6 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.check.align import LARGEST, Alignment, alignments
+from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import columns, said_of_column
 from lagrangian.check.explain.line_mistakes import stated, without_constant
@@ -117,7 +118,8 @@ class BodiesSaid:
         open_ones += [x for x in told if key(x[0].name or "") not in self.proved]
         open_ones += [(x,) for x in self.rates]
         ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
-        every = (p for x in ordered for p in _parts(self.truth, x))
+        turned = along_turned_axes(self.truth, self.lines)
+        every = (p for x in ordered for p in _parts(self.truth, x, turned))
         return list(islice(every, MOST_PARTS))
 
     def of_all(self, findings: Sequence[Finding], every: Sequence[AnsweredLine]) -> Blamed | None:
@@ -260,11 +262,12 @@ class BodiesSaid:
         return []
 
 
-def _parts(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[SaidWrongly]:
-    """What a definition, a column or a rate may have wrong."""
+def _parts(truth: Reference, lines: Sequence[AnsweredLine], turned: frozenset[int]) -> Iterator[SaidWrongly]:
+    """What a definition, a column or a rate may have wrong; ``turned`` are definitions along axes that turn."""
     if len(lines) > 1:
         return said_of_column(truth, tuple(lines))
-    return said_of_rate(truth, lines[0]) if lines[0].kind == "identity" else said_of(truth, lines[0])
+    (line,) = lines
+    return said_of_rate(truth, line) if line.kind == "identity" else said_of(truth, line, turned=id(line) in turned)
 
 
 def _first_of(said: Sequence[SaidWrongly]) -> SaidWrongly:

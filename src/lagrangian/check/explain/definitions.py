@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns
 from lagrangian.check.explain.quantities import Sayable
@@ -54,10 +55,10 @@ def with_right_definitions(
     for line in lines:
         if line.kind == "definition" and (line.number, line.text) not in told:
             parts.setdefault((line.number, line.text), []).append(line)
-    found = list(findings)
+    found, turned = list(findings), along_turned_axes(truth, lines)
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x) for x in held] or [_right(truth, line) for line in same]
+        every = [right_columns(truth, x) for x in held] or [_right(truth, line, id(line) in turned) for line in same]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}
@@ -66,9 +67,9 @@ def with_right_definitions(
     return tuple(found)
 
 
-def _right(truth: Reference, line: AnsweredLine) -> list[Sayable]:
+def _right(truth: Reference, line: AnsweredLine, turned: bool) -> list[Sayable]:
     """The quantities that a definition has right; a position may be counted from another place."""
-    if found := right_quantities(truth, line):
+    if found := right_quantities(truth, line, turned=turned):
         return found
     placed = [q for q in right_quantities(truth, line, but=True) if q.kind in PLACED]
     return [replace(q, words=(*q.words, ", from another place")) for q in placed]

@@ -189,6 +189,8 @@ def _derivative(
     V = above.V if above.V is not None else truth.V
     if line.kind == "T-rate":
         return Total(Partial(Name("T*"), v)), bounded.diff(T, v, time), line.expr
+    if line.kind == "T-p":
+        return Partial(Name("T*"), v), bounded.diff(T, v), cast("sp.Expr", -line.expr)
     if line.kind == "T-slope":
         return Partial(Name("T*"), q), bounded.diff(T, c.symbol), cast("sp.Expr", -line.expr)
     if line.kind == "V-slope":

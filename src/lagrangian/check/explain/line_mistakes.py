@@ -56,7 +56,7 @@ def of_line(
             found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind in DERIVED and i is not None:
-        found = unopposed(_of_derivative(pool, line, i), against)
+        found = unopposed(_of_derivative(pool, line, i), against) if line.kind != "T-p" else []
         slip = None if found else slip_in(truth, line, lines)
         return found, [slip] if slip is not None else []
     if line.kind == "p" and i is not None:

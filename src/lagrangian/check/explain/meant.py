@@ -61,6 +61,14 @@ def _is_along_fixed_axes(name: str) -> bool:
     return stem in FIXED or (index not in ("xi", "zeta") and (index[:1] in FIXED or index[-1:] in FIXED))
 
 
+def axes_of(name: str) -> str | None:
+    """What a velocity's component along x, y or z belongs to, its letter and the rest of its index; None for others."""
+    stem, index = _split(name)
+    if "component" not in STEMS.get(stem, ()) or not _is_along_fixed_axes(name):
+        return None
+    return f"{stem}_{index[1:] if index[:1] in FIXED else index[:-1]}"
+
+
 def owner_of(name: str, model: Model) -> Body | None:
     """The only body that the index of a name may mean: that of its point, its mass, its number or its own name; T_R
     of a body with the mass m_R."""

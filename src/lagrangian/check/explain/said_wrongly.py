@@ -207,8 +207,11 @@ def in_names_of(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
     return said if letters_in(said) or said == 0 else None
 
 
-def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
-    """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force."""
+def _plausible(truth: Reference, line: AnsweredLine, turned: bool) -> list[int]:
+    """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force.
+
+    If its axes are ``turned``, v_x is no component along the fixed one.
+    """
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
     found = [
@@ -217,13 +220,14 @@ def _plausible(truth: Reference, line: AnsweredLine) -> list[int]:
     for b in truth.model.bodies if kinds is not None else ():
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
-    found = [k for k in found if is_meant(every[k].kind, name)]
+    found = [k for k in found if (every[k].kind == "along" if turned else is_meant(every[k].kind, name))]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
 
-def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False) -> list[Sayable]:
-    """The quantities whose value a definition has, as it counts them; with ``but``, a constant more does not matter."""
+def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False, turned: bool = False) -> list[Sayable]:
+    """The quantities whose value a definition has, as it counts them, along ``turned`` axes if those are meant; with
+    ``but``, a constant more does not matter."""
     said = in_names_of(truth, line)
     trivial = said is None or _is_trivial(said)
     if said is None or (trivial and kinds_of(line.name or "") is None):
@@ -231,7 +235,7 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False)
     every = quantities_of(truth)
     values = CompiledExpressions([said]).at(truth.states)[0]
     found: list[Sayable] = []
-    for k in _plausible(truth, line) if np.isfinite(values).all() else ():
+    for k in _plausible(truth, line, turned) if np.isfinite(values).all() else ():
         q, right = every.all[k], every.values[k]
         if trivial and q.kind not in TRIVIAL:
             continue
@@ -262,14 +266,14 @@ def _is_trivial(said: sp.Expr) -> bool:
     return bool(bare.is_Symbol or bare.is_Function or isinstance(bare, sp.Derivative) or bare.is_number)
 
 
-def said_of(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
+def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> Iterator[SaidWrongly]:
     """What a definition may say wrongly of the quantities that its name may stand for."""
     said = in_names_of(truth, line)
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
-    every, right = quantities_of(truth), right_quantities(truth, line, but=True)
+    every, right = quantities_of(truth), right_quantities(truth, line, but=True, turned=turned)
     s, elsewhere = every.of, bool(right)
-    for k in _plausible(truth, line):
+    for k in _plausible(truth, line, turned):
         q = every.all[k]
         if not _alike(s, q, said) or any(q is x for x in right):
             continue
