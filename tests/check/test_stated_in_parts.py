@@ -10,6 +10,10 @@ from functools import cache
 import pytest
 
 import lagrangian as lg
+from lagrangian.check import stated_apart
+from lagrangian.check.lines import lines_of
+from lagrangian.check.reading import parse_answer
+from lagrangian.check.reference import truth_of
 
 
 @cache
@@ -65,4 +69,19 @@ def test_a_line_in_latex_may_go_on_with_what_stands_above() -> None:
 
 
 def test_an_energy_that_nothing_goes_on_with_is_wrong() -> None:
+    assert not hanging().check(f"V = 1/2 k x^2 + 1/2 c (y - x)^2\n{ROWS}").right
+
+
+def test_what_is_stated_once_is_not_multiplied_out_to_see_whether_a_line_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def compared(*_: object) -> None:
+        pytest.fail("only lines of one name can go on with one another")
+
+    answer = f"V = 1/2 k x^2 + 1/2 c (y - x)^2 - M g x - m g y\nQ_x = F + P - d x'\n{ROWS}"
+    lines = lines_of(parse_answer(answer, hanging().model))
+    truth = truth_of(hanging())
+    with monkeypatch.context() as patch:
+        patch.setattr(stated_apart, "_terms", compared)
+        assert stated_apart.without_first_parts(truth, lines) == (lines, ())
     assert not hanging().check(f"V = 1/2 k x^2 + 1/2 c (y - x)^2\n{ROWS}").right

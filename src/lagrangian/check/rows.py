@@ -71,7 +71,7 @@ def compare(
     compiled = CompiledExpressions(exprs)
     P = compiled.at(truth.states, instead)
     A, spanned = factors_of(truth, P, truth.W)
-    moving = _on_motion(truth, compiled)
+    moving = _on_motion(truth, compiled, P if instead is None else compiled.at(truth.states))
     rows = []
     for j, expr in enumerate(exprs):
         rows.append(_row(truth, expr, compiled, j, P[j], A[:, j, :], bool(spanned[j]), bool(moving[j])))
@@ -121,10 +121,9 @@ def factors_of(truth: Reference, P: Array, W: Array) -> tuple[Array, Array]:
     return np.array(found), holds
 
 
-def _on_motion(truth: Reference, compiled: CompiledExpressions) -> Array:
+def _on_motion(truth: Reference, compiled: CompiledExpressions, other: Array) -> Array:
     """Which expressions vanish along the true motion, compared with their size elsewhere."""
     truly = compiled.at(truth.states, truth.accelerations)
-    other = compiled.at(truth.states)
     good = np.isfinite(truly) & np.isfinite(other)
     holds = []
     for t, o, g in zip(truly, other, good, strict=True):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, permutations
@@ -59,7 +60,8 @@ def without_first_parts(
     It was what one element adds, and is not the whole, unless it is right. With notes that say so.
     """
     lines = list(_with_forces_above(lines))
-    stated = [(line, _terms(truth, line.expr)) for line in lines if line.kind in ("Xi", "T", "V", "L")]
+    often = Counter((line.kind, line.name) for line in lines if line.kind in ("Xi", "T", "V", "L"))
+    stated = [(line, _terms(truth, line.expr)) for line in lines if often[line.kind, line.name] > 1]
     right: dict[tuple[str, str | None], sp.Expr] = {
         ("Xi", c.name): x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)
     }

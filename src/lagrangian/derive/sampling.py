@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
 from typing import Any, Protocol, cast
 
 import mpmath
@@ -71,7 +72,6 @@ class States:
         return self._known[symbol]
 
     def _drawn(self, symbol: sp.Basic) -> Array:
-        source = random.Random(f"state of {plain(symbol)}")
         inputs = {u.symbol for u in self.model.inputs}
         if symbol == time or (isinstance(symbol, AppliedUndef) and symbol not in inputs):
             count, low = SETS * PLACES, 0.3
@@ -79,7 +79,7 @@ class States:
             count, low = SETS, 0.4
         else:
             count, low = self.size, -1.6
-        drawn = [round(source.uniform(low, 1.6) * 4096) / 4096 or 0.5 for _ in range(count)]
+        drawn: Sequence[float] = _numbers(symbol, low, count)
         if self.reach and not isinstance(symbol, sp.Symbol):
             far = [(-1) ** k * self.reach ** (k // 2 % SIZES / (SIZES - 1)) for k in range(count)]
             drawn = [round(x * f * 4096) / 4096 for x, f in zip(drawn, far, strict=True)]
@@ -93,6 +93,13 @@ class States:
     def blocks(self) -> Iterable[slice]:
         """The states for each position."""
         return (slice(i, i + self.motions) for i in range(0, self.size, self.motions))
+
+
+@lru_cache(maxsize=2_000)
+def _numbers(symbol: sp.Basic, low: float, count: int) -> tuple[float, ...]:
+    """Random numbers, with few digits, for a symbol; drawn once, as most symbols are needed at many sets of states."""
+    source = random.Random(f"state of {plain(symbol)}")
+    return tuple(round(source.uniform(low, 1.6) * 4096) / 4096 or 0.5 for _ in range(count))
 
 
 class CompiledExpressions:

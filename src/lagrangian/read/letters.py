@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
 
 GREEK = {
     "α": "alpha",
@@ -61,11 +62,13 @@ def normal(name: str) -> str:
     return unicodedata.normalize("NFKC", name)
 
 
+@lru_cache(maxsize=4_096)
 def spelled(name: str) -> str:
     """Return the name with its Greek letters spelled out: ``θ1`` → ``theta1``."""
     return normal(name).translate(_SPELL)
 
 
+@lru_cache(maxsize=4_096)
 def key(name: str) -> str:
     """Return the common form of equivalent spellings: Greek spelled out, without underscores."""
     return spelled(name).replace("_", "").replace("lamda", "lambda")
@@ -78,6 +81,8 @@ def twin(name: str) -> str:
 
 def undotted(name: str) -> tuple[str, int]:
     """Remove the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); for other names the number is 0."""
+    if name.isascii():
+        return normal(name), 0
     letters = unicodedata.normalize("NFD", name)
     marks = [i for i, c in enumerate(letters) if c in DOTS]
     if not marks:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from functools import lru_cache
 
 from lagrangian.write.expression_tree import (
     GREEK,
@@ -39,11 +40,14 @@ _SIGNS = {"plus": " + ", "minus": " − ", "negative": "−", "gap": " "}
 
 def columns(text: str) -> int:
     """The width of a text in a terminal: combining marks take no column, wide East Asian letters two."""
-    total = 0
-    for c in text:
-        if not (unicodedata.combining(c) or unicodedata.category(c) in ("Mn", "Me", "Cf")):
-            total += 2 if unicodedata.east_asian_width(c) in ("W", "F") else 1
-    return total
+    return len(text) if text.isascii() else sum(map(_columns_of, text))
+
+
+@lru_cache(maxsize=1_024)
+def _columns_of(c: str) -> int:
+    if unicodedata.combining(c) or unicodedata.category(c) in ("Mn", "Me", "Cf"):
+        return 0
+    return 2 if unicodedata.east_asian_width(c) in ("W", "F") else 1
 
 
 def unicode(math: Math) -> str:

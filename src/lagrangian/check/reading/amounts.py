@@ -19,6 +19,8 @@ def amounts_to(value: Any, number: Any, model: Model, *, one: bool = False) -> b
     of the system: R - r = 0.4 m. ``one``: k g is 1 kg, too."""
     if not isinstance(value, sp.Expr) or not isinstance(number, sp.Expr) or not value.free_symbols:
         return False
+    if not value.free_symbols <= model.values.keys():
+        return False
     factor, unit = number.as_coeff_Mul()
     factors: Any = unit.args or [unit]
     if unit != 1 and not all(isinstance(x, sp.Expr) and x.as_base_exp()[0].is_Symbol for x in factors):
