@@ -175,13 +175,18 @@ def test_a_slope_of_a_quantity_in_long_letters_is_no_product_with_a_damper(slope
     flap = loads(
         """
         name = "flap"
-        coordinates = ["theta"]
-        parameters = ["J", "k", "a", "d"]
+        [coordinates]
+        theta = {}
+        [parameters]
+        J = {}
+        k = {}
+        a = {}
+        d = {}
         [[frame]]
         name = "flap"
         angle = "theta"
         [[rigid_body]]
-        mass = "1 kg"
+        mass = "1"
         inertia = "J"
         at = ["0", "0"]
         frame = "flap"
