@@ -6,6 +6,7 @@ The condition says nothing of the system. An equation in the same sentence is on
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 
 from lagrangian.check.reading.markup import blank
 from lagrangian.check.reading.prose.words import Words
@@ -59,7 +60,8 @@ _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions blanked out."""
     found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
-    found += [m for x in (_CASE, _GONE) for m in x.finditer(text) if _is_case(m["said"], words)]
+    found += [m for m in _vanishing(text) if _is_case(m["said"], words)]
+    found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
     for match in found:
         text = blank(text, *match.span("said" if match.re is _GONE else 0))
@@ -68,6 +70,15 @@ def without_conditions(text: str, words: Words) -> str:
         if spoken and words.names.changes(match["name"]):
             text = blank(text, *match.span())
     return text
+
+
+def _vanishing(text: str) -> Iterator[re.Match[str]]:
+    """Where constants are 0, with words alone behind it and no equation."""
+    at = 0
+    for row in text.splitlines(keepends=True):
+        last = _GONE.sub(lambda m: " " * len(m.group()), row).rfind("=")
+        yield from (m for m in _GONE.finditer(text, at, at + len(row)) if m.end() > at + last)
+        at += len(row)
 
 
 def _is_readable(side: str, words: Words, least: int = 2) -> bool:
