@@ -66,7 +66,7 @@ def _by_one(
     slope = cast("sp.Expr", bounded.diff(put[k], function))
     if slope == 0 or slope.has(function) or not any(x.has(function) for j, x in enumerate(put) if j != k):
         return None
-    value = cast("sp.Expr", -put[k].xreplace({function: sp.S.Zero}) / slope)
+    value = -cast("sp.Expr", put[k].xreplace({function: sp.S.Zero})) / slope
     return tuple(
         replace(line, kind="definition")
         if j == k
