@@ -70,6 +70,7 @@ ANSWERS = {
     "functions without a body": "f = @(t, z) [z(1)]\n" + "f = @(t, z" * (N // 10),
     "calls of a function": "f = @(z) z(1)\n" + "f(z) " * (N // 10),
     "ends of rows": "function dz = f(t, z)\ndz = [" + "z(1)\n" * (N // 5),
+    "values by name in Julia": "function f!(du, u, p, t)\n" + "p = (m=1, " * (N // 10),
     "ends of rows before blanks": "function dz = f(t, z)\ndz = [z(1)" + BLANK + "y",
     "words of rest": "x1'' = 0\n" + "rest for " * (N // 9),
     "products of columns": "C q' = [1; 2]\n" + "C q' + " * (N // 14) + "x1'' = 0",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+from sympy import sqrt
 
 from lagrangian import Derivation, System
 
@@ -208,3 +209,35 @@ def test_a_general_equation_with_names_of_forces_is_read() -> None:
     last = r"\[M\ddot z - M g = \lambda\]\[r + z = L\]"
     assert spinner().check(f"{general}\n{rows}{last}").right
     assert not spinner().check(f"{general}\n{rows}{last.replace('= ', '= -')}").right
+
+
+@cache
+def winch() -> Derivation:
+    """A collar on a pole, on a rope through a ring to a drum."""
+    sys = System("winch")
+    s, phi = sys.coordinates("s phi")
+    m, J, r, d, l0 = sys.parameters("m J r d l_0")
+    sys.kinetic(m * s.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    sys.potential(-m * sys.parameter("g") * s)
+    sys.constraint(sqrt(s**2 + d**2) - l0 - r * phi, name="rope")
+    return sys.derive()
+
+
+PULLED = """m s'' = m g - S cos(alpha)
+J phi'' = S r
+cos(alpha) = s/sqrt(s^2 + d^2)
+sqrt(s^2 + d^2) = l_0 + r phi
+"""
+
+
+def test_one_line_says_what_the_cosine_of_an_angle_of_the_answer_is() -> None:
+    assert winch().check(PULLED).right
+    assert winch().check(PULLED.replace("cos(alpha)", "sin(alpha)")).right
+    for right, wrong in [
+        ("= s/sqrt", "= d/sqrt"),
+        ("= s/sqrt", "= -s/sqrt"),
+        ("- S cos", "+ S cos"),
+        ("- S cos(alpha)", "- S sin(alpha)"),
+        ("sqrt(s^2 + d^2) = l_0", "sqrt(s^2 - d^2) = l_0"),
+    ]:
+        assert right in PULLED and not winch().check(PULLED.replace(right, wrong)).right

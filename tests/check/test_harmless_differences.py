@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import sympy
 
 import lagrangian as lg
 from built_in import derivation
@@ -146,3 +147,17 @@ def test_a_relative_rate_in_one_equation_is_named(carried: lg.Derivation, right:
     assert verdict.status.value == "wrong"
     assert ("stands in place of θ̇ + Ω" in " ".join(verdict.to_text().split())) is named, verdict.to_text()
     assert carried.check(ROWS).right
+
+
+@pytest.mark.parametrize(("sign", "right"), [("-", True), ("+", False), ("- 2*", False)])
+def test_a_potential_of_apparent_forces_is_right_beside_right_equations(sign: str, right: bool) -> None:
+    s = lg.System("carried pendulum")
+    theta = s.coordinate("theta")
+    m, l, a, Omega = s.parameters("m l a Omega")
+    pin = s.point("pin", (a * sympy.cos(Omega * time), a * sympy.sin(Omega * time)))
+    s.particle(m, at=s.point("bob", (l * sympy.sin(theta), -l * sympy.cos(theta)), relative_to=pin))
+    s.gravity(direction=(0, -1))
+    sheet = f"""U = -m g l cos(theta) {sign} m l a Omega^2 sin(theta - Omega t)
+m l^2 theta'' + m g l sin(theta) - m l a Omega^2 cos(theta - Omega t) = 0
+"""
+    assert s.derive().check(sheet).right is right

@@ -105,3 +105,19 @@ def test_unknowns_beside_the_accelerations_are_multipliers(disk: lg.Derivation, 
 def test_rates_of_positions_that_are_positions_are_wrong() -> None:
     verdict = derivation("cart-pole").check(DOTTED.replace("u[3:4]", "u[1:2]"))
     assert not verdict.right and "does not agree" in " ".join(verdict.to_text().split())
+
+
+def test_values_of_parameters_stand_below_by_their_names() -> None:
+    values = """p = (M=1.0, m=0.2, l=0.5, J=0.0, b=0.1, g=9.81)
+sol = solve(ODEProblem(pole!, [0.0, 0.1, 0.0, 0.0], (0.0, 5.0), p), Tsit5())
+"""
+    judge = derivation("cart-pole")
+    assert judge.check(IN_PLACE + values).right
+    assert not judge.check(IN_PLACE.replace("- b*v", "+ b*v") + values).right
+
+
+def test_names_that_python_keeps_for_itself_are_names_in_julia() -> None:
+    program = DOTTED.replace("f1", "as").replace("f2", "lambda")
+    judge = derivation("cart-pole")
+    assert judge.check(program).right
+    assert not judge.check(program.replace("- b*ẋ", "+ b*ẋ")).right

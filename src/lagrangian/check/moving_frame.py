@@ -1,6 +1,7 @@
 """Energies as they are seen where a system is carried around as prescribed, T* = T₂ + T₁ + T₀ in the orders of rates.
 
 U = V − T₀       the effective potential, which contains that of centrifugal forces
+T₂ − U           a right Lagrangian, with the potential of all apparent forces in a frame that does not turn
 K = T₂ − T₀ + V  the Hamiltonian, also by the letter of a kinetic energy
 """
 
@@ -49,22 +50,32 @@ def with_effective_potential(truth: Reference, findings: Sequence[Finding], *, m
     if not wrong or truth.derivation.multipliers:
         return list(findings)
     T_0 = cast("sp.Expr", bounded.replaced(truth.T, {c.rate: sp.S.Zero for c in truth.model.coordinates}))
-    found = [f for f in wrong if unmoved(truth, f.line.expr - truth.V + T_0)]
+    relative = cast(
+        "sp.Expr", (truth.T + truth.T.xreplace({c.rate: -c.rate for c in truth.model.coordinates})) / 2 - T_0
+    )
+    centrifugal = [f for f in wrong if unmoved(truth, f.line.expr - truth.V + T_0)]
+    carried = [f for f in wrong if f not in centrifugal and _with_potential(truth, relative, f.line)]
+    found = [*centrifugal, *carried]
     whole = any(f.line.kind in ("V", "L") and f.status.right for f in findings)
     alone = motion and not any(f.line.kind in ("T", "L") for f in findings)
-    with_it = [f for f in findings if f.line.kind == "T" and found and _is_lagrangian(truth, f.line, found[-1].line)]
+    with_it = [
+        f for f in findings if f.line.kind == "T" and found and _with_potential(truth, f.line.expr, found[-1].line)
+    ]
     if not found or not (whole or alone or with_it):
         return list(findings)
     note = text("the effective potential, which contains that of the centrifugal forces")
     beside = text("it gives the right Lagrangian with the effective potential")
-    notes = {id(f): note for f in found} | {id(f): beside for f in with_it if not f.status.right}
+    seen = text("the potential in the frame that is carried, with that of the apparent forces")
+    notes = {id(f): seen if f in carried else note for f in found} | {
+        id(f): beside for f in with_it if not f.status.right
+    }
     return [
         replace(f, status=Status.EQUIVALENT, note=notes[id(f)], differences=()) if id(f) in notes else f
         for f in findings
     ]
 
 
-def _is_lagrangian(truth: Reference, T: AnsweredLine, U: AnsweredLine) -> bool:
-    """Whether a kinetic energy less a potential is the right Lagrangian."""
-    rest = T.expr - U.expr - truth.L
-    return zero_everywhere(truth, rest) or harmless(truth, replace(T, kind="L"), rest) is not None
+def _with_potential(truth: Reference, T: sp.Expr, U: AnsweredLine) -> bool:
+    """Whether a kinetic energy less a potential is a right Lagrangian."""
+    rest = T - U.expr - truth.L
+    return zero_everywhere(truth, rest) or harmless(truth, replace(U, kind="L", expr=T - U.expr), rest) is not None

@@ -2,7 +2,7 @@
 
 Both lines say what cos β and sin β are. These are written out, and cos² β + sin² β = 1 is left of the two lines:
 the constraint of the system. Equations with N sin β, or with two multipliers and an equation of β, are then compared as
-any other.
+any other. Where the cosine alone is used, one line says what it is, and nothing is left of that line.
 """
 
 from __future__ import annotations
@@ -38,7 +38,10 @@ def _without(truth: Reference, lines: Sequence[AnsweredLine], angle: Any) -> tup
     put = [cast("sp.Expr", _expanded(line.expr, angle).xreplace(table)) for line in lines]
     if any(expr.has(angle) for expr in put):
         return None
+    alone = [x for x in (cosine, sine) if any(expr.has(x) for expr in put)]
     places = [k for k, (line, expr) in enumerate(zip(lines, put, strict=True)) if _is_place(truth, line, expr, table)]
+    if len(alone) == 1 and places:
+        return _by_one(lines, put, places[0], alone[0])
     for pair in combinations(places, 2):
         matrix = sp.Matrix([[bounded.diff(put[k], x) for x in (cosine, sine)] for k in pair])
         det = cast("sp.Expr", matrix.det())
@@ -53,6 +56,22 @@ def _without(truth: Reference, lines: Sequence[AnsweredLine], angle: Any) -> tup
             for k, (line, expr) in enumerate(zip(lines, put, strict=True))
         )
     return None
+
+
+def _by_one(
+    lines: Sequence[AnsweredLine], put: Sequence[sp.Expr], k: int, function: sp.Dummy
+) -> tuple[AnsweredLine, ...] | None:
+    """The lines where the cosine alone, or the sine alone, of an angle is used, and line ``k`` says what it is."""
+    slope = cast("sp.Expr", bounded.diff(put[k], function))
+    if slope == 0 or slope.has(function) or not any(x.has(function) for j, x in enumerate(put) if j != k):
+        return None
+    value = -cast("sp.Expr", put[k].xreplace({function: sp.S.Zero})) / slope
+    return tuple(
+        replace(line, kind="definition")
+        if j == k
+        else replace(line, expr=cast("sp.Expr", expr.xreplace({function: value})))
+        for j, (line, expr) in enumerate(zip(lines, put, strict=True))
+    )
 
 
 def _is_place(truth: Reference, line: AnsweredLine, expr: sp.Expr, table: dict[Any, sp.Dummy]) -> bool:

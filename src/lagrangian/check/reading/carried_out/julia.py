@@ -28,6 +28,11 @@ _WHOLE = re.compile(rf"^(?P<to>[ \t]*+{_NAME})(?:\[[ \t]*+:[ \t]*+\])?[ \t]*+\.=
 _LEFT_OUT = re.compile(
     r"^[ \t]*+(?:(?:using|import|export|const|plot|println|print|display)\b|@(?!unpack))[^\n]*+$", re.MULTILINE
 )
+_VALUES = re.compile(
+    rf"^[ \t]*+{_NAME}[ \t]*+=[ \t]*+\([ \t]*+;?[ \t]*+{_NAME}[ \t]*+=(?!=)[^\n()]*+\)[ \t]*+$", re.MULTILINE
+)
+"""Values of parameters by their names, in one line: p = (m = 1.0, k = 2.0)."""
+_CHANGES = re.compile(r"(?<=\w)!(?!=)")
 _STRUCTURE = re.compile(r"[ \t]*+(?:@kwdef[ \t]++|Base\.@kwdef[ \t]++)?(?:mutable[ \t]++)?struct\b")
 _TYPE = re.compile(r"::[\w.{}]{1,60}+")
 _FACTOR = re.compile(r"(?<![\w.])(?P<number>\d++(?:\.\d++)?)(?=[^\W\d]|\()(?![eEf][-+]?\d)")
@@ -53,8 +58,8 @@ def in_matlab(text: str) -> str:
     """Return the program in MATLAB's syntax, with the same lines; `AbandonedError` if its brackets do not close."""
     text = _PRIMES.sub(lambda m: "dot" if m.group() == "′" else "ddot", _letters(text))
     text = "\n".join(_without_structures([_commented(x) for x in text.split("\n")]))
-    text = _TYPE.sub("", _NOTHING.sub("", _PARAMETERS.sub("", _LEFT_OUT.sub("", text))))
-    text = _FUNCTION.sub(_header, text)
+    text = _TYPE.sub("", _NOTHING.sub("", _VALUES.sub("", _PARAMETERS.sub("", _LEFT_OUT.sub("", text)))))
+    text = _CHANGES.sub("", _FUNCTION.sub(_header, text))
     text = _SHORT.sub(lambda m: f"{m['name']} = @({m['given']}) ", text)
     text = _ARROW.sub(lambda m: f"@({m['given'] or m['one']}) ", text)
     text = _RETURNED.sub(lambda m: f"{m['indent']}{RESULT} = ", text)

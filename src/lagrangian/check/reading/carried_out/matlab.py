@@ -31,13 +31,18 @@ _FOR = re.compile(
 """A loop over numbers: for i = 1:numel(q)."""
 _PLACE = r"[ \t]*+(?:\d*+[ \t]*+:[ \t]*+(?:\d++|end\b)?+|\d++)[ \t]*+"
 _PLACES = re.compile(rf"(?=[^()]*:){_PLACE}(?:,{_PLACE})?\)")
+_KEPT = re.compile(
+    r"(?<![\w.])(?:(?P<multiplier>lambda)|as|is|del|def|pass|with|from|yield|assert|raise|async|await)(?!\w)"
+)
+"""Names that Python keeps for itself."""
 _OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@", "~": "not "}
 
 
 def in_python(text: str) -> str:
     """Return the program in Python's syntax, with the same lines; `AbandonedError` if it has branches, or loops over
     anything but numbers."""
-    lines = _joined([_without_comment(x) for x in text.split("\n")])
+    bare = (_without_comment(x) for x in text.split("\n"))
+    lines = _joined([_KEPT.sub(lambda m: "λ" if m["multiplier"] else f"{m.group()}_", x) for x in bare])
     made: list[str] = []
     indent, counted = 0, set[str]()
     for line in lines:
