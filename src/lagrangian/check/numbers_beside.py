@@ -50,7 +50,7 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
     first = judge(truth, [lines[k] for k in lettered])
     if first.status is Status.INCOMPLETE and whole:
         return None
-    second = judge(truth.with_values(values), numbers)
+    second = _in_values(truth, numbers, values, judge)
     if second.status is Status.OTHER_COORDINATES:
         return None
     others = whole and first.right and len(numeric) > 1 and not truth.values
@@ -76,6 +76,21 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         hint=first.hint,
         sure=wrong.sure,
     )
+
+
+def _in_values(
+    truth: Reference, numbers: Sequence[AnsweredLine], values: Mapping[sp.Symbol, sp.Expr], judge: Judge
+) -> Verdict:
+    """The verdict on lines in numbers; where they have numbers and names of a prescribed motion, s and its rate 0.4,
+    with values for these names too."""
+    found = judge(truth.with_values(values), numbers)
+    every = values_of(truth, ())
+    named = truth.prescribed & every.keys()
+    if found.status is not Status.WRONG or not any(x.expr.free_symbols & named for x in numbers):
+        return found
+    put = [replace(x, expr=x.expr.xreplace(every)) for x in numbers]
+    again = judge(truth.with_values(every), put)
+    return again if again.right else found
 
 
 @dataclass(frozen=True)
