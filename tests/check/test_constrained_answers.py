@@ -38,6 +38,23 @@ def test_an_answer_may_use_an_angle_of_the_circle(pendulum: lg.Derivation, answe
     assert found.right and f"Read with {IN_AN_ANGLE[answer]}." in str(found)
 
 
+def test_a_force_may_be_stated_in_an_angle_of_the_circle() -> None:
+    s = lg.System("pendulum in x, y with a damper")
+    x, y = s.coordinates("x y")
+    m, length, b = s.parameters("m l b", m=1.0, l=2.0, b=0.3)
+    bob = s.point("P", (x, y))
+    s.particle(m, at=bob)
+    s.gravity()
+    s.damper(b, deflection=x)
+    s.constraint(between=(bob, s.origin), distance=length, name="rod")
+    damped = s.derive()
+    answer = "x = l sin(theta)\ny = -l cos(theta)\nQ_x = -b l cos(theta) theta'\n"
+    answer += "m l theta'' = -m g sin(theta) - b l cos(theta)^2 theta'"
+    assert damped.check(answer).right
+    assert not damped.check(answer.replace("Q_x = -b", "Q_x = b")).right
+    assert not damped.check(answer.replace("Q_x = -b l cos", "Q_x = -b l sin")).right
+
+
 @pytest.mark.parametrize(
     "answer",
     [

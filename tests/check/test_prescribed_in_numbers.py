@@ -106,3 +106,31 @@ def test_a_wrong_motion_in_numbers_is_told(line: str) -> None:
 def test_a_wrong_number_is_explained_with_values() -> None:
     told = plank().check("A = 0.122173\n" + NUMBERS.replace("20 s", "10 s")).to_text()
     assert "10 s should be 20 s" in told, told
+
+
+LONGER = """
+name = "arm that grows"
+[coordinates]
+theta = {}
+[parameters]
+J = "10 kg*m^2"
+m = "5 kg"
+k = "30 N*m/rad"
+s0 = "2 m"
+v = "0.4 m/s"
+[define]
+s = "s0 + v*t"
+[[kinetic]]
+value = "J/2*theta'^2 + m/2*(v^2 + s^2*theta'^2)"
+[[potential]]
+value = "k*theta^2/2"
+"""
+GROWS = "(10 + 5 s^2) theta'' + 4 s theta' + 30 theta = 0"
+
+
+def test_a_length_by_name_beside_its_rate_in_numbers() -> None:
+    arm = loads(LONGER).derive()
+    said = "s = 2 + 0.4 t\nT = 5 theta'^2 + 2.5 (0.16 + s^2 theta'^2)\nV = 15 theta^2\n"
+    assert arm.check(said + GROWS).right
+    assert not arm.check(said + GROWS.replace("4 s", "5 s")).right
+    assert not arm.check(said + GROWS.replace("4 s", "2 s")).right

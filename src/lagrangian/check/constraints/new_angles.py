@@ -46,15 +46,18 @@ def _count(verdict: Verdict) -> int:
 
 
 def _where_held(truth: Reference, was: AnsweredLine, now: AnsweredLine) -> AnsweredLine:
-    """An energy in the new angle as the statement that it is the system's where the constraints hold."""
+    """An energy or a force in the new angle as the statement that it is the system's where the constraints hold."""
     return now if was.expr == now.expr else where_held(truth, now)
 
 
 def where_held(truth: Reference, line: AnsweredLine) -> AnsweredLine:
-    """An energy as the statement that it is the system's where the constraints hold: T = ½ m l² φ̇².
+    """An energy or a force as the statement that it is the system's where the constraints hold: T = ½ m l² φ̇².
 
     That of V is differentiated by time, because its level is free.
     """
+    forces = {c.name: force for c, force in zip(truth.model.coordinates, truth.Xi, strict=True)}
+    if line.kind == "Xi" and line.name in forces:
+        return replace(line, kind="equation", expr=line.expr - forces[line.name])
     if line.kind not in ("T", "V"):
         return line
     if line.kind == "T":
