@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian import loads
 from lagrangian.check import Status
 from lagrangian.model import time
 from lagrangian.page.plain import plain
@@ -85,6 +86,49 @@ def test_an_energy_on_the_constraint_is_right_beside_right_equations(energy: str
     verdict = derived("chaplygin-sleigh").check(energy + right)
     assert verdict.right and "its value is right" in str(verdict.findings[0].note)
     assert not derived("chaplygin-sleigh").check(energy.replace("+ m*a^2", "+ 2*m*a^2") + right).right
+
+
+ON_BELT = """
+name = "roller on a belt"
+[coordinates]
+x = {}
+phi = {}
+[parameters]
+M = "4 kg"
+J = "0.1 kg*m^2"
+R = "0.2 m"
+k = "60 N/m"
+a0 = "1.5 m/s^2"
+g = "9.81 m/s^2"
+[points]
+axle = ["x", "R"]
+[[frame]]
+name = "roller"
+angle = "-phi"
+[[rigid_body]]
+mass = "M"
+inertia = "J"
+at = "axle"
+frame = "roller"
+[[gravity]]
+direction = [0, -1]
+[[spring]]
+k = "k"
+deflection = "x"
+[[velocity_constraint]]
+name = "belt"
+expression = "x' - R*phi' - a0*t"
+"""
+
+
+def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> None:
+    belt = loads(ON_BELT).derive()
+    energy = "L = M x'^2/2 + J (x' - a0 t)^2/(2 R^2) - k x^2/2\n"
+    right = energy + "(M + J/R^2) x'' + k x - J a0/R^2 = 0\nphi' = (x' - a0 t)/R"
+    assert belt.check(right).right
+    assert not belt.check(right.replace("(x' - a0 t)^2", "(x' + a0 t)^2")).right
+    assert not belt.check(right.replace("/(2 R^2)", "/R^2")).right
+    assert not belt.check(right.replace("- k x^2/2", "- k x^2")).right
 
 
 @pytest.mark.slow

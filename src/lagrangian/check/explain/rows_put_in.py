@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.constrained import (
     SMALL,
@@ -27,6 +28,7 @@ from lagrangian.check.constraints.determined import of_lines
 from lagrangian.check.constraints.put_in import PutIn, ways_to_put_in
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.model import time
 from lagrangian.model.elements.base import T
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Left, Name, Text, text
@@ -95,7 +97,7 @@ def _hold_on_rows(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether every T* and L has the right value, but for a constant, where the constraints hold."""
     named = [line for line in in_coordinates(truth, lines) if line.kind in ("T", "L")]
     right = {"T": truth.T, "L": truth.L}
-    rests = [replace(line, kind="equation", expr=line.expr - right[line.kind]) for line in named]
+    rests = [replace(line, kind="equation", expr=_moving(truth, line, line.expr - right[line.kind])) for line in named]
     if unknown_names(expanded(truth), rests):
         return False
     places = list(_places(truth, rests, ()))
@@ -106,6 +108,14 @@ def _hold_on_rows(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
         return False
     values = values - np.where(kinetic, 0.0, values[0])
     return bool((np.abs(values) <= SMALL * sizes).all())
+
+
+def _moving(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> sp.Expr:
+    """What an energy has more than the right one; of L without constants, as the level of V is free."""
+    if line.kind == "T":
+        return rest
+    moving = [time, *(c.symbol for c in truth.model.coordinates)]
+    return sp.Add(*(x for x in sp.Add.make_args(bounded.expand(rest)) if x.has(*moving)))
 
 
 def _places(truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[Any]) -> Iterator[AnswerAt]:
