@@ -131,6 +131,17 @@ def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> No
     assert not belt.check(right.replace("- k x^2/2", "- k x^2")).right
 
 
+@pytest.mark.parametrize("right_side", ["= lambda", "- lambda = 0"])
+def test_terms_are_told_with_the_signs_of_the_side_on_which_all_others_stand(right_side: str) -> None:
+    """Also where the other side is the multiplier alone."""
+    rest = "\nJ phi'' = -R lambda\nx' - R phi' = a0 t"
+    belt = loads(ON_BELT).derive()
+    assert belt.check(f"M x'' + k x {right_side}{rest}").right
+    lacking, more = (belt.check(f"{left} {right_side}{rest}") for left in ("M x''", "M x'' + k x + k R"))
+    assert [str(d.term) for f in lacking.findings for d in f.differences] == ["k*x(t)"]
+    assert "is taken as R + x; it is x" in str(more.mistakes[0].what)
+
+
 @pytest.mark.slow
 def test_rolling_put_into_the_energy_of_a_disc() -> None:
     """The right equations have 2 m r² where the wrong ones have m r² (Neimark and Fufaev, 1972, chapter III)."""

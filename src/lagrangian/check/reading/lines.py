@@ -265,7 +265,8 @@ class Lines:
             above = [s.sides for s in self._statements[: self.names.statement]]
             if self.subjects.equates(subject, value, self._equal) or self.subjects.is_force_found(subject, above):
                 left = sp.S.Zero if is_label_of_equation(subject) else reader.scalar(sides[0])
-                return made_line("equation", left, value, None, sides[0], side, reader)
+                left, right = (value, left) if subject.right else (left, value)  # m x'' = N keeps its signs
+                return made_line("equation", left, right, None, sides[0], side, reader)
             rate = self.names.rates.get((key(undotted(subject.token)[0]), subject.order))
             self._define(subject, value)
             self._used_nowhere(subject, reader)
