@@ -11,7 +11,6 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian import loads
 from lagrangian.check import Status
 from lagrangian.model import time
 from lagrangian.page.plain import plain
@@ -122,7 +121,7 @@ expression = "x' - R*phi' - a0*t"
 
 
 def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> None:
-    belt = loads(ON_BELT).derive()
+    belt = lg.loads(ON_BELT).derive()
     energy = "L = M x'^2/2 + J (x' - a0 t)^2/(2 R^2) - k x^2/2\n"
     right = energy + "(M + J/R^2) x'' + k x - J a0/R^2 = 0\nphi' = (x' - a0 t)/R"
     assert belt.check(right).right
@@ -135,7 +134,7 @@ def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> No
 def test_terms_are_told_with_the_signs_of_the_side_on_which_all_others_stand(right_side: str) -> None:
     """Also where the other side is the multiplier alone."""
     rest = "\nJ phi'' = -R lambda\nx' - R phi' = a0 t"
-    belt = loads(ON_BELT).derive()
+    belt = lg.loads(ON_BELT).derive()
     assert belt.check(f"M x'' + k x {right_side}{rest}").right
     lacking, more = (belt.check(f"{left} {right_side}{rest}") for left in ("M x''", "M x'' + k x + k R"))
     assert [str(d.term) for f in lacking.findings for d in f.differences] == ["k*x(t)"]
