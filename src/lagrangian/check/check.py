@@ -22,13 +22,16 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
+from lagrangian.check.explain.combined_rows import with_combined_rows
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
+from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
+from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import Judged, judged_lines
@@ -81,6 +84,9 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     general = untrue_in_general(truth, written)
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
+    if not verdict.right:
+        named = with_terms_alone(with_combined_rows(truth, verdict)) if explain else verdict
+        verdict = in_own_names(truth, written, named)
     verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -212,6 +212,8 @@ def _undamped(truth: Reference, line: AnsweredLine, by: By, lines: Sequence[Answ
     added = damping.free_symbols | damping.atoms(sp.Derivative)
     if (damping.free_symbols - drive.free_symbols - {time}) & line.expr.free_symbols:
         return None
+    if (damping.atoms(sp.Derivative) - drive.atoms(sp.Derivative)) & line.expr.atoms(sp.Derivative):
+        return None  # −g φ̇ is meant as the damper's −c φ̇
     i = index_of(truth, line.name)
 
     def holds(other: AnsweredLine) -> bool:

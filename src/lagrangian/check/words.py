@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from lagrangian.check.terms.sides import on_side
+from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
 from lagrangian.model import Model
@@ -102,7 +102,7 @@ def _beside_right_equations(verdict: Verdict) -> tuple[str | Left, ...]:
     if not 0 < len(differing) <= MOST_SAID_FIRST:
         return (*said, ".")
     for k, d in enumerate(differing):
-        said += [" and " if k else ": ", *_differs(d)]
+        said += [" and " if k else ": ", *differs(d)]
     return (*said, ".")
 
 
@@ -252,20 +252,7 @@ def _terms(verdict: Verdict, model: Model) -> Iterator[Item]:
         of = _of(f, model) if often[f.line.title] > 1 else ()
         for d in f.differences if not f.follows else ():
             side, said = on_side(f.line, d)
-            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *_differs(said), *_source(said))
-
-
-def _differs(d: TermDifference) -> tuple[str | Left, ...]:
-    """How a term differs."""
-    match d.kind:
-        case "missing":
-            return ("the term ", d.term, " is missing")
-        case "extra":
-            return ("the term ", d.term, " does not belong there")
-        case "sign":
-            return (d.written, " has the wrong sign")
-        case _:
-            return (d.written, " should be ", d.term)
+            yield text(f.line.title, *of, f"{f', {side}' if side else ''}: ", *differs(said), *_source(said))
 
 
 def _source(d: TermDifference) -> tuple[str | Left, ...]:

@@ -5,7 +5,7 @@ Where only names differ, mistakes are sought in the system's own and told in tho
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar, cast
 
@@ -48,12 +48,16 @@ class OwnNames:
         return self.words.get(name, name) if name is not None else None
 
     def _put(self, value: T) -> T:
-        """Words and formulas, however they are nested."""
-        found: Any = value
-        if isinstance(value, sp.Basic):
-            found = value.xreplace(self.back)
-        elif isinstance(value, tuple):
-            found = tuple(self._put(x) for x in value)
-        elif is_dataclass(value) and not isinstance(value, type):
-            found = replace(value, **{f.name: self._put(getattr(value, f.name)) for f in fields(value) if f.init})
-        return cast("T", found)
+        return each_formula(value, lambda x: cast("sp.Basic", x.xreplace(self.back)))
+
+
+def each_formula(value: T, put: Callable[[sp.Basic], sp.Basic]) -> T:
+    """Words and formulas, however they are nested, with something put in place of every formula."""
+    found: Any = value
+    if isinstance(value, sp.Basic):
+        found = put(value)
+    elif isinstance(value, tuple):
+        found = tuple(each_formula(x, put) for x in value)
+    elif is_dataclass(value) and not isinstance(value, type):
+        found = replace(value, **{f.name: each_formula(getattr(value, f.name), put) for f in fields(value) if f.init})
+    return cast("T", found)

@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.verdict import AnsweredLine, TermDifference
 from lagrangian.model import time
+from lagrangian.page.formula import Left
 from lagrangian.read.letters import key
 
 LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
@@ -49,6 +50,19 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
         return LEFT, difference
     accelerates = _RATE.search(sides[0]) is not None
     return ("", difference) if accelerates and _accelerates(difference.term, difference.coordinate) else flipped
+
+
+def differs(d: TermDifference) -> tuple[str | Left, ...]:
+    """How a term differs, in words."""
+    match d.kind:
+        case "missing":
+            return ("the term ", d.term, " is missing")
+        case "extra":
+            return ("the term ", d.term, " does not belong there")
+        case "sign":
+            return (d.written, " has the wrong sign")
+        case _:
+            return (d.written, " should be ", d.term)
 
 
 def _terms(side: str) -> list[str]:

@@ -1,0 +1,159 @@
+"""Finds the one wrong term of an equation that is a sum of right ones: a body's own balance with a force put in.
+
+P = Σ c_i W_i + (1 − f)·t, where t is one of its own terms, f·t is right, and the factors c_i and f depend on the place
+alone. At one place the right rows W_i span a space of few dimensions among the values at many motions; what of P and of
+t lies outside it are one multiple of each other, 1 − f.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Reference, terms
+from lagrangian.check.verdict import Finding, Status, TermDifference, Verdict
+from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
+from lagrangian.page.formula import text
+from lagrangian.read.letters import key
+from lagrangian.records import dataclass
+
+MOST_TERMS, MOST_LETTERS = 60, 12
+"""The most terms of a line that are tried, and the most letters that may be a factor."""
+NEAR = 1e-8
+"""The relative difference of values that is rounding."""
+NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
+    (0.0, sp.S.Zero),
+    (-1.0, sp.S.NegativeOne),
+    (2.0, sp.Integer(2)),
+    (0.5, sp.S.Half),
+)
+"""What a term may have to be multiplied by."""
+
+
+def with_combined_rows(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict on an answer without an explanation, in which an equation that is a sum of right ones but for one of
+    its terms differs in this term alone."""
+    if verdict.mistakes or truth.n < 2 or not np.isfinite(truth.W).all():
+        return verdict
+    return replace(verdict, findings=tuple(_with_one_term(truth, f) for f in verdict.findings))
+
+
+def _with_one_term(truth: Reference, finding: Finding) -> Finding:
+    if finding.status is not Status.WRONG or finding.line.kind != "equation" or len(finding.differences) == 1:
+        return finding
+    if (wrong := one_wrong_term(truth, finding.line.expr)) is None:
+        return finding
+    letters = {key(str(x)) for x in bounded.letters(wrong.term) if isinstance(x, sp.Symbol)}
+    written = key(finding.line.text)  # also within words: m₃ae
+    note = finding.note if all(x in written for x in letters) else text("with what other lines say put in")
+    return replace(finding, differences=(_difference(truth, wrong, finding.coordinate),), coordinate=None, note=note)
+
+
+@dataclass(frozen=True)
+class WrongTerm:
+    """A term that is wrong, and by what it would have to be multiplied."""
+
+    term: sp.Expr
+    factor: sp.Expr
+
+
+def _difference(truth: Reference, wrong: WrongTerm, coordinate: str | None) -> TermDifference:
+    kind = {sp.S.Zero: "extra", sp.S.NegativeOne: "sign"}.get(wrong.factor, "coefficient")
+    right = wrong.term if kind == "extra" else cast("sp.Expr", wrong.term * wrong.factor)
+    moving = (c.name for c in truth.model.coordinates if wrong.term.has(c.acceleration))
+    return TermDifference(kind, right, wrong.term, next(moving, coordinate))
+
+
+def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
+    """The term of an equation that is wrong, if all others are right.
+
+    The plainest factor counts, and of equal ones none: it would be a guess. None where there is none.
+    """
+    if terms(expr) > MOST_TERMS:
+        return None
+    own = _own_terms(expr)
+    if not 2 < len(own) <= MOST_TERMS:
+        return None
+    powers = [(t, f) for t in own for c in truth.model.coordinates for f in _powers(t, c.rate)]
+    values = CompiledExpressions([expr, *own, *(t * f for t, f in powers)]).at(truth.states)
+    if not np.isfinite(values).all():
+        return None
+    outside = _outside(truth, values)
+    wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
+    listed = list(_factors(truth))
+    found: list[tuple[int, WrongTerm]] = []
+    for term in own:
+        if (share := _share(wrong, across[term])) is None:
+            continue
+        near = (k for k, (_, x) in enumerate(listed) if np.allclose(1 - share, x, rtol=NEAR, atol=NEAR))
+        if (k := next(near, None)) is not None:
+            found.append((max(0, k + 1 - len(NUMBERS)), WrongTerm(term, listed[k][0])))
+    for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
+        share = _share(wrong, across[term] - right)
+        if share is not None and np.allclose(share, 1, rtol=NEAR):
+            found.append((1, WrongTerm(term, factor)))
+    found.sort(key=lambda x: x[0])
+    if not found or (len(found) > 1 and found[0][0] == found[1][0]):
+        return None
+    return found[0][1]
+
+
+def _powers(term: sp.Expr, rate: sp.Expr) -> list[sp.Expr]:
+    """A rate by which a term may have to be multiplied or divided: θ̇ in place of θ̇², or the other way round."""
+    power = term.as_powers_dict().get(rate, 0)
+    return [rate] if power == 1 else [1 / rate] if power == 2 else []
+
+
+def _own_terms(expr: sp.Expr) -> list[sp.Expr]:
+    """The terms of an equation: multiplied out, as they are written, and those of sums in them, each once."""
+    found: dict[sp.Expr, sp.Expr] = {}
+    written = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]
+    for term in written:
+        sums = [f for f in sp.Mul.make_args(term) if isinstance(f, sp.Add)][:1]
+        rest = term / sums[0] if sums else sp.S.One
+        for t in (term, *(x * rest for x in sums[0].args)) if sums else (term,):
+            found.setdefault(bounded.expand(t), cast("sp.Expr", t))
+    for t in sp.Add.make_args(bounded.expand(expr)):
+        found.setdefault(cast("sp.Expr", t), cast("sp.Expr", t))
+    return [t for whole, t in found.items() if whole != 0]
+
+
+def _outside(truth: Reference, values: Array) -> Array:
+    """What of values (k, S) lies outside the right rows, at every place; (k, places, motions)."""
+    places = SETS * PLACES
+    shaped = values.reshape(len(values), places, -1)
+    rows = truth.W.reshape(truth.n, places, -1)
+    found = np.empty_like(shaped)
+    for p in range(places):
+        basis, _ = np.linalg.qr((rows[:, p] / np.maximum(np.abs(rows[:, p]).max(axis=1, keepdims=True), 1e-300)).T)
+        found[:, p] = shaped[:, p] - (shaped[:, p] @ basis) @ basis.T
+    scale = np.abs(shaped).max(axis=2, keepdims=True)
+    return np.where(np.abs(found) <= NEAR * scale, 0.0, found)
+
+
+def _share(wrong: Array, term: Array) -> Array | None:
+    """By which multiple of a term something is wrong, at every place; None if it is none, or nothing is wrong."""
+    size = (term * term).sum(axis=1)
+    if (size == 0).any() or not np.abs(wrong).max():
+        return None
+    share = (wrong * term).sum(axis=1) / size
+    left = np.abs(wrong - share[:, None] * term).max(axis=1)
+    return share if (left <= 1e-6 * np.abs(wrong).max(axis=1)).all() else None
+
+
+def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
+    """What a term may have to be multiplied by, with its values at every place, the plainest first."""
+    places = SETS * PLACES
+    for number, factor in NUMBERS:
+        yield factor, np.full(places, number)
+    letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
+    listed: list[sp.Expr] = [*letters, *(1 / x for x in letters), *(x / y for x in letters for y in letters if x != y)]
+    for c in truth.model.coordinates:
+        listed += [sp.tan(c.symbol), 1 / sp.tan(c.symbol), sp.sin(c.symbol), sp.cos(c.symbol)]
+    values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
+    yield from zip(listed, values, strict=True)

@@ -1,0 +1,253 @@
+"""Tells what is wrong in the names that the answer defines: m ρ φ̇² for m (p + ½ s) φ̇² where ρ = p + ½ s."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.coordinates.renamed import each_formula
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, TermDifference, Verdict
+from lagrangian.model import time
+from lagrangian.model.names import moving_symbol
+from lagrangian.page.formula import Text
+from lagrangian.read.letters import key, undotted
+from lagrangian.records import dataclass
+
+MOST_NAMES, LONGEST_VALUE, LONGEST_FORMULA = 20, 60, 400
+"""The most names that are put in, the most operations of the value of one, and those of a formula that is searched."""
+
+_WORD = re.compile(r"[^\W\d]\w{0,63}")
+_APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
+_DIFFERENCE = re.compile(
+    rf"[([{{]\s{{0,3}}\\?([^\W\d]\w{{0,63}}+){_APPLIED}\s{{0,3}}[-−–]\s{{0,3}}\\?([^\W\d]\w{{0,63}}+){_APPLIED}\s{{0,3}}[)\]}}]"
+)
+"""A difference of two names in brackets."""
+
+
+@dataclass(frozen=True)
+class OwnName:
+    """A name that an answer uses, and its value in the system's letters."""
+
+    symbol: sp.Expr
+    value: sp.Expr
+
+    @property
+    def key(self) -> str:
+        """The key of the name, also of its rate."""
+        return _named(self.symbol.args[0] if isinstance(self.symbol, sp.Derivative) else self.symbol)
+
+
+def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict, in which formulas have the names that the answer, or the system, gives their parts.
+
+    A name is put in where a wrong line has it and the answer gives it one value; never for the whole of a formula, and
+    never where it would hide a letter of which the same words speak. What it stands for is what the answer says, so
+    that no formula changes its value.
+    """
+    wrong = [f.line for f in verdict.findings if not f.status.right]
+    told = _Told(own_names(truth, lines, wrong), _differences(lines))
+    if not told.names and not told.differences:
+        return verdict
+    return replace(
+        verdict,
+        findings=tuple(map(told.finding, verdict.findings)),
+        mistakes=tuple(map(told.mistake, verdict.mistakes)),
+        alternatives=tuple(map(told.mistake, verdict.alternatives)),
+    )
+
+
+def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[AnsweredLine]) -> tuple[OwnName, ...]:
+    """The names with values that the wrong lines of an answer have, but for those that they define; the longest values
+    first."""
+    used = {name for line in wrong if line.kind != "definition" for name in names_in(line)}
+    taken = {key(name) for name in truth.model.symbols}
+    found: dict[str, set[sp.Expr]] = {}
+    symbols: dict[str, sp.Expr] = {}
+    for line in lines:
+        name = line.name or ""
+        if line.kind == "definition" and _WORD.fullmatch(name) and key(name) in used - taken:
+            found.setdefault(name, set()).add(line.expr)
+            symbols[name] = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
+    for d in truth.model.definitions:
+        if key(d.name) in used:
+            found.setdefault(d.name, set()).add(truth.expand(d.symbol))
+            symbols[d.name] = d.symbol
+    named = [OwnName(symbols[name], *values) for name, values in found.items() if len(values) == 1]
+    named = [x for x in named if x.value.args and 0 < bounded.operations(x.value) <= LONGEST_VALUE]
+    named = [x for x in named if not _has_unknown(x.value, symbols.values())]
+    every = [y for x in named for y in (x, *_rates(x))]
+    return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
+
+
+def names_in(line: AnsweredLine) -> frozenset[str]:
+    """The keys of the names that a line has as it is written, or by which it was read."""
+    return line.names | {key(undotted(word)[0]) for word in _WORD.findall(line.text)}
+
+
+def _moves(expr: sp.Expr) -> bool:
+    return bool(expr.has(time) or expr.atoms(AppliedUndef))
+
+
+def _has_unknown(expr: sp.Expr, symbols: Any) -> bool:
+    """Whether a value has one of the names itself, so that it is not written out."""
+    return bool(bounded.letters(expr) & set(symbols))
+
+
+def _rates(name: OwnName) -> Iterator[OwnName]:
+    """The rate and the acceleration of a name for a given motion: β̇ = β₀ Ω cos Ω t."""
+    value, symbol = name.value, name.symbol
+    if not isinstance(symbol, AppliedUndef) or value.atoms(AppliedUndef):
+        return
+    for count in (1, 2):
+        value = bounded.diff(value, time)
+        if not value.has(time):
+            return
+        yield OwnName(cast("sp.Expr", sp.Derivative(symbol, (time, count))), value)
+
+
+def _differences(lines: Sequence[AnsweredLine]) -> frozenset[tuple[str, str]]:
+    """The differences of two names that stand in brackets, each in one order only: φ − β in sin(φ − β)."""
+    found = {(key(a), key(b)) for line in lines for a, b in _DIFFERENCE.findall(line.text)}
+    return frozenset((a, b) for a, b in found if (b, a) not in found)
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What is told, in an answer's own names and with differences of two names in its order."""
+
+    names: tuple[OwnName, ...]
+    differences: frozenset[tuple[str, str]]
+
+    def finding(self, finding: Finding) -> Finding:
+        """A finding, but for its line."""
+        if finding.status.right:
+            return finding
+        own = _Told(tuple(x for x in self.names if x.key in names_in(finding.line)), self.differences)
+        differences = tuple(map(own.difference, finding.differences))
+        return replace(finding, differences=differences, note=own.words(finding.note))
+
+    def mistake(self, mistake: Mistake) -> Mistake:
+        """A mistake in words."""
+        return replace(mistake, what=self.words(mistake.what), why=self.words(mistake.why))
+
+    def difference(self, d: TermDifference) -> TermDifference:
+        """A term that differs."""
+        return replace(d, term=self._put(d.term, self.names), written=self._put(d.written, self.names))
+
+    def words(self, words: Any) -> Any:
+        """Words, with the names that hide nothing of which they speak, and of whose whole value they do not speak."""
+        if not isinstance(words, Text):
+            return words
+        spoken = list(_spoken(words))
+        kept = [x for x in self.names if not any(x.value.has(letter) for letter in spoken)]
+        kept = [
+            x
+            for x in kept
+            if not any(isinstance(part, sp.Expr) and part in (x.value, -x.value) for part in words.parts)
+        ]
+        return each_formula(words, lambda x: self._put(cast("sp.Expr", x), kept) if isinstance(x, sp.Expr) else x)
+
+    def _put(self, expr: sp.Expr, names: Sequence[OwnName]) -> sp.Expr:
+        return in_order(with_names(expr, names), self.differences)
+
+
+def in_order(expr: sp.Expr, differences: Collection[tuple[str, str]]) -> sp.Expr:
+    """A formula in which the sines and cosines of such differences are those of the differences in their order."""
+    table: dict[Any, Any] = {}
+    for node in bounded.each(expr) if differences else ():
+        if isinstance(node, (sp.sin, sp.cos)):
+            turned = -cast("sp.Expr", node.args[0])
+            terms = sp.Add.make_args(turned)
+            first, second = ([x for x in terms if x.could_extract_minus_sign() is sign] for sign in (False, True))
+            if len(terms) == 2 and len(first) == 1 and (_named(first[0]), _named(-second[0])) in differences:
+                function: Any = node.func
+                in_turn = function(turned, evaluate=False)
+                table[node] = -in_turn if isinstance(node, sp.sin) else in_turn
+    return cast("sp.Expr", _rebuilt(expr, table)) if table else expr
+
+
+def _rebuilt(expr: Any, table: Mapping[Any, Any]) -> Any:
+    """A formula with parts replaced, above which no function is evaluated again."""
+    if expr in table:
+        return table[expr]
+    if not expr.args or isinstance(expr, (AppliedUndef, sp.Derivative)):
+        return expr
+    own = [_rebuilt(x, table) for x in expr.args]
+    return expr.func(*own) if isinstance(expr, (sp.Add, sp.Mul, sp.Pow)) else expr.func(*own, evaluate=False)
+
+
+def _named(expr: sp.Basic) -> str:
+    """The key of the name of a letter."""
+    return key(expr.func.__name__ if isinstance(expr, AppliedUndef) else str(expr))
+
+
+def _spoken(words: Text) -> Iterator[sp.Basic]:
+    """The letters and functions of letters of which words speak by themselves, but for "the equation of θ"."""
+    before: Any = ""
+    for part in words.parts:
+        of_equation = isinstance(before, str) and before.endswith(("equation of ", "equations of "))
+        if isinstance(part, sp.Basic) and not of_equation and _is_short(part):
+            yield part
+        before = part
+
+
+def _is_short(part: sp.Basic) -> bool:
+    return not part.args or isinstance(part, (AppliedUndef, sp.Derivative)) or all(not x.args for x in part.args)
+
+
+def with_names(expr: sp.Expr, names: Sequence[OwnName]) -> sp.Expr:
+    """A formula in which names stand for what they mean, where this makes it shorter; the formula itself if it is only
+    what one of them means."""
+    if not expr.args or bounded.operations(expr) > LONGEST_FORMULA:
+        return expr
+    for name in names:
+        if expr not in (name.value, -name.value):
+            made = _with(expr, name)
+            expr = made if bounded.operations(made) < bounded.operations(expr) else expr
+    return expr
+
+
+def _with(expr: sp.Expr, name: OwnName) -> sp.Expr:
+    """A formula in which a name stands wherever its value does: as a part, as some terms of a sum, as some factors."""
+    number, value = name.value.as_content_primitive() if isinstance(name.value, sp.Add) else (sp.S.One, name.value)
+    symbol = cast("sp.Expr", name.symbol / number)
+    made: dict[int, Any] = {}
+    for node in bounded.each(expr):
+        inside = bool(node.args) and not isinstance(node, (AppliedUndef, sp.Derivative))
+        built: Any = bounded.rebuilt(node, [made[id(a)] for a in node.args]) if inside else node
+        if built == value:
+            built = symbol
+        elif isinstance(value, sp.Add) and isinstance(built, sp.Add):
+            built = _some_terms(built, value, symbol)
+        elif isinstance(value, sp.Mul) and isinstance(built, (sp.Mul, sp.Pow)):
+            built = _some_factors(built, value, symbol)
+        made[id(node)] = built
+    return cast("sp.Expr", made[id(expr)])
+
+
+def _some_terms(found: sp.Add, value: sp.Add, symbol: sp.Expr) -> sp.Expr:
+    terms = set(found.args)
+    for sign in (1, -1):
+        own = {cast("sp.Expr", sign * x) for x in value.args}
+        if own <= terms:
+            return sp.Add(*(terms - own), sign * symbol)
+    return found
+
+
+def _some_factors(found: sp.Expr, value: sp.Mul, symbol: sp.Expr) -> sp.Expr:
+    """A product with a name to the highest power to which its factors stand there."""
+    powers: Mapping[Any, Any] = found.as_powers_dict()
+    factors: Mapping[Any, Any] = value.as_powers_dict()
+    own: dict[Any, Any] = {base: e for base, e in factors.items() if not base.is_Rational}
+    there: dict[Any, Any] = {base: powers.get(base, sp.S.Zero) for base in own}
+    if not own or not all(e.is_Integer and e > 0 and there[base].is_Integer for base, e in own.items()):
+        return found
+    times = min(int(there[base] // e) for base, e in own.items())
+    return cast("sp.Expr", found / value**times * symbol**times) if times > 0 else found

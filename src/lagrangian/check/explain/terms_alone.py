@@ -1,0 +1,37 @@
+"""Tells one or two terms that differ as the mistake, where no reason for them was found: ½ J₂ ω should be ½ J₂ ω²."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lagrangian.check.explain.own_terms import LINES, WHY, WHY_ENERGY, WHY_FORCE
+from lagrangian.check.terms.sides import differs, on_side
+from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.page.formula import text
+
+MOST_TOLD = 2
+"""The most terms that are told in this way; more are a list of what differs."""
+_WHY = {"equation": WHY, "Xi": WHY_FORCE}
+
+
+def with_terms_alone(verdict: Verdict) -> Verdict:
+    """The verdict on a wrong answer, with the terms that differ as its mistakes if it has none and they are few."""
+    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows and not f.clash]
+    differing = [(f, d) for f in roots for d in f.differences]
+    every = all(f.differences for f in roots)
+    if verdict.mistakes or verdict.hint == 0 or not every or not 0 < len(differing) <= MOST_TOLD:
+        return verdict
+    return replace(verdict, mistakes=tuple(_told(f, d) for f, d in differing), sure=True)
+
+
+def _told(finding: Finding, difference: TermDifference) -> Mistake:
+    """The mistake that a term which differs is."""
+    line = finding.line
+    side, d = on_side(line, difference)
+    origins = difference.origins
+    step = origins[0].step if origins and line.kind == "equation" else LINES.get(line.kind, 5)
+    element = origins[0].element if len({o.element for o in origins}) == 1 else None
+    where = f"In {line.title}{f', {side}' if side else ''}, "
+    brief = text(f"A term in {line.title} is not right{f': one that comes from {element}' if element else ''}.")
+    why = _WHY.get(line.kind, WHY_ENERGY)
+    return Mistake("term_alone", text(where, *differs(d), "."), why, step, element, finding.coordinate, brief)

@@ -1,0 +1,66 @@
+"""One wrong term in an equation that is a sum of right ones: a body's own balance with a force of another line put in.
+
+Oracle: a bar with a rotor on it, by Newton and Euler; each answer differs from the right one in one place.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+
+@cache
+def bar() -> lg.Derivation:
+    """A bar about a fixed hinge, that carries the axle of an eccentric rotor at its end."""
+    s = lg.System("bar")
+    theta, psi = s.coordinates("theta psi")
+    J, I, m, a, e, c, k = s.parameters("J I m a e c k")
+    whole = theta.diff() + psi.diff()
+    s.kinetic(J * theta.diff() ** 2 / 2 + I * whole**2 / 2)
+    s.kinetic(m * (a**2 * theta.diff() ** 2 + e**2 * whole**2 + 2 * a * e * theta.diff() * whole * sp.cos(psi)) / 2)
+    s.damper(c, deflection=psi)
+    s.spring(k, deflection=theta)
+    s.torque(s.input("M"), on=psi)
+    return s.derive()
+
+
+ROTOR = "(I + m e^2) (theta'' + psi'') + m a e (theta'' cos(psi) + theta'^2 sin(psi)) = M - c psi'"
+FORCE = "N = m a theta'' + m e (theta'' + psi'') cos(psi) - m e (theta' + psi')^2 sin(psi)"
+BAR = "J theta'' = -k theta - M + c psi' - N a"
+ANSWER = f"{ROTOR}\n{FORCE}\n{BAR}"
+
+
+def differing(answer: str) -> list[str]:
+    """What is told of the terms that differ, and what went wrong."""
+    verdict = bar().check(answer)
+    assert not verdict.right
+    return [" ".join(str(m.what).split()) for m in verdict.mistakes]
+
+
+def test_the_answer_is_right() -> None:
+    assert bar().check(ANSWER).right
+
+
+@pytest.mark.parametrize(
+    ("written", "instead", "said"),
+    [
+        ("J theta'' = -k", "-J theta'' = -k", "J*theta'' has the wrong sign"),
+        ("= -k theta", "= -2 k theta", "-2*k*theta should be -k*theta"),
+        ("- M + c psi'", "+ M + c psi'", "M has the wrong sign"),
+        ("+ c psi'", "+ k psi'", "k*psi' should be c*psi'"),
+        ("(theta' + psi')^2 sin(psi)", "(theta' + psi')^2 cos(psi)", "cos(psi)"),
+    ],
+)
+def test_one_wrong_term_is_told_alone(written: str, instead: str, said: str) -> None:
+    told = differing(ANSWER.replace(written, instead))
+    assert len(told) == 1
+    assert said in told[0]
+
+
+def test_two_wrong_terms_are_not_told_as_one() -> None:
+    wrong = ANSWER.replace("= -k theta", "= -2 k theta").replace("+ c psi' - N a", "- c psi' - N a")
+    assert not any("should be k*theta" in x or "c*psi' has" in x for x in differing(wrong)) or len(differing(wrong)) > 1
