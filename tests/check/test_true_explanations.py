@@ -104,3 +104,98 @@ def test_the_cause_stands_above_what_follows_from_it() -> None:
     assert press.check(answer.format("J")).right
     verdict = press.check(answer.format("2 J"))
     assert [(f.line.number, f.follows) for f in verdict.findings] == [(2, False), (3, True)], verdict.to_text()
+
+
+def test_the_angle_that_moves_as_prescribed_is_differentiated_too(swing: lg.Derivation) -> None:
+    energy, law = (
+        ENERGY.format("-"),
+        "\nd/dt dT/dphi' = m a^2 phi'' - m a H B'' cos(phi - B) + m a H B' {} sin(phi - B)",
+    )
+    assert not swing.check(energy + law.format("(phi' - B')")).mistakes
+    assert "What the given motion in A*sin(Omega*t) - phi adds to" in told(swing, energy + law.format("phi'"))
+
+
+@pytest.fixture(scope="module")
+def sling() -> lg.Derivation:
+    """A rod and a slider on it, whose joint is carried around by a table that turns steadily."""
+    s = lg.System("sling")
+    th, r = s.coordinates("th r")
+    m, M, J, h, R, k, W = s.parameters("m M J h R k W")
+    table = s.frame(W * time, name="table")
+    rod = s.frame(th, parent=table, name="rod")
+    joint = s.point("joint", (R, 0), frame=table)
+    s.rigid_body(mass=M, inertia=J, at=s.point("G", (h, 0), relative_to=joint, frame=rod), frame=rod, name="rod")
+    s.particle(m, at=s.point("slider", (r, 0), relative_to=joint, frame=rod), name="slider")
+    s.spring(k, deflection=r, name="band")
+    return s.derive()
+
+
+def test_a_product_with_a_sum_is_told_as_one_term(sling: lg.Derivation) -> None:
+    rows = """(J + M h^2 + m r^2) th'' + 2 m r r' (W + th') {} (M h + m r) R W^2 sin(th) = 0
+m r'' - m r (W + th')^2 - m R W^2 cos(th) + k r = 0"""
+    assert sling.check(rows.format("+")).right
+    words = told(sling, rows.format("-"))
+    assert words.startswith("The term -R*W^2*(M*h + m*r)*sin(th) of the equation of th has the wrong sign"), words
+
+
+def test_the_wrong_arm_of_a_force_in_newtons_laws_is_named_by_its_letters() -> None:
+    s = lg.System("hoist")
+    phi, y = s.coordinates("phi y")
+    J, m, R, r, k, K = s.parameters("J m R r k K")
+    s.rigid_body(mass=m, inertia=J, at=s.origin, frame=s.frame(phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("load", (0, y)), name="load")
+    s.spring(K, deflection=R * phi, name="hawser")
+    s.spring(k, deflection=y - r * phi, name="rope")
+    rows = "J phi'' = -K R^2 phi + {} S\nS = k (y - r phi)\nm y'' = -k (y - r phi)"
+    hoist = s.derive()
+    assert hoist.check(rows.format("r")).right
+    assert told(hoist, rows.format("R")).endswith("R stands in place of r.")
+
+
+@pytest.fixture(scope="module")
+def belt() -> lg.Derivation:
+    """A roller that rolls on a belt which speeds up, with a pendulum on its axle."""
+    s = lg.System("belt")
+    x, phi, th = s.coordinates("x phi th")
+    M, J, R, m, ell, k, c, a0 = s.parameters("M J R m l k c a0")
+    axle = s.point("axle", (x, R))
+    s.rigid_body(mass=M, inertia=J, at=axle, frame=s.frame(-phi, name="roller"), name="roller")
+    s.particle(m, at=s.point("bob", (ell * sp.sin(th), -ell * sp.cos(th)), relative_to=axle), name="bob")
+    s.spring(k, deflection=x, name="spring")
+    s.damper(c, deflection=phi + th, name="friction")
+    s.velocity_constraint(x.diff(time) - R * phi.diff(time) - a0 * time, name="rolling")
+    return s.derive()
+
+
+REDUCED = """phi' = (x' - a0 t)/R
+(M + m + {0}) x'' - a0 ({0}) + m l cos(th) th'' - m l sin(th) th'^2 + k x + (c/R) ((x' - a0 t)/R + th') = 0
+m l cos(th) x'' + m l^2 th'' + c ((x' - a0 t)/R + th') = 0"""
+
+
+def test_a_radius_is_missed_where_a_turn_on_a_moving_belt_was_eliminated(belt: lg.Derivation) -> None:
+    assert belt.check(REDUCED.format("J/R^2")).right
+    words = told(belt, REDUCED.format("J/R"))
+    assert "rotation of rigid body 'roller'" in words and "factor R too much" in words and "damper" not in words, words
+    assert "Damper 'friction'" in told(belt, REDUCED.format("J/R^2").replace("(c/R)", "c"))
+
+
+FORCES = """x' - R phi' = a0 t
+(M + m) x'' + m l th'' cos(th) - m l th'^2 sin(th) + k x{1} = lambda
+J phi'' + c (phi' + th') = -R lambda
+m l x'' cos(th) + m l^2 th''{2} + c (phi' + th') = 0
+{0}"""
+LOST = """x'' = R phi'', lambda = -J x''/R^2 - c (phi' + th')/R
+(M + m + J/R^2) x'' + m l th'' cos(th) - m l th'^2 sin(th) + k x + (c/R) (phi' + th') = 0"""
+
+
+def test_what_is_lost_when_a_constraint_is_differentiated_is_the_cause_of_what_follows(belt: lg.Derivation) -> None:
+    verdict = belt.check(FORCES.format(LOST, "", ""))
+    assert [str(m.what) for m in verdict.mistakes] == [
+        "Line 5 is not the second derivative of velocity constraint 'rolling': the term -a0 is missing."
+    ], verdict.to_text()
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [5]
+
+
+def test_a_spring_that_is_tied_to_another_body_is_named(belt: lg.Derivation) -> None:
+    answer = FORCES.format("", " + k l sin(th)", " + k (x + l sin(th)) l cos(th)")
+    assert "The deflection of spring 'spring' is taken as l*sin(th) + x; it is x." in told(belt, answer)
