@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
@@ -20,6 +21,8 @@ from lagrangian.page.formula import Text, text
 
 MOST = 6
 """The most ways in which coordinates are counted together."""
+HIGHEST = 3
+"""The highest power of the time in a given rate."""
 
 
 def counted_together(
@@ -45,8 +48,9 @@ def ways_together(truth: Reference) -> list[dict[Any, sp.Expr]]:
         place = None if row.position is not None else integrated(truth, row)
         if place is not None:
             slopes = {c.symbol: bounded.diff(place, c.symbol) for c in truth.model.coordinates if place.has(c.symbol)}
+            given = bounded.expand(place - sp.Add(*[a * q for q, a in slopes.items()]))
             table = {
-                q: cast("sp.Expr", sp.Add(*[-b * r / a for r, b in slopes.items() if r != q]))
+                q: cast("sp.Expr", sp.Add(-given / a, *[-b * r / a for r, b in slopes.items() if r != q]))
                 for q, a in slopes.items()
             }
             ways = [{**way, q: x} for way in ways for q, x in table.items() if not any(x.has(k) or q == k for k in way)]
@@ -54,16 +58,31 @@ def ways_together(truth: Reference) -> list[dict[Any, sp.Expr]]:
 
 
 def integrated(truth: Reference, row: Row) -> sp.Expr | None:
-    """What a constraint says of positions: itself, x − R φ for rates with constant factors, or nothing."""
+    """What a constraint says of positions: itself, x − R φ for rates with constant factors, also beside a given rate
+    such as a₀ t, or nothing."""
     if row.position is not None:
         return truth.expand(row.position)
     c, coordinates = truth.expand(row.rate), truth.model.coordinates
     factors = {k: bounded.diff(c, k.rate) for k in coordinates if c.has(k.rate)}
     whole = sp.Add(*[a * k.rate for k, a in factors.items()])
     moving = any(a.has(time, *truth.derivation.coordinates) for a in factors.values())
-    if len(factors) < 2 or moving or bounded.expand(c - whole) != 0:
+    given = None if len(factors) < 2 or moving else _from_the_start(bounded.expand(c - whole))
+    if given is None:
         return None
-    return cast("sp.Expr", sp.Add(*[a * k.symbol for k, a in factors.items()]))
+    return cast("sp.Expr", sp.Add(given, *[a * k.symbol for k, a in factors.items()]))
+
+
+def _from_the_start(rate: sp.Expr) -> sp.Expr | None:
+    """The integral from t = 0 of a given rate that is a polynomial in time: a₀ t²/2 of a₀ t; None for any other."""
+    found, left = list[sp.Expr](), rate
+    for k in range(HIGHEST + 1):
+        if left == 0:
+            return sp.Add(*found)
+        if left.has(AppliedUndef, sp.Derivative):
+            return None
+        found.append(cast("sp.Expr", left.xreplace({time: sp.S.Zero}) * time ** (k + 1) / sp.factorial(k + 1)))
+        left = bounded.diff(left, time)
+    return None
 
 
 def _with(line: AnsweredLine, way: Mapping[Any, sp.Expr]) -> AnsweredLine:

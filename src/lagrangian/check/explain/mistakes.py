@@ -47,6 +47,7 @@ from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.explain.slips import below_right_equations, of_slip
 from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
+from lagrangian.check.explain.sums_written import by_sums
 from lagrangian.check.explain.term_said import with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
@@ -152,6 +153,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
         slip = of_slip(pool, line)
         own += slip
         left += [] if slip else [line]
+    groups = [by_sums(pool, g, lines) for g in groups]
     groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
     named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])

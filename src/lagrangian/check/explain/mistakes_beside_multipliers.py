@@ -61,7 +61,9 @@ def named_beside_multipliers(
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
     slipped = [lines[j].number for j in read.wrong]
     others = [f.line.number for f in judged if f.status is Status.WRONG and not f.follows]
+    first = min((x.finding.line.number for x in wrong if not x.follows), default=None)
     above = own is not None or (not wrong and min(slipped, default=0) < min(others, default=0))
+    above = above or (first is not None and first <= min(others, default=first))
     told = (*of_constraints, *named.told) if above else (*named.told, *of_constraints)
     if not told:
         return verdict
@@ -120,7 +122,11 @@ def _below_constraints(truth: Reference, findings: Findings, wrong: Lines) -> Fi
     above, found = list[int](), dict[int, Finding]()
     for j, f in enumerate(rows):
         if f.status is Status.WRONG and not f.follows:
-            before = [k for k, number in roots.items() if number < f.line.number]
+            before = [
+                k
+                for k, number in roots.items()
+                if number < f.line.number or (k >= len(rows) and number == f.line.number)
+            ]
             if not any(_in_span(told[:, j], told[:, [k, i]]) for k in before for i in above if i != k):
                 continue
             found[id(f)], roots[j] = replace(f, follows=True), f.line.number

@@ -131,6 +131,8 @@ def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
         if not any(f.as_base_exp()[0] in held for f in sp.Mul.make_args(less)):
             return "divided_by", text("In the term ", term, " there is the divisor ", less, " too much.")
         return "factor_missing", text("In the term ", term, ", the factor ", less, " is missing.")
+    if more.is_Symbol and less.is_Symbol:
+        return "letter", text("In the term ", term, ", ", more, " stands in place of ", less, ".")
     return "factor_of_a_term", text("The term ", term, " should be ", right, ".")
 
 

@@ -14,8 +14,9 @@ import sympy as sp
 
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
-from lagrangian.check.explain.changes.change import LocalChange, Site
+from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
+from lagrangian.check.explain.changes.ring import scaled
 from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import Mistake
 from lagrangian.page.formula import Text, text
@@ -36,6 +37,9 @@ PLAIN = (
 )
 """Misconceptions whose words already say what stands in the equation."""
 
+OF_A_SUM = {"sign_in_a_sum": Fraction(-2), "left_out_of_a_sum": Fraction(-1)}
+"""The kinds of changes that turn or leave out all terms of a part with one letter, with the multiple of these terms."""
+
 
 def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake) -> Mistake:
     """The mistake, told by the term of an equation that is wrong, if it shows as that alone."""
@@ -49,6 +53,9 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake)
         right = next(x for x in said if isinstance(x, sp.Expr))
         where = ("The term ", (1 + sp.Rational(times.numerator, times.denominator)) * right, " of the equation of ")
         said = (*where, pool.truth.derivation.coordinates[row or 0], " should be ", right, ".")
+    change = told.mistake.change
+    if change is not None and change.kind in OF_A_SUM and change.site.rows:
+        return replace(mistake, what=text(*said))  # another way to say the same
     return with_reason(text(*said), mistake)
 
 
@@ -85,7 +92,23 @@ def _term(pool: Pool, told: Told) -> tuple[LocalChange, Fraction] | None:
         times = simple_number(float(own @ made[row]) / float(own @ own))
         if times is not None and np.abs(float(times) * own - made[row]).max() <= SMALL * np.abs(made).max():
             return term, times
-    return None
+    return _product(pool, told, row)
+
+
+def _product(pool: Pool, told: Told, row: int) -> tuple[LocalChange, Fraction] | None:
+    """The same for several terms that are one product with a sum of constants and coordinates, (M h + m r) R Ω² sin θ:
+    left out, or with the other sign."""
+    change = told.mistake.change
+    times = OF_A_SUM.get(change.kind) if change is not None else None
+    if change is None or times is None or set(change.effect.rows) != {row}:
+        return None
+    term = sp.factor_terms(pool.sites.ring.expr(scaled(change.effect.rows[row], 1 / times)))
+    sums = [f for f in sp.Mul.make_args(term) if isinstance(f, sp.Add)]
+    if not isinstance(term, sp.Mul) or any(f.has(sp.Derivative, sp.sin, sp.cos) for f in sums):
+        return None
+    words: Words = ("the term ", term, " of the equation of ", pool.truth.derivation.coordinates[row])
+    site = replace(change.effect, words=words, coordinate=row, rows={row: pool.sites.sum(term)}, single=True)
+    return LocalChange(kind="part", cost=change.cost, site=site, effect=site, free=True), times
 
 
 def _terms(pool: Pool) -> dict[int, list[tuple[int, LocalChange]]]:

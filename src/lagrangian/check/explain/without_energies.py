@@ -23,7 +23,10 @@ _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-
 _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
 """The names of energies, and of parts of them."""
 _IN = re.compile(r"(?P<link>,| in) (?P<name>T\*|V)(?=[.:,; ]|$)")
-_OF = re.compile(r"(?<![½\w])(?P<the>[Tt])he energy of (?P<element>[a-z ]{3,30}'[^']{1,60}'|[a-z]{3,20} \w{1,20})")
+_OF = re.compile(
+    r"(?<![½\w])(?P<the>[Tt])he (?:energy|kinetic energy(?= of the (?:rotation|translation))) of "
+    r"(?P<element>(?:the (?:rotation|translation) of )?(?:[a-z ]{3,30}'[^']{1,60}'|[a-z]{3,20} \w{1,20}))"
+)
 
 
 def of_equations(mistakes: Sequence[Mistake], lines: Sequence[AnsweredLine]) -> tuple[Mistake, ...]:

@@ -57,7 +57,12 @@ def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: 
     judged = {(line.number, line.text) for line in more}
     others = [line for line in aside if (line.number, line.text) not in judged]
     told = [text(f"'{line.text}' was not judged: the equations do without its names.") for line in others]
-    return Needed((*kept, *more), tuple(dict.fromkeys(told)), bool(more))
+    return Needed(_in_order((*kept, *more)), tuple(dict.fromkeys(told)), bool(more))
+
+
+def _in_order(lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines as they stand in the answer: what is wrong above is the cause of what is wrong below."""
+    return tuple(sorted(lines, key=lambda x: x.number))
 
 
 def unused_in_motion(

@@ -7,10 +7,12 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.changes.change import Site, Words
 from lagrangian.check.explain.changes.ring import Sum, plus
 from lagrangian.check.explain.misconceptions.base import Ingredients, put
-from lagrangian.model import Element
+from lagrangian.model import Element, time
+from lagrangian.page.formula import Name, Partial, Total
 
 MOST_SHARES = 5
 """A force that adds to more equations is not left out of all but one."""
@@ -118,6 +120,22 @@ def carried(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum | None]
                 f"the products of the velocity of {point} and that relative to it in the kinetic energy of {b.title}"
             )
             yield Site(words=(words,), brief=brief, step=2, element=b, T=T, surcharge=0.2)
+
+
+def turned_by_time(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum | None]) -> Iterator[Site]:
+    """What the given part of an angle, β(t) of φ − β, adds to d/dt ∂T*/∂ξ̇_i where its sine and cosine are
+    differentiated."""
+    for i, (p, v) in enumerate(zip(s.momenta, s.v, strict=True)):
+        for angle in s.angles(p):
+            if not s.is_carried(angle):
+                continue
+            given = sp.Add(*[x for x in sp.Add.make_args(bounded.expand(angle)) if not x.has(*s.q)])
+            mark = sp.Dummy()
+            turned = put(bounded.diff(put(p, {f(angle): f(mark) for f in (sp.sin, sp.cos)}), mark), {mark: angle})
+            if x := difference(turned * bounded.diff(given, time), sp.S.Zero):
+                words: Words = ("what the given motion in ", angle, " adds to ", Total(Partial(Name("T*"), v)))
+                brief: Words = (Total(Partial(Name("T*"), v)),)
+                yield Site(words=words, brief=brief, step=5, coordinate=i, rows={i: x}, sign_cost=0.9)
 
 
 def _of_one_energy(energies: Mapping[Element, Sum]) -> list[list[Element]]:

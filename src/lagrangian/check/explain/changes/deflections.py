@@ -184,6 +184,8 @@ class DeflectionChanges:
         for x, cost in (*((x, 1.9) for x in (*self.s.carried, *self._ways())), *((x, 2.1) for x in self.lengths)):
             yield whole + x, "deflection", cost
             yield whole - x, "deflection", cost
+        for x in self._further(whole):
+            yield x, "deflection", 1.8
         for p in pieces if len(pieces) > 1 else ():
             for r in [x for x in self.lengths if p.has(x)]:
                 for x in (x for x in self.lengths if x != r):
@@ -228,6 +230,13 @@ class DeflectionChanges:
             if (new != 0 or old != 0) and (extra := self.sites.difference(new, old)):
                 found[i] = extra
         return found
+
+    def _further(self, whole: sp.Expr) -> list[sp.Expr]:
+        """The positions of bodies that go on from a deflection, x + l sin θ of what hangs at x: the spring is tied to
+        another body."""
+        pieces = set(sp.Add.make_args(whole))
+        every = dict.fromkeys(bounded.expand(x) for b in self.s.bodies for x in self.s.position(b))
+        return [x for x in every if pieces < set(sp.Add.make_args(x))][:MOST_WAYS]
 
     def _ways(self) -> list[sp.Expr]:
         """The ways r φ of points on drums and pulleys: pieces of positions that are a length times a coordinate."""

@@ -313,10 +313,17 @@ class GeometryChanges:
         by = [bounded.diff(right, x) for x in v if right.has(x)]
         more = [right + g * c * x for c in (*by, sp.S.One) for x in v if not right.has(x) for g in (1, -1)]
         rolled = [right + g * x / r for r in self.lengths[:4] for x in v if not right.has(x) for g in (1, -1)]
-        turned = [replaced(right, {x: -x}) for x in v if len(by) > 1 and right.has(x)]
+        turned = [x for x in self._turned(right, v) if len(by) > 1]
         listed = {**dict.fromkeys(found, 1.8), **dict.fromkeys(rolled, 1.7), **dict.fromkeys(turned, 1.5)}
         listed |= {**dict.fromkeys(more, 1.5), **dict.fromkeys(v, 1.45)}
         return [(x, cost) for x, cost in listed.items() if x not in (0, right, -right)]
+
+    def _turned(self, right: sp.Expr, v: Sequence[Any]) -> Iterator[sp.Expr]:
+        """An angular velocity with another sign of each rate, begun with the sign of the right one: it is squared."""
+        held = [x for x in v if right.has(x)]
+        for x in held:
+            other = replaced(right, {x: -x})
+            yield other if x != held[0] else replaced(right, {w: -w for w in held[1:]})
 
     # -- what they have in common -------------------------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from scipy import sparse
 
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.candidates import Effects, Wrong, effects_of, ingredients_of
-from lagrangian.check.explain.changes.alike import carried
+from lagrangian.check.explain.changes.alike import carried, turned_by_time
 from lagrangian.check.explain.changes.change import LocalChange
 from lagrangian.check.explain.changes.deflections import DeflectionChanges
 from lagrangian.check.explain.changes.geometry import GeometryChanges
@@ -221,7 +221,8 @@ def _every(sites: Sites) -> Iterator[LocalChange]:
     deflections = DeflectionChanges(sites, letters.lengths)
     parts, wholes = [*sites.parts(), *deflections.parts()], list(sites.wholes())
     terms, rows = list(sites.terms()), list(sites.in_rows())
-    yield from scales(sites.n, [*parts, *wholes, *terms, *rows, *carried(sites.of, sites.difference)])
+    given = [*carried(sites.of, sites.difference), *turned_by_time(sites.of, sites.difference)]
+    yield from scales(sites.n, [*parts, *wholes, *terms, *rows, *given])
     yield from letters.exchanges([*parts, *wholes])
     yield from letters.changes([*parts, *wholes, *terms, *rows])
     yield from letters.factors([*parts, *(w for w in wholes if w.element is not None), *terms, *rows])

@@ -18,6 +18,11 @@ from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.model import Element
 
 MOST_ARMS = 28
+NUMBER = 0.95
+"""What it costs to forget an arm that is a number, such as 2 of a loose pulley: less than to halve the force."""
+GIVEN = 1.0
+"""What it costs to leave out of a damper's rate what is given in time: less than to leave out that part of its
+force."""
 
 
 class WorkChanges:
@@ -61,6 +66,8 @@ class WorkChanges:
                 added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
                 site = Site(words=words, brief=words, step=6, element=element, coordinate=i)
                 yield from self._half_or_double(effort, right[i], site, i)
+                if right[i].is_number and right[i] not in (0, 1, -1) and (extra := self._sum(effort * _unit(right[i]))):
+                    yield _change("no_arm", NUMBER, site, {i: extra}, abs(right[i]), None)
                 for arm in self.arms:
                     for sign in (1, -1):
                         if sign * arm == right[i] or (right[i].is_number and right[i] != 0 and arm == 1):
@@ -158,6 +165,11 @@ class WorkChanges:
             force = bounded.cancel(-effort / rate) if rate != 0 else None
             if force is None or force.has(*self.s.v):
                 continue
+            if (factor := _factor(rate)) not in (1, -1):
+                Xi = {i: self._sum(x * (1 / factor - 1)) for i, x in self.s.shares(element).items()}
+                words: Words = (f"what {element.title} adds to Ξ",)
+                site = Site(words=words, brief=words, step=6, element=element)
+                yield _change("no_arm", 1.6, site, {i: x for i, x in Xi.items() if x}, factor, None)
             for other, kind, cost in self._other_rates(rate):
                 for both in (True, False):
                     found: dict[int, Any] = {}
@@ -167,7 +179,7 @@ class WorkChanges:
                         if extra:
                             found[i] = extra
                     if found:
-                        words: Words = (f"the rate of {element.title}",)
+                        words = (f"the rate of {element.title}",)
                         site = Site(words=words, brief=words, step=6, element=element)
                         yield _change(kind, cost + (0.0 if both else 0.3), site, found, rate, other)
 
@@ -176,8 +188,11 @@ class WorkChanges:
         listed: list[tuple[sp.Expr, str, float]] = []
         if 1 < len(pieces) <= 8:
             for p in pieces:
-                listed += [(rate - p, "rate_left_out", 1.5), (rate - 2 * p, "rate_sign_in_damper", 1.6)]
+                left_out = 1.5 if p.has(*self.s.v) else GIVEN
+                listed += [(rate - p, "rate_left_out", left_out), (rate - 2 * p, "rate_sign_in_damper", 1.6)]
         v = self.s.v
+        if (factor := _factor(rate)).free_symbols:
+            listed.append((bounded.expand(rate / factor), "damper_rate", 1.7))
         listed += [(x, "damper_rate", 2.0) for x in v]
         listed += [(x, "damper_rate", 2.1) for a, b in combinations(v, 2) for x in (a - b, a + b)]
         for a in v:
@@ -192,6 +207,18 @@ class WorkChanges:
             if other not in seen:
                 seen.add(other)
                 yield other, kind, cost
+
+
+def _unit(arm: sp.Expr) -> sp.Expr:
+    """What an arm that is a number lacks if only its sign is counted."""
+    return cast("sp.Expr", sp.sign(arm) - arm)
+
+
+def _factor(rate: sp.Expr) -> sp.Expr:
+    """The factor of letters that all pieces of a sum have, such as R/r of R α̇/r − R β̇/r; 1 for one piece."""
+    pieces = sp.Add.make_args(rate)
+    common = set.intersection(*[set(sp.Mul.make_args(p)) for p in pieces]) if len(pieces) > 1 else set[sp.Basic]()
+    return cast("sp.Expr", sp.Mul(*[x for x in common if isinstance(x, sp.Expr) and not x.has(AppliedUndef)]))
 
 
 def _change(kind: str, cost: float, site: Site, Xi: dict[int, Sum], right: Any, written: Any) -> LocalChange:

@@ -19,14 +19,15 @@ STEP = 6
 WHY = text("A damper feels how fast its own two ends move apart, not how fast the body that it is fixed to moves.")
 MOST_RATES = 12
 """The largest number of velocities that are tried for every damper."""
-SHORT = 10
+SHORT = 16
 """The largest number of operations of a rate that a sentence holds."""
 LONGEST = 30
 """The largest number of operations of a velocity that somebody may write down."""
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """For every linear damper: a component of a body's velocity, its whole velocity, or ∂T*/∂ξ̇ divided by its inertia.
+    """For every linear damper: ω or a component of the velocity of a body, its whole velocity, or ∂T*/∂ξ̇ divided by
+    its inertia.
 
     Dampers with the same letter are changed together as well, each with its own ∂T*/∂ξ̇.
     """
@@ -34,11 +35,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue
-        rate, b = s.expand(element.rate(s.model)), s.expand(element.b)
+        rate, b = bounded.expand(s.expand(element.rate(s.model))), s.expand(element.b)
         for other in _rates(s, rate):
             change = _changed(s, element, b * other**2 / 2)
             right = ("; it is ", rate) if bounded.size(rate) <= SHORT else ()
-            what = text(f"The velocity of {element.title} is taken as ", other, *right, ".")
+            what = text(f"The rate of {element.title} is taken as ", other, *right, ".")
             if change:
                 yield Variant(what=what, Xi=change, element=element)
                 if rate in s.v and other == _absolute(s, s.v.index(rate)):
@@ -68,7 +69,7 @@ def _of_several(alike: list[tuple[Damper, dict[int, sp.Expr], sp.Expr]]) -> Vari
 
 def _rates(s: Ingredients, rate: sp.Expr) -> list[sp.Expr]:
     """The velocities that are taken for a rate."""
-    found = [x for body in s.bodies for x in s.velocity(body)]
+    found = [x for body in s.bodies for x in (*s.omega(body), *s.velocity(body))]
     if rate in s.v:
         i = s.v.index(rate)
         along = (x for body in s.bodies for x in s.kept(("along", body, i), partial(_along, s, body, i)))

@@ -21,10 +21,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue
-        rate, b, shares = s.expand(element.rate(s.model)), s.expand(element.b), s.shares(element)
+        rate, b, shares = bounded.expand(s.expand(element.rate(s.model))), s.expand(element.b), s.shares(element)
         held = [v for v in s.v if rate.has(v)]
         others = [put(rate, {w: sp.S.Zero for w in held if w != v}) for v in held if len(held) > 1]
-        others += [put(rate, {v: -v}) for v in held if len(held) > 1]
+        others += [
+            put(rate, {v: -v}) for v in (*held[1:], *held[:1]) if len(held) > 1
+        ]  # the first sign is rarely slipped
         others += [x for v in held if len(held) > 1 and (x := _without_factor(rate, v)) != rate]
         others += [put(rate, {v: w}) for v in held for w in s.v if w not in held]
         others += [put(rate, {v: v + sign * w}) for v in held for w in s.v if w not in held for sign in (-1, 1)]

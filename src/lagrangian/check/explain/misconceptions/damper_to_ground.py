@@ -12,7 +12,7 @@ from lagrangian.model import Damper
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("A damper between two bodies feels the rate of one relative to the other, and acts on both.")
+WHY = text("A damper feels how fast its own two ends move apart, and acts on every coordinate that changes this.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -24,15 +24,17 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         held = [v for v in s.v if rate.has(v)]
         for v in held if len(held) > 1 else ():
             own = put(rate, {w: sp.S.Zero for w in held if w != v})
-            what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", v, " alone.")
+            what = text(f"The rate of {element.title} is taken as ", v, " alone; it is ", rate, ".")
             grounded = {i: -b * own * bounded.diff(own, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in grounded.items() if x != 0}, element=element)
         for v, w in ((v, w) for v in held for w in s.v if w not in held):
             own = put(rate, {v: v + w})
-            what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", own, ", as if to the ground.")
+            what = text(f"The rate of {element.title} is taken as ", own, ", as if to the ground; it is ", rate, ".")
             grounded = {i: -b * own * bounded.diff(own, s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in grounded.items() if x != 0}, element=element)
         if len(held) > 1:
             each = {i: -b * (bounded.diff(rate, v) ** 2) * v - shares.get(i, 0) for i, v in enumerate(s.v)}
-            what = text(f"{element.title[:1].upper() + element.title[1:]} acts on each body as if to the ground.")
+            what = text(
+                f"{element.title[:1].upper() + element.title[1:]} is taken to act on each body as if to the ground."
+            )
             yield Variant(what=what, Xi={i: x for i, x in each.items() if x != 0}, element=element)

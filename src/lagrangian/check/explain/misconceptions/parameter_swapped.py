@@ -7,6 +7,7 @@ from itertools import combinations
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import Name, text
 
@@ -58,4 +59,5 @@ def _in_elements(s: Ingredients, a: sp.Symbol, b: sp.Symbol) -> Iterator[Variant
             shares = s.shares(element)
             changed = {i: put(x, {a: b}) - x for i, x in shares.items() if x.has(a)}
             if changed:
-                yield Variant(what=what, Xi=changed, element=element)
+                gone = int(not any(bounded.expand(put(x, {a: b})).has(b) for x in shares.values()))
+                yield Variant(what=what, Xi=changed, element=element, doubt=gone)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, put
+from lagrangian.model import time
 from lagrangian.page.formula import text
 
 STEP = 2
@@ -17,11 +18,11 @@ WHY = text(
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """For every parameter in the velocities of bodies at rest: its sign reversed in the energies and in Ξ."""
+    """For every parameter that says how fast something is carried: its sign reversed in the energies and in Ξ."""
     rest = dict.fromkeys(s.v, sp.S.Zero)
     carried = [put(x, rest) for body in s.bodies for x in (*s.velocity(body), *s.omega(body))]
     for p in s.model.parameters:
-        if not any(x.has(p.symbol) for x in carried):
+        if not any(x.has(p.symbol) for x in carried) or not _is_fast(s, p.symbol):
             continue
         table = {p.symbol: -p.symbol}
         energies = [sp.expand(put(x, table) - x) for x in (s.T, s.V)]
@@ -30,3 +31,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         forces = {i: put(x, table) - x for i, x in enumerate(s.Xi) if put(x, table) != x}
         what = text(p.symbol, " has the wrong sign in the velocities: the prescribed motion goes the other way.")
         yield Variant(what=what, T=energies[0], V=energies[1], Xi=forces)
+
+
+def _is_fast(s: Ingredients, p: sp.Symbol) -> bool:
+    """Whether a parameter stands beside the time, as Ω in Ω t, or turns a body; a carried arm does neither."""
+    turned = [x for body in s.bodies for x in s.omega(body)]
+    products = [m for body in s.bodies for x in s.position(body) for m in x.atoms(sp.Mul)]
+    return any(x.has(p) for x in turned) or any(
+        p in m.args and any(f.as_base_exp()[0] == time for f in m.args) for m in products
+    )
