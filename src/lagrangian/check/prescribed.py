@@ -63,26 +63,30 @@ def with_own_definitions(truth: Reference, lines: Sequence[AnsweredLine]) -> tup
     """The lines, with what an answer itself says that a name of the system is in place of this name.
 
     A line that says it is an identity, and no line at all if it is right or if it says the same of the rate. What holds
-    in a special case alone, x = 0 (s = −R θ), is not said beside what holds always.
+    in a special case alone, x = 0 (s = −R θ), is not said beside what holds always. A rate that is said, γ̇ = (R/r) β̇,
+    is put in as what it is the rate of.
     """
     table: dict[Any, sp.Expr] = {}
     out: list[AnsweredLine] = []
     values = [_value(truth, line) for line in lines]
     always = {x[0] for x, line in zip(values, lines, strict=True) if x is not None and "case" not in line.beside}
+    placed = {x[0]: x[1] for x in values if x is not None and not x[2]}
     for line, value in zip(lines, values, strict=True):
         if value is None or ("case" in line.beside and value[0] in always):
             out.append(line)
             continue
-        z, said = value
-        rest = truth.expand(z - said)
-        if zero_everywhere(truth, rest):
-            out.append(replace(line, kind="statement", expr=sp.S.Zero))
-        elif _is_true(truth, rest):
-            table[z] = said
+        z, said, of_rate = value
+        rest = truth.expand((sp.diff(z, time) if of_rate else z) - said)
+        if of_rate and zero_everywhere(truth, rest):
+            out.append(replace(line, kind="identity", expr=sp.S.Zero, name=f"{z.func}'"))
+            continue
+        way = integrated(truth, said) if of_rate else said
+        again = of_rate and z in placed and zero_everywhere(truth, sp.diff(placed[z], time) - said)
+        table |= {} if way is None or (of_rate and z in placed) or zero_everywhere(truth, rest) else {z: way}
+        if again or _is_true(truth, rest):
             out.append(replace(line, kind="statement", expr=sp.S.Zero))
         else:
-            table[z] = said
-            out.append(replace(line, kind="identity", expr=rest, name=str(z.func)))
+            out.append(replace(line, kind="identity", expr=rest, name=str(z.func) + of_rate * "'"))
     return tuple(_put(line, table) for line in out) if table else tuple(out)
 
 
@@ -102,21 +106,41 @@ def _put(line: AnsweredLine, table: Mapping[Any, sp.Expr]) -> AnsweredLine:
     return replace(line, kind="statement", expr=sp.S.Zero) if empty else replace(line, expr=put)
 
 
-def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr] | None:
-    """The name of the system, and what it is in coordinates, that a line says and nothing else."""
+def _value(truth: Reference, line: AnsweredLine) -> tuple[Any, sp.Expr, bool] | None:
+    """The name of the system, what it or its rate is in coordinates, and whether it is the rate, that a line says and
+    nothing else."""
     model, expr = truth.model, line.expr
     own = [d.symbol for d in model.definitions if d.moving and expr.has(d.symbol)]
-    if line.kind != "equation" or len(own) != 1 or any(d.has(own[0]) for d in expr.atoms(sp.Derivative)):
+    if line.kind != "equation" or len(own) != 1:
         return None
-    number = _number_of(expr, own[0])
+    z: Any = own[0]
+    of = next((d for d in expr.atoms(sp.Derivative) if d.has(z)), z)
+    number = _number_of(expr, of) if of in (z, sp.diff(z, time)) else None
     if number is None:
         return None
-    z, said = own[0], bounded.expand(own[0] - expr / number)
-    moving = said.has(*(c.symbol for c in model.coordinates))
-    rates = [x for c in model.coordinates for x in (c.rate, c.acceleration)]
-    others = [*rates, *(u.symbol for u in model.inputs), z]
+    said = bounded.expand(of - expr / number)
+    coordinates = [c.symbol for c in model.coordinates]
+    others = [*(c.acceleration for c in model.coordinates), *(u.symbol for u in model.inputs), z]
+    if of is z:
+        moving = said.has(*coordinates) and not said.has(*(c.rate for c in model.coordinates))
+    else:
+        moving = said != 0 and bounded.expand(said - _of_rates(truth, said)) == 0
     known = said.free_symbols <= truth.names and not said.has(*others)
-    return (z, said) if moving and known else None
+    return (z, said, of is not z) if moving and known else None
+
+
+def _of_rates(truth: Reference, said: sp.Expr) -> sp.Expr:
+    """The rates in an expression, each with the factor that it has."""
+    rates = [c.rate for c in truth.model.coordinates]
+    factors = [bounded.diff(said, v) for v in rates]
+    return sp.Add(*[f * v for f, v in zip(factors, rates, strict=True) if not f.has(*rates)])
+
+
+def integrated(truth: Reference, said: sp.Expr) -> sp.Expr | None:
+    """What has a rate that is a sum of rates with constant factors; None for any other rate."""
+    way: Any = said.xreplace({c.rate: c.symbol for c in truth.model.coordinates})
+    same = bounded.expand(bounded.diff(way, time) - said) == 0
+    return way if same else None
 
 
 def _number_of(expr: sp.Expr, rate: Any) -> sp.Expr | None:

@@ -11,7 +11,7 @@ from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
-from lagrangian.check.names.needless import Needed, accelerates, needed, unused_in_motion
+from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
@@ -212,9 +212,11 @@ def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
 
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:
     """The verdict with the notes of the reading, each once, but for names that nothing uses and that were judged."""
-    why = ("nothing else uses ", "no equation uses this matrix ")
+    why = ("nothing else uses ", "no equation uses this matrix ", "it is an expression without an equals sign")
     judged = tuple(f"'{f.line.text}' was not judged: {x}" for f in verdict.findings for x in why)
     told = [note for note in answer.notes if not note.startswith(judged)]
+    named = {f"'{f.line.text}'{WITHOUT}" for f in verdict.findings}
+    notes = [note for note in notes if str(note) not in named]
     unjudged, matrices = (any(x in note for note in told) for x in ("was not judged", "no equation uses this matrix"))
     verdict = only_parts(verdict, check.lines_of(answer), unjudged=unjudged, matrices=matrices)
     read = (text(Verbatim(note)) for note in told)

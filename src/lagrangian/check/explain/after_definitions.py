@@ -11,7 +11,9 @@ from typing import Any, TypeAlias
 
 import sympy as sp
 
+from lagrangian.check.prescribed import integrated
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.coordinates import Carrier, Change
 from lagrangian.derive import derive
@@ -26,19 +28,36 @@ Judge: TypeAlias = Callable[[Reference, Sequence[AnsweredLine]], Sequence[Findin
 
 def follow_from_definitions(truth: Reference, findings: Sequence[Finding], judge: Judge) -> list[Finding]:
     """The findings, with the lines marked that are right with the definitions of the answer."""
-    own = [d for d in truth.model.definitions if d.moving]
-    wrong = {f.line.name: f for f in findings if f.line.kind == "identity" and f.status is Status.WRONG}
-    table = {d.name: truth.expand(d.symbol) - wrong[d.name].line.expr for d in own if d.name in wrong}
-    open_lines = [f for f in findings if f.status is Status.WRONG and f.line.name not in table]
+    own = {d.name: d for d in truth.model.definitions if d.moving}
+    wrong = [f for f in findings if f.line.kind == "identity" and f.status is Status.WRONG]
+    wrong = [f for f in wrong if (f.line.name or "").rstrip("'") in own]
+    table: dict[str, sp.Expr] = {}
+    for f in wrong:
+        name = str(f.line.name)
+        way = f.line.expr if name in own else integrated(truth, f.line.expr)
+        if way is not None:
+            table.setdefault(name.rstrip("'"), truth.expand(own[name.rstrip("'")].symbol) - way)
+    findings = _said_again(truth, findings, wrong)
+    open_lines = [f for f in findings if f.status is Status.WRONG and f not in wrong and not f.follows]
     if not table or not open_lines:
         return list(findings)
-    lines = [f.line for f in findings if f.line.name not in table]
+    lines = [f.line for f in findings if (f.line.name or "").rstrip("'") not in table]
     right: set[int] = set()
     for sign in (1, -1):  # an angle may be counted in the other sense
         other = _redefined(truth, {name: sign * x for name, x in table.items()})
         found = {id(f.line) for f in judge(other, lines) if f.status.right} if other is not None else set[int]()
         right = max(right, found, key=len)
     return [replace(f, follows=True) if id(f.line) in right and f in open_lines else f for f in findings]
+
+
+def _said_again(truth: Reference, findings: Sequence[Finding], wrong: Sequence[Finding]) -> list[Finding]:
+    """The findings; what is said once more of a name follows from what was said first, γ̇ − α̇ = … from γ̇ = …."""
+    later = [
+        f
+        for k, f in enumerate(wrong)
+        if any(x.line.name == f.line.name and zero_everywhere(truth, x.line.expr - f.line.expr) for x in wrong[:k])
+    ]
+    return [replace(f, follows=True) if any(f is x for x in later) else f for f in findings]
 
 
 def _redefined(truth: Reference, table: Mapping[str, sp.Expr]) -> Reference | None:

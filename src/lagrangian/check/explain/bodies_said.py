@@ -29,7 +29,7 @@ from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
-JUDGED = frozenset(["T", "V", "L", "Xi", "p", "p-rate", "slope", "left", "equation"])
+JUDGED = frozenset(["T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "equation"])
 """The kinds of lines that are compared with what definitions lead to."""
 MOST_DEFINITIONS = 16
 """The largest number of definitions that are compared with the bodies."""
@@ -218,16 +218,16 @@ class BodiesSaid:
         return bool(np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL)
 
     def of_line(self, line: AnsweredLine) -> list[SaidWrongly]:
-        """The wrong definitions from which a line of T*, V or L follows; none if it follows from none."""
+        """The wrong definitions from which a line of T*, V, L or D follows; none if it follows from none."""
         truth = self.truth
-        if line.kind not in ("T", "V", "L") or not self.parts:
+        right = right_value(truth, line, None) if line.kind in ("T", "V", "L", "D") else None
+        if right is None or not self.parts:
             return []
-        right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
         effects = [p.adds(truth, line.kind, None) for p in self.parts]
         exprs = [line.expr - right, *effects]
         exprs = [without_time(truth, sp.sympify(x)) for x in exprs] if line.kind == "V" else exprs
         values = CompiledExpressions(exprs).at(truth.states)
-        level = values if line.kind == "T" else without_constant(values)
+        level = values if line.kind in ("T", "D") else without_constant(values)
         return self._named(level[0], level[1:])
 
     def borne_out(self, pool: Pool, group: Sequence[Explanation]) -> list[Explanation]:

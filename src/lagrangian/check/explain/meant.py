@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian.check.reading.said.quantity_words import kinds_of_words
 from lagrangian.model import Body, Model
 from lagrangian.read.letters import spelled, unaccented
 
@@ -44,12 +45,16 @@ _DIGITS = re.compile(r"\d+$")
 
 
 def kinds_of(name: str) -> tuple[str, ...] | None:
-    """The kinds that a name may be of by its letter; None if it may be of any."""
+    """The kinds that a name may be of by its letter, or by its words; None if it may be of any."""
+    if " " in name:
+        return kinds_of_words(name)
     return STEMS.get(_split(name)[0])
 
 
 def is_meant(kind: str, name: str) -> bool:
     """Whether a name may be of a kind that only certain names are of: T_rot of a rotation, v_r of no fixed axis."""
+    if " " in name:
+        return True
     if kind in ("rotation", "translation"):
         return kind[:3] in name.lower()
     return kind not in ("along", "apart") or not _is_along_fixed_axes(name)
@@ -71,7 +76,12 @@ def axes_of(name: str) -> str | None:
 
 def owner_of(name: str, model: Model) -> Body | None:
     """The only body that the index of a name may mean: that of its point, its mass, its number or its own name; T_R
-    of a body with the mass m_R."""
+    of a body with the mass m_R. In words, that of which they hold the name."""
+    if " " in name:
+        named = [
+            b for b in model.bodies if re.search(rf"\b{re.escape(b.name.replace('_', ' '))}\b", name, re.IGNORECASE)
+        ]
+        return named[0] if len(named) == 1 else None
     index = _split(name)[1]
     if not index:
         return None

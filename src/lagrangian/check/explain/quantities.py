@@ -7,6 +7,7 @@ one mistake, from which the energies and the equations with this name follow.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache, partial
 from typing import Any, TypeAlias
 
@@ -36,12 +37,13 @@ MOST = 80
 
 @dataclass(frozen=True, eq=False)
 class Effect:
-    """What another value of a quantity adds to T*, to V, to every Ξ_i and to the left-hand sides."""
+    """What another value of a quantity adds to T*, to V, to every Ξ_i, to the left-hand sides and to D."""
 
     T: sp.Expr = sp.S.Zero
     V: sp.Expr = sp.S.Zero
     Xi: tuple[sp.Expr, ...] = ()
     left: tuple[sp.Expr, ...] = ()
+    D: sp.Expr = sp.S.Zero
 
 
 Adds: TypeAlias = Callable[[sp.Expr], Effect]
@@ -166,8 +168,8 @@ def _of_springs(s: Ingredients) -> Iterator[Sayable]:
         slopes = [bounded.diff(way, q) for q in s.q]
 
         def stored(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way) -> Effect:
-            damped = _damped(s, b, s.rate(said), s.rate(way)) if b != 0 else ()
-            return Effect(V=k * (said**2 - way**2) / 2, Xi=damped)
+            V = k * (said**2 - way**2) / 2
+            return replace(_damped(s, b, s.rate(said), s.rate(way)), V=V) if b != 0 else Effect(V=V)
 
         def pulled(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way, slopes: Any = slopes) -> Effect:
             more = sp.Add(said, -way)
@@ -188,7 +190,7 @@ def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
         slopes = [bounded.diff(rate, v) for v in s.v]
 
         def worked(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate) -> Effect:
-            return Effect(Xi=_damped(s, b, _rate(s, said), rate))
+            return _damped(s, b, _rate(s, said), rate)
 
         def pulled(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate, slopes: Any = slopes) -> Effect:
             return _pushing(b * (_rate(s, said) - rate), slopes)
@@ -221,9 +223,10 @@ def _rate(s: Ingredients, said: sp.Expr) -> sp.Expr:
     return said if said.has(*s.v) else s.rate(said)
 
 
-def _damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> tuple[sp.Expr, ...]:
-    """What another rate of dampers adds to every Ξ_i: −b δ̇ ∂δ̇/∂ξ̇_i."""
-    return tuple(-b * (rate * bounded.diff(rate, v) - right * bounded.diff(right, v)) for v in s.v)
+def _damped(s: Ingredients, b: sp.Expr, rate: sp.Expr, right: sp.Expr) -> Effect:
+    """What another rate of dampers adds to every Ξ_i, −b δ̇ ∂δ̇/∂ξ̇_i, and to D."""
+    Xi = tuple(-b * (rate * bounded.diff(rate, v) - right * bounded.diff(right, v)) for v in s.v)
+    return Effect(Xi=Xi, D=b * (rate**2 - right**2) / 2)
 
 
 def _of_energies(s: Ingredients) -> Iterator[Sayable]:

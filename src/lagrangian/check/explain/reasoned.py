@@ -24,6 +24,8 @@ from lagrangian.page.formula import text
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
+SHOWN = ("component", "along")
+"""Quantities whose formulas show at once what is wrong."""
 STEP = 2
 """The step of the kinetic energy."""
 MOST_LIKELY = 2.0
@@ -35,7 +37,7 @@ ALIKE = 0.1
 def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one."""
     mistake = said.mistake
-    if mistake.name not in REASONED or mistake.element is None:
+    if mistake.name not in REASONED or mistake.element is None or said.words.of.kind in SHOWN:
         return mistake
     values = CompiledExpressions([said.T, said.V]).at(pool.truth.states)
     values[1] = without_constant(values[1])

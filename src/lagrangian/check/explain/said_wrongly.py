@@ -18,7 +18,7 @@ from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.say import WHY_PART
+from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_TERM
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
@@ -28,62 +28,10 @@ from lagrangian.model import Body, time
 from lagrangian.page.formula import Left, Text, text
 from lagrangian.records import dataclass
 
-_SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
-_WAY = "Go along the way from the fixed point to the body: every piece of it counts."
-_DEFLECTION = "The deflection is the motion of one end relative to the other, less the rest length."
-_DAMPER = "A damper feels the velocity of one end relative to the other."
-WHY = {
-    "speed": text(_SPEED),
-    "component": text(_SPEED),
-    "along": text(_SPEED),
-    "turning": text("ω is how fast the body itself turns against the fixed axes."),
-    "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
-    "axis": text(
-        "About a parallel axis it is larger, by the mass times the square of the distance of this axis from the centre "
-        "of mass."
-    ),
-    "position": text(_WAY),
-    "apart": text(_WAY),
-    "height": text(_WAY),
-    "place": text(_WAY),
-    "velocity": text(_SPEED),
-    "deflection": text(_DEFLECTION),
-    "rate": text(_DAMPER),
-    "force": text("Look at both ends: how far, and how fast, do they move relative to each other?"),
-    "rotation": text("An angular velocity is squared, and so is the radius by which a velocity is divided for it."),
-    "translation": text(_SPEED),
-    "kinetic": text("Every body has the kinetic energy of its translation and, if it turns, that of its rotation."),
-    "potential": text(WHY_PART[3]),
-    "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
-    "damping": text(_DAMPER),
-    "restoring": text(_DEFLECTION),
-    "mass": text("Every body that moves with this coordinate adds to it, by its mass and by its moment of inertia."),
-}
-WHY_TERM = text("Go through it term by term: a sum is squared as a whole, with twice the product of its parts.")
-CALLED = {
-    "component": "velocity",
-    "along": "velocity",
-    "turning": "angular velocity",
-    "inertia": "moment of inertia",
-    "axis": "moment of inertia",
-    "height": "position",
-    "apart": "position",
-    "place": "position",
-    "rate": "velocity",
-    "kinetic": "kinetic energy",
-    "rotation": "kinetic energy of the rotation",
-    "translation": "kinetic energy of the translation",
-    "potential": "potential energy",
-    "Xi": "generalized force",
-}
-NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
-NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
-"""What mistakes of some kinds are called."""
-OF_MANY_TERMS = ("speed", "kinetic", "mass", "potential")
-"""Kinds in which two formulas in different arrangements do not show at once in which term they differ."""
-STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
 LONGEST = 60
 """The largest number of operations of such a definition."""
+OF_RATES = frozenset(["turning", "speed", "component", "along", "rate"])
+"""Kinds of what holds rates."""
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
 
@@ -171,8 +119,8 @@ class SaidWrongly:
     def adds(self, truth: Reference, kind: str, i: int | None) -> sp.Expr:
         """What it adds to an energy, to Ξ_i or to a derivative of L by ξ_i."""
         e = self.effect
-        if kind in ("T", "V", "L"):
-            return {"T": e.T, "V": e.V, "L": e.T - e.V}[kind]
+        if kind in ("T", "V", "L", "D"):
+            return {"T": e.T, "V": e.V, "L": e.T - e.V, "D": e.D}[kind]
         if i is None:
             return sp.S.Zero
         if kind == "Xi":
@@ -214,6 +162,7 @@ def _plausible(truth: Reference, line: AnsweredLine, turned: bool) -> list[int]:
     """
     every, name = quantities_of(truth).all, line.name or ""
     kinds, owner = kinds_of(name), owner_of(name, truth.model)
+    kinds = None if kinds is not None and set(kinds) <= OF_RATES and _is_place(truth, line) else kinds
     found = [
         k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else PART_OF.get(q.kind, q.kind) in kinds)
     ]
@@ -223,6 +172,12 @@ def _plausible(truth: Reference, line: AnsweredLine, turned: bool) -> list[int]:
     found = [k for k in found if (every[k].kind == "along" if turned else is_meant(every[k].kind, name))]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
+
+
+def _is_place(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether what is said moves and has no rates: w = 2 y − u is no angular velocity."""
+    s, said = quantities_of(truth).of, truth.expand(line.expr)
+    return not said.has(*s.v) and said.has(*s.q)
 
 
 def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False, turned: bool = False) -> list[Sayable]:
@@ -333,9 +288,9 @@ def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[
 
 def put(truth: Reference, effect: Effect) -> Effect:
     """An effect with the values that are put in."""
-    T, V = (truth.put(sp.sympify(x)) for x in (effect.T, effect.V))
+    T, V, D = (truth.put(sp.sympify(x)) for x in (effect.T, effect.V, effect.D))
     Xi, left = (tuple(truth.put(sp.sympify(x)) for x in parts) for parts in (effect.Xi, effect.left))
-    return Effect(T, V, Xi, left)
+    return Effect(T, V, Xi, left, D)
 
 
 def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:

@@ -23,6 +23,9 @@ from lagrangian.records import dataclass
 MOST = 8
 """The largest number of relations between which contradictions are sought."""
 
+WITHOUT = " was not judged: the equations do without its names."
+"""What is said of such a line, behind its text."""
+
 LONGEST = 60
 """The largest number of operations of such a relation."""
 
@@ -56,13 +59,27 @@ def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: 
     more = tuple(_contradictions([*aside, *_values(lines, unknown)], unknown))
     judged = {(line.number, line.text) for line in more}
     others = [line for line in aside if (line.number, line.text) not in judged]
-    told = [text(f"'{line.text}' was not judged: the equations do without its names.") for line in others]
-    return Needed(_in_order((*kept, *more)), tuple(dict.fromkeys(told)), bool(more))
+    told = [text(f"'{line.text}'{WITHOUT}") for line in others]
+    rates = {id(line): x for line in others if (x := _rate_said(line, unknown)) is not None}
+    said = [rates.get(id(line), line) for line in lines if id(line) in rates or any(line is x for x in kept)]
+    return Needed(_in_order((*said, *more)), tuple(dict.fromkeys(told)), bool(more))
 
 
 def _in_order(lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines as they stand in the answer: what is wrong above is the cause of what is wrong below."""
     return tuple(sorted(lines, key=lambda x: x.number))
+
+
+def _rate_said(line: AnsweredLine, unknown: Collection[sp.Basic]) -> AnsweredLine | None:
+    """A line that says what the rate of an unknown place or angle is, ẋ_C = s θ̇ cos θ, as a definition of it."""
+    rates = [d for d in line.expr.atoms(sp.Derivative) if d.args[0] in unknown]
+    if line.kind not in ("equation", "identity") or len(rates) != 1 or accelerates(line.expr):
+        return None
+    slope = _slope(line.expr, rates[0])
+    value = None if slope is None else bounded.expand(rates[0] - line.expr / slope)
+    if value is None or not cast("sp.Expr", slope).is_number or value.has(*unknown):
+        return None
+    return replace(line, kind="definition", name=str(rates[0].args[0].func), expr=value)
 
 
 def unused_in_motion(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import cast
 
 import sympy as sp
@@ -45,6 +44,7 @@ from lagrangian.check.reading.placeholders import (
     slope_of_L,
 )
 from lagrangian.check.reading.redefined import contradicting
+from lagrangian.check.reading.said.quantity_words import labelled
 from lagrangian.check.reading.set_aside import MOST_LACKING, MOST_TOLD, does_without, may_be_result, told
 from lagrangian.check.reading.subjects import Subject, Subjects, bare_names, is_label_of_equation
 from lagrangian.errors import ParseError
@@ -305,10 +305,9 @@ class Lines:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
-            own = Subject("Xi")
             self.names.define(token, value)  # M q'' + K q = Q means the forces that this answer gives
             return [
-                self._stated(replace(own, name=n), x, [side, side], side, reader)
+                self._stated(Subject("Xi", name=n), x, [side, side], side, reader)
                 for n, x in zip(names, value, strict=True)
             ]
         self.names.define(token, value)
@@ -352,7 +351,7 @@ class Lines:
             said = any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
             if (listed or said) and not any(map(accelerates, values[0] if listed else values)):
                 self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
-                return []
+                return [] if listed else labelled(values[0], sides[0], reader)
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
         values, sides = without_parts(*without_amounts(values, sides, self.model), reader)
@@ -395,6 +394,8 @@ class Lines:
     def _unjudged(self, left: sp.Expr, right: sp.Expr, reader: Meaning) -> None:
         """Tell that an equation of this system is not judged, because it derives something that has no value."""
         rates = left.atoms(sp.Derivative) | right.atoms(sp.Derivative)
-        alone = any((is_slope(x) or is_slope(-x)) and not is_general(y) for x, y in ((left, right), (right, left)))
-        if alone or any(d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates):
+        pairs = ((left, right), (right, left))
+        if any((is_slope(x) or is_slope(-x)) and not is_general(y) for x, y in pairs) or any(
+            d.derivative_count > 1 and not is_placeholder(d.expr) for d in rates
+        ):
             self._not_judged(reader, "nothing says what is differentiated there")

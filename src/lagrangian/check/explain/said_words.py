@@ -1,0 +1,62 @@
+"""The words for what is wrong in a quantity of a system that an answer says: what it is called, and why it is wrong."""
+
+from __future__ import annotations
+
+from lagrangian.check.explain.meant import PART_OF
+from lagrangian.check.explain.say import WHY_PART
+from lagrangian.page.formula import text
+
+_SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
+_WAY = "Go along the way from the fixed point to the body: every piece of it counts."
+_DEFLECTION = "The deflection is the motion of one end relative to the other, less the rest length."
+_DAMPER = "A damper feels the velocity of one end relative to the other."
+WHY = {
+    "speed": text(_SPEED),
+    "component": text(_SPEED),
+    "along": text(_SPEED),
+    "turning": text("ω is how fast the body itself turns against the fixed axes."),
+    "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
+    "axis": text(
+        "About a parallel axis it is larger, by the mass times the square of the distance of this axis from the centre "
+        "of mass."
+    ),
+    "position": text(_WAY),
+    "apart": text(_WAY),
+    "height": text(_WAY),
+    "place": text(_WAY),
+    "velocity": text(_SPEED),
+    "deflection": text(_DEFLECTION),
+    "rate": text(_DAMPER),
+    "force": text("Look at both ends: how far, and how fast, do they move relative to each other?"),
+    "rotation": text("An angular velocity is squared, and so is the radius by which a velocity is divided for it."),
+    "translation": text(_SPEED),
+    "kinetic": text("Every body has the kinetic energy of its translation and, if it turns, that of its rotation."),
+    "potential": text(WHY_PART[3]),
+    "Xi": text("Change only this coordinate a little. Does the point where the force acts move, and how far?"),
+    "damping": text(_DAMPER),
+    "restoring": text(_DEFLECTION),
+    "mass": text("Every body that moves with this coordinate adds to it, by its mass and by its moment of inertia."),
+}
+WHY_TERM = text("Go through it term by term: a sum is squared as a whole, with twice the product of its parts.")
+CALLED = {
+    "component": "velocity",
+    "along": "velocity",
+    "turning": "angular velocity",
+    "inertia": "moment of inertia",
+    "axis": "moment of inertia",
+    "height": "position",
+    "apart": "position",
+    "place": "position",
+    "rate": "velocity",
+    "kinetic": "kinetic energy",
+    "rotation": "kinetic energy of the rotation",
+    "translation": "kinetic energy of the translation",
+    "potential": "potential energy",
+    "Xi": "generalized force",
+}
+NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
+NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
+"""What mistakes of some kinds are called."""
+OF_MANY_TERMS = ("speed", "kinetic", "mass", "potential")
+"""Kinds in which two formulas in different arrangements do not show at once in which term they differ."""
+STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}
