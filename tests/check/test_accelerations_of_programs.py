@@ -210,3 +210,76 @@ def test_a_comment_lists_what_declared_symbols_are() -> None:
     assert not right(LISTED.replace("F - b*pd", "F + b*pd"))
     assert not right(LISTED.replace("x, x', x'', theta, theta', theta''", "theta, theta', theta'', x, x', x''"))
     assert not right(LISTED.replace("x, x', x'',", "x, x',"))
+
+
+TYPED = """def residuals(x, xd, xdd, theta, thetad, thetadd, F):
+    e1 = (M + m)*xdd + m*l*cos(theta)*thetadd - m*l*sin(theta)*thetad**2 + b*xd - F
+    e2 = (J + m*l**2)*thetadd + m*l*cos(theta)*xdd - m*g*l*sin(theta)
+    return e1, e2"""
+X, ANGLE = (line.partition("=")[2].strip().replace("**", "^") for line in TYPED.split("\n")[1:3])
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        TYPED,
+        TYPED.replace("e1", "r1").replace("e2", "r2"),
+        TYPED.replace("return e1, e2", "eqs = [e1, e2]\n    return eqs"),
+        f"F1 = {X};\nF2 = {ANGLE};\nsol = vpasolve([F1 F2], [xdd thetadd]);",
+        f"g1 = {X}\ng2 = {ANGLE}\nprint(solve([Eq(g1, 0), Eq(g2, 0)], [xdd, thetadd]))",
+        f"Both r_x and r_th are zero.\nr_x = {X}\nr_th = {ANGLE}",
+        f"% residuals\nh1 = {X};\nh2 = {ANGLE};",
+        f"res = zeros(2, 1);\nres(1) = {X};\nres(2) = {ANGLE};",
+        f"The expressions A and B are zero.\nA = {X}\nB = {ANGLE}",
+        f"def residuals(x, xd, xdd, theta, thetad, thetadd, F):\n    return [{X}, {ANGLE}]".replace("^", "**"),
+        f"res = @(x, theta, xd, thetad, xdd, thetadd) [{X}; {ANGLE}];",
+    ],
+)
+def test_a_wrong_line_of_what_is_zero_is_told_as_an_equation(form: str) -> None:
+    assert right(form)
+    verdict = derivation("cart-pole").check(form.replace("- m*g*l", "+ m*g*l"))
+    first, second = verdict.findings
+    assert first.status.right and not second.status.right and not verdict.right
+    assert {m.name for m in verdict.mistakes} == {"gravity_sign"}
+    said = " ".join(str(verdict).split())
+    assert "m g l sin θ has the wrong sign" in said and "−m g l" not in said  # as it is written
+
+
+def test_what_is_zero_holds_a_constraint_too() -> None:
+    lines = "(M + m)*xdd + k*x - F - lam", "J*phidd + lam*R", "xd - R*phid"
+    program = "% all residuals are zero\n" + "".join(f"r{k} = {x};\n" for k, x in enumerate(lines, 1))
+    made = wheel()
+    assert made.check(program).right
+    assert len(made.check(program).findings) == 3
+    assert not made.check(program.replace("xd - R", "xd + R")).right
+
+
+def test_names_that_something_uses_are_no_equations() -> None:
+    made = derivation("cart-pole")
+    program = f"r1 = xdd + l*cos(theta)*thetadd\nM*xdd + m*r1 - m*l*sin(theta)*thetad^2 + b*xd - F = 0\n{ANGLE} = 0"
+    assert made.check(program).right
+    assert not made.check(program.replace("+ b*xd", "- b*xd")).right
+    forces = f"{X} = 0\n{ANGLE} = 0\nN1 = M*xdd + b*xd - F  % what the pole bears; it is zero at rest\n"
+    assert len(made.check(forces).findings) == 2  # no third equation
+
+
+MOVED = """function res = eom(t, q, qd, qdd)
+th = q(2);
+res = zeros(2,1);
+res(1) = (M + m)*qdd(1) + m*l*cos(th)*qdd(2) - m*l*sin(th)*qd(2)^2 + b*qd(1) - F;
+res(2) = (J + m*l^2)*qdd(2) + m*l*cos(th)*qdd(1) - m*g*l*sin(th);
+end"""
+GIVEN = """def residual(q, v, a):
+    theta = q[1]
+    xdd, thdd = a
+    return [(M + m)*xdd + m*l*cos(theta)*thdd - m*l*sin(theta)*v[1]**2 + b*v[0] - F,
+            (J + m*l**2)*thdd + m*l*cos(theta)*xdd - m*g*l*sin(theta)]"""
+
+
+@pytest.mark.parametrize(("program", "old", "new"), [(MOVED, "qd(1) - F", "qd(1) + F"), (GIVEN, "v[0]", "v[1]")])
+def test_what_is_zero_may_be_a_function_of_three_columns(program: str, old: str, new: str) -> None:
+    assert old in program
+    assert right(program)
+    assert not right(program.replace(old, new))
+    second = derivation("cart-pole").check(program.replace("- m*g*l", "+ m*g*l")).findings[1]
+    assert not second.status.right and second.line.number == 5

@@ -73,13 +73,13 @@ class Names:
         self.moving = self.matrices = False
         """Whether the statement that is being read has accelerations (an energy must be stated then), and matrices."""
         self.columns = False
-        """Whether a coordinate q of the system is the column of all coordinates in that statement: M*qdd + K*q = f."""
+        """Whether a coordinate q of the system is the column of all of them in that statement: M*qdd + K*q = f."""
         self.column = [c.symbol for c in model.coordinates]
         """The coordinates in the order in which such a column holds them."""
-        self.given_matrices: set[str] = set()
-        """The names that a statement of the answer gives a matrix."""
-        self.defined: set[str] = set()
-        """The names that a statement of the answer defines."""
+        self.given_matrices, self.defined = set[str](), set[str]()
+        """The names that a statement of the answer gives a matrix, and those that one defines."""
+        self.residuals: frozenset[str] = frozenset()
+        """The names that the answer gives to expressions that are zero."""
         self.differentiated: tuple[str, ...] = ()
         """The names by which the answer differentiates energies."""
         self.moving_symbols: set[sp.Expr] = {c.symbol for c in model.coordinates}

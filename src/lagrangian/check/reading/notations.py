@@ -29,6 +29,7 @@ from lagrangian.check.reading.programs.matrices import told_order, with_whole_ma
 from lagrangian.check.reading.programs.names import with_program_names
 from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
 from lagrangian.check.reading.programs.quotes import without_quotes
+from lagrangian.check.reading.programs.residuals import residuals
 from lagrangian.check.reading.programs.session_lists import without_lists, without_sets
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
@@ -82,7 +83,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
-    code = without_code(prompted, taken, commands.append, session=is_session(text))
+    zero = residuals(prompted, taken, names.changes)
+    names.residuals = zero.names
+    code = without_code(zero.written, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:
         names.notes.setdefault(told_commands(text, commands))

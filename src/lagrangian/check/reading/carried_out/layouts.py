@@ -2,20 +2,23 @@
 
 accel(q, qd)                       qdd = A\\b, of two columns
 acc = f(z)                         the same of one column, [q; qd] or [q1, qd1, q2, …]
+res = f(q, v, a)                   [M a1 + …; J a2 + …], which is 0; also f(x, xd, xdd, phi, …)
 res = f(t, y, yp)                  [yp(1) − y(2); m yp(2) + k y(1)], which is 0
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import permutations
 from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
-from lagrangian.check.reading.carried_out.values import TIME, OwnFunction, State
+from lagrangian.check.reading.carried_out.moving_names import MovingNames
+from lagrangian.check.reading.carried_out.values import TIME, OwnFunction, State, Value
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.records import dataclass
@@ -97,7 +100,7 @@ class Layouts:
             return None
         order_of = [found[k] if k in found else left.pop(0) for k in range(n)]
         moving = [sp.Function(q)(TIME) for q in order_of]
-        return order_of, {x: moving[k].diff(TIME) if order else moving[k] for (order, k), x in places.items()}
+        return order_of, {x: moving[k].diff(TIME, order) if order else moving[k] for (order, k), x in places.items()}
 
     def _meaning(self, name: str) -> tuple[int | None, str | None]:
         """Whether a name is one of a coordinate or of its rate, and of which."""
@@ -105,9 +108,35 @@ class Layouts:
         meant = [x for x in self.scope.meanings(name)[0] if x in coordinates]
         if len(meant) == 1:
             return 0, meant[0]
+        twice = [s for k, s in spelled_rates(name) if k == 2 and set(self.scope.meanings(s)[0]) & coordinates]
+        if twice:
+            return 2, self.scope.meanings(twice[0])[0][0]
         stem = self.rated(name)
         of = [x for x in self.scope.meanings(stem)[0] if x in coordinates] if stem else []
         return (1, of[0]) if of else (None, None)
+
+    def of_sums(self, given: Mapping[str, Value], rates: Sequence[sp.Expr]) -> Motion | None:
+        """The equations of a function of accelerations that is 0, in letters or in a third column."""
+        states = [x for x in given.values() if isinstance(x, State)]
+        solved = any(x.free_symbols & self.run.solved.keys() for x in rates)
+        if solved or any(x in s.entries.values() for x in rates for s in states):
+            return None
+        n, table = len(self.model.coordinates), dict[sp.Symbol, sp.Expr]()
+        if states:
+            free = [State(k) if isinstance(x, sp.Symbol) and x != TIME else x for k, x in given.items()]
+            columns = [x for x in free if isinstance(x, State) and not self.scope.meanings(x.name)[0]][:3]
+            others = [x for x in states if x not in columns]
+            if len(columns) < 3 or any(k > n for x in columns for k in x.entries):
+                return None
+            said = {order * n + k: x for order in range(3) for k, x in self._said(columns[order]).items()}
+            places = {(order, k): columns[order].entry(k + 1) for order in range(3) for k in range(n)}
+            named = self._named(places, said, n)
+            if named is None or any(k > len(self.model.inputs) for x in others for k in x.entries):
+                return None
+            inputs = {x: sp.Symbol(self.model.inputs[k - 1].name) for s in others for k, x in s.entries.items()}
+            table = named[1] | inputs
+        moving = [MovingNames(self.model, self.scope).order(cast("sp.Expr", x.xreplace(table))) == 2 for x in rates]
+        return ([(cast("sp.Expr", sp.S.Zero), x) for x in rates], table) if sum(moving) >= n else None
 
     def of_residuals(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Motion | None:
         """The equations of a function of a state and of its rates that is 0; what has no rate there is a multiplier."""
@@ -128,9 +157,7 @@ class Layouts:
                 table |= {yp.entry(i): q.diff(TIME), yp.entry(j): q.diff(TIME, 2)}
             left = {k: x for k, x in y.entries.items() if x not in table and any(r.has(x) for r in rates)}
             table |= {x: sp.Symbol(names.get(k, f"lambda_{k}")) for k, x in left.items()}
-            return [
-                (cast("sp.Expr", x.xreplace(table)), cast("sp.Expr", sp.S.Zero)) for x in rates if x not in pairs
-            ], table
+            return [(cast("sp.Expr", sp.S.Zero), x) for x in rates if x not in pairs], table
         return None
 
 

@@ -20,6 +20,7 @@ from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpret
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
 from lagrangian.check.reading.carried_out.matlab import in_python
+from lagrangian.check.reading.carried_out.moving_names import MovingNames
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -107,7 +108,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         valued = _unnamed(tree, scope, model)
         run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates), valued=valued)
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
-        found = list(_statements(run, _Rates(model, scope)))
+        found = list(_statements(run, MovingNames(model, scope)))
         reader = StateReader(run, text, model, scope)
         with suppress(*TROUBLES):  # a function of its own that returns no rates
             found += _of_states(run, names, reader, loose)
@@ -191,7 +192,7 @@ def _laid_out(lines: Sequence[str], found: Sequence[tuple[int, str]]) -> str:
     return "\n".join(made)
 
 
-def _statements(run: Interpreter, rates: _Rates) -> Iterator[tuple[int, str]]:
+def _statements(run: Interpreter, rates: MovingNames) -> Iterator[tuple[int, str]]:
     """The energies and the equations that are assigned or shown; an equation that is used for another is none."""
     told: set[str] = set()
     hidden = [x for _, method in run.methods for x in method.hidden]
@@ -290,28 +291,6 @@ def _multipliers(
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", scalar(value).xreplace(table))
-
-
-@dataclass(frozen=True, eq=False)
-class _Rates:
-    """Tells what moves: functions of time and their derivatives, coordinates and their rates in letters, thdd."""
-
-    model: Model
-    scope: AnswerScope
-
-    def order(self, value: sp.Expr) -> int:
-        """2 if accelerations stand in a value, 1 if something else in it moves, else 0."""
-        found = [d.derivative_count for d in value.atoms(sp.Derivative)]
-        found += [1 for _ in value.atoms(AppliedUndef)]
-        found += [self._in_letters(x.name) for x in value.atoms(sp.Symbol) if x != TIME]
-        return max([0, *(2 if k == 2 else 1 for k in found if k)])
-
-    def _in_letters(self, name: str) -> int:
-        coordinates = {c.name for c in self.model.coordinates}
-        if set(found := self.scope.meanings(name)[0]):
-            return int(bool(set(found) & coordinates))
-        orders = [k for k, stem in spelled_rates(name) if set(self.scope.meanings(stem)[0]) & coordinates]
-        return max([0, *orders])
 
 
 class _Printer(StrPrinter):

@@ -63,8 +63,9 @@ class StateReader:
             states = [x for x in given.values() if isinstance(x, State)]
             if rates is None:
                 continue
-            found: Any = self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates)
             layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self._rated)
+            found: Any = layouts.of_sums(given, rates)
+            found = found or (self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates))
             found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)

@@ -7,8 +7,6 @@ m L^2 phi''  k(x1 - x2)  2mgL      Eq(a, b)
 
 from __future__ import annotations
 
-import re
-
 from lark import Tree
 
 from lagrangian.check.reading.nodes import (
@@ -31,6 +29,7 @@ from lagrangian.check.reading.plain.calls import PlainCalls
 from lagrangian.check.reading.plain.conditions import AND, NOT, OR
 from lagrangian.check.reading.plain.derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS
 from lagrangian.check.reading.plain.tokens import TOKEN, VARIATION, tokenize
+from lagrangian.check.reading.programs.residuals import CALLED
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.errors import ParseError
 from lagrangian.quantities.source import Source
@@ -38,11 +37,6 @@ from lagrangian.read.explain import explain
 from lagrangian.read.letters import undotted
 
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
-_CALLED = re.compile(
-    r"(?:(?:lag(?:range)?|lhs|my)_?)?(?:(?:eqn?s?|eom|ode|dgl|gl|bwg|equation|residual|res|expr)_?\w{0,12}|e_?\d)",
-    re.IGNORECASE,
-)
-"""What people call an equation in programs: eq1 := m*x'' = F, eom_x = m*x'' - F."""
 _BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
 _NUMBERS = frozenset(["number", "fraction"])
 
@@ -103,8 +97,11 @@ class PlainParser(PlainCalls):
     def sides(self) -> list[Tree]:
         """Read sums with = between them, or Eq(a, b); what a program calls an equation is ignored: eq1 = a == b."""
         texts = [x.text for x in self.tokens]
+        if texts[0] in self.words.names.residuals and "=" in (texts[1:2] + texts[4:5]) and texts.count("=") == 1:
+            self.i = texts.index("=") + 1
+            return [number("0", self.tokens[0].start), *super().sides()]
         called = self.tokens[0].kind == "name" and texts[1:2] == ["="]
-        named = called and _CALLED.fullmatch(texts[0]) and not self.words.names.known(texts[0])
+        named = called and CALLED.fullmatch(texts[0]) and not self.words.names.known(texts[0])
         named = named and (texts.count("=") == 2 or self.words.count(texts[0]) == 1)
         if called and ("==" in texts or texts[2] in _EQUALITIES or named):
             self.i = 2

@@ -57,7 +57,7 @@ def without_sets(written: TracedText) -> TracedText:
     """Return an answer in LaTeX in which sets of equations are equations, one a line."""
     text, edits = written.text, list[Edit]()
     for start, opened, closed, end in (x for form in _SETS for x in _pairs(text, form)):
-        spans = _entries(text, opened, closed)
+        spans = entries_in(text, opened, closed)
         if "\\begin" in text[opened:closed]:
             continue
         if spans and all("=" in text[a:b] for a, b in spans):
@@ -94,7 +94,7 @@ def _edits(text: str, start: int, end: int) -> Iterator[Edit]:
     name = match["name"]
     if name is not None and len(re.findall(rf"(?<!\w){name}(?!\w)", text)) > 1:
         return
-    spans = list(_inner(text, _entries(text, match.end(), close)))
+    spans = list(_inner(text, entries_in(text, match.end(), close)))
     written = [text[a:b] for a, b in spans]
     keys = [_KEY.match(x) for x in written] if match["open"] == "{" else []
     maps = [_MAPS.search(x) for x in written]
@@ -139,7 +139,7 @@ def _called(text: str, start: int, end: int, values: Sequence[tuple[int, int]]) 
 def _side_by_side(text: str, start: int, first: int, last: int, other: int, end: int) -> Iterator[Edit]:
     """The edits that write {a, b} == {c, d} as a = c and b = d, one a line."""
     close = closes(text, other - 1)
-    left, right = _entries(text, first, last), _entries(text, other, close) if close > 0 else []
+    left, right = entries_in(text, first, last), entries_in(text, other, close) if close > 0 else []
     if len(left) == len(right) and not text[close + 1 : end].strip(" \t\n;,."):
         yield start, end, "\n".join(f"{text[a:b]} = {text[c:d]}" for (a, b), (c, d) in zip(left, right, strict=True))
 
@@ -156,7 +156,7 @@ def _listed(
         yield from ((k, k + 1, " ") for k in range(a, b) if text[k] == "\n")
 
 
-def _entries(text: str, start: int, end: int) -> list[tuple[int, int]]:
+def entries_in(text: str, start: int, end: int) -> list[tuple[int, int]]:
     """The places of the entries of a list, without blanks around them; an empty one at its end is none."""
     depth, cuts = 0, [start - 1]
     for at in range(start, end):
@@ -173,6 +173,6 @@ def _inner(text: str, spans: Sequence[tuple[int, int]]) -> Iterator[tuple[int, i
     """The places of entries without brackets of their own around them: rows with one entry, lists in a list."""
     for a, b in spans:
         if text[a] in "[{" and closes(text, a) == b - 1:
-            yield from _entries(text, a + 1, b - 1)
+            yield from entries_in(text, a + 1, b - 1)
         else:
             yield a, b

@@ -94,7 +94,8 @@ _SHOWING = frozenset(_SHOW.split())
 _WORK = (
     "solve solveset linsolve nsolve dsolve Solve NSolve DSolve NDSolve plot Plot show figure input clear syms symbols "
     "var Symbol Function dynamicsymbols Point Particle Body depends assume assuming declare kill load restart exit "
-    "quit init_vprinting init_session lambdify ode45 odeint solve_ivp coeff subs help ODESystem ODEProblem"
+    "quit init_vprinting init_session lambdify ode45 odeint solve_ivp coeff subs help ODESystem ODEProblem "
+    "fsolve vpasolve lsqnonlin nonlinsolve fminsearch"
 )
 _WORKING = frozenset(_WORK.split())
 """Functions that set something up or work on what is known already."""
