@@ -1,4 +1,4 @@
-"""Multipliers in a scale of an answer's own: no wrong inertia hides behind one, and no unit behind the letter of a mass."""
+"""Multipliers in a scale of an answer's own hide no wrong inertia, and no letter of a mass is a unit."""
 
 import pytest
 

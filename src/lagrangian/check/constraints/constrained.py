@@ -140,13 +140,21 @@ def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = [as_equation(truth, line) for line in in_coordinates(truth, lines)]
     other = expanded(truth)
+    lines = _with_held(other, [as_equation(truth, line) for line in in_coordinates(truth, lines)])
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
     second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
     return second if second.right or (truth.values and _rights(second) >= _rights(first)) else first
+
+
+def _with_held(truth: Compared, lines: list[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines; a length in two ways that is the same where constraints hold, ρ = √(s² + d²) = l + r φ, says these."""
+    twice = [line for line in lines if line.kind == "identity" and _names_in(truth, line) <= truth.known]
+    places = list(_places(truth, twice, [], given=False)) if twice and truth.model.constraints else []
+    true = {id(line) for j, line in enumerate(twice) if places and consistent(places, [j])}
+    return [replace(line, kind="equation", name=None) if id(line) in true else line for line in lines]
 
 
 def _rights(verdict: Verdict) -> int:
