@@ -45,3 +45,10 @@ def test_an_abbreviation_is_no_coordinate_of_the_answers_own(more: str) -> None:
     assert hoist().check(sheet).right
     for right, wrong in (("-M s", "-M r s"), ("s' + J s²", "s' + J s"), ("d² s'²/", "s'²/")):
         assert right in sheet and not hoist().check(sheet.replace(right, wrong)).right
+
+
+def test_a_check_gives_abbreviations_values_of_its_own_case() -> None:
+    sheet = f"u = s/√(s² + d²)\n{WITH_ROPE_FORCE.replace('s/ρ', 'u')}r φ' = u s'\n"
+    check = "Check d = 0: u = 1, u' = 0 → (m + J/r²) s'' = m g - M/r - c/r² s'. Plausible."
+    assert hoist().check(sheet + check).right
+    assert not hoist().check(sheet.replace("- S u", "- S") + check).right
