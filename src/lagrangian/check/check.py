@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
+from lagrangian.check.constraints.inputs_beside import judged_with_inputs
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
 from lagrangian.check.constraints.own_angle import without_own_angles
@@ -108,15 +109,7 @@ def _checked(
         verdict = _checked(truth.with_values(numbers.values), numbers.lines, numbers.lines, hint, explain)
         return replace(verdict, notes=(*verdict.notes, *numbers.notes))
     if truth.derivation.multipliers:
-        read = unfolded(truth, without_own_angles(truth, written))
-        verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
-        verdict = energies_on_rows(truth, read.lines, verdict, hint)
-        verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict
-        if not explain:
-            return verdict
-        named = named_beside_multipliers(truth, read.lines, verdict, lambda x: judged_lines(truth, x).findings)
-        named = with_rows_put_in(truth, read.lines, named)
-        return _free(truth, read.lines, named) or with_special_case(truth, named)
+        return judged_with_inputs(truth, written, lambda said: _on_constraints(truth, said, hint, explain))
     written, told = speeds(truth, written)
     forces = without_forces(truth, written)
     if forces is not None:
@@ -128,6 +121,19 @@ def _checked(
         read = _valued(truth, own.lines, own.written, hint, explain and own.sure)
         verdict = replace(read, notes=(*read.notes, own.note)) if read.right or own.sure else verdict
     return replace(verdict, notes=(*told, *verdict.notes))
+
+
+def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
+    """The verdict on an answer for a system with constraints."""
+    read = unfolded(truth, without_own_angles(truth, written))
+    verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
+    verdict = energies_on_rows(truth, read.lines, verdict, hint)
+    verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict
+    if not explain:
+        return verdict
+    named = named_beside_multipliers(truth, read.lines, verdict, lambda x: judged_lines(truth, x).findings)
+    named = with_rows_put_in(truth, read.lines, named)
+    return _free(truth, read.lines, named) or with_special_case(truth, named)
 
 
 def _valued(

@@ -285,6 +285,10 @@ class _AnswerInNumbers:
             if (state := self.onto_rows(other)) is not None:
                 yield self.at(state)
 
+    def heavier(self, here: Groups, count: int) -> Iterator[AnswerAt]:
+        """None: the numbers of the program are those of the parameters."""
+        yield from ()
+
     def onto_rows(self, here: Groups) -> Groups | None:
         """The state moved onto the constraints, with unit quaternions; None where there is none."""
         state = here if self.onto is None else self.onto.of(here)

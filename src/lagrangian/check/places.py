@@ -47,7 +47,7 @@ def place_or_approximation(
     where the line holds, with the values that are ``given`` beside it; ``said``: words say that it is about rest. An
     approximation holds to a higher order than its degree.
     """
-    if "=" in written and _is_input(truth, expr):
+    if "=" in written and gives_input(truth, expr):
         return "it is about one value of an input"
     if "=" in written and _is_small(truth, expr):
         return "it is about small motions"
@@ -106,7 +106,7 @@ def _gives_input(truth: Reference, written: str) -> bool:
     return any(left == key(u.name) for u in truth.model.inputs)
 
 
-def _is_input(truth: Reference, expr: sp.Expr) -> bool:
+def gives_input(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line only gives an input a value: F = 0."""
     changing = {x for x in expr.atoms(AppliedUndef) if x.args}
     if len(changing) != 1 or not changing <= {u.symbol for u in truth.model.inputs} or expr.has(sp.Derivative):

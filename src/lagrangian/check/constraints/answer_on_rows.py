@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian import dynamics
+from lagrangian import bounded, dynamics
 from lagrangian.check.constraints.pressed import directions
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
@@ -18,6 +18,7 @@ from lagrangian.derive import Derived
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
 from lagrangian.graph import Program
+from lagrangian.model.rows import rows_of
 from lagrangian.records import dataclass
 from lagrangian.verify.on_rows import Groups, OnRows, State
 from lagrangian.verify.states import evaluated, state_groups
@@ -65,6 +66,7 @@ class AnswerOnRows:
     def __init__(self, truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic]) -> None:
         d = truth.derivation
         self.truth, self.unknown, self.count = truth, list(unknown), len(lines)
+        self.letters = set[sp.Basic]().union(*(bounded.letters(line.expr) for line in lines))
         self.on_rows, self.programs = _programs(d)
         wanted: list[sp.Expr] = [line.expr for line in lines]
         wanted += [sp.Add(*[sp.Abs(x, evaluate=False) for x in sp.Add.make_args(line.expr)]) for line in lines]
@@ -120,6 +122,13 @@ class AnswerOnRows:
             if (found := self.changed(here[0], {x: float(source.uniform(-1.5, 1.5)) for x in moving})) is not None:
                 yield found
 
+    def heavier(self, here: tuple[State, Groups], count: int) -> Iterator[AnswerAt]:
+        """The same with other values of the masses and moments of inertia that its lines have in letters, if any."""
+        masses = [p for p in inertias(self.truth) if p in self.letters]
+        if masses:
+            other = {**here[0], **{p: here[0][p] * (1.3 + 0.4 * k) for k, p in enumerate(masses)}}
+            yield from self.motions((other, here[1]), count)
+
     def changed(self, state: State, values: Mapping[sp.Basic, float]) -> AnswerAt | None:
         """The answer with other values of some letters, rates or inputs; None where no state on the rows is near."""
         other = {**state, **values}
@@ -129,3 +138,14 @@ class AnswerOnRows:
         other.update({c.symbol: x for c, x in zip(self.coordinates, groups["q"], strict=True)})
         other.update({c.rate: x for c, x in zip(self.coordinates, groups["v"], strict=True)})
         return self.at((other, groups))
+
+
+@lru_cache(maxsize=32)
+def inertias(truth: Reference) -> tuple[sp.Symbol, ...]:
+    """The parameters in which the kinetic co-energy is linear, as in masses, and that no constraint holds."""
+    model = truth.model
+    held = set[sp.Basic]().union(*(bounded.letters(row.rate) for row in rows_of(model)))
+    moving = bounded.letters(truth.T) - held
+    return tuple(
+        p.symbol for p in model.parameters if p.symbol in moving and not bounded.diff(truth.T, p.symbol).has(p.symbol)
+    )

@@ -25,6 +25,7 @@ from lagrangian.check.constraints.answer_on_rows import AnswerAt, AnswerOnRows
 from lagrangian.check.constraints.between_bodies import other_forms
 from lagrangian.check.constraints.determined import SMALL, accelerations_determined, ends_right, in_span
 from lagrangian.check.constraints.in_rates import in_coordinates
+from lagrangian.check.constraints.own_scales import are_scaled, solved
 from lagrangian.check.constraints.pressed import SizeReading, direction_symbols, readings
 from lagrangian.check.coordinates.chart import of_unknown
 from lagrangian.check.names.results import FORCE, is_factor_of_forces, results_in
@@ -47,9 +48,6 @@ STATES = 8
 POSITIONS = 3
 """Positions at which an answer's multipliers are compared with those of the system."""
 
-ROUGH = 1e-6
-"""The relative size of a difference of multipliers that is more than rounding."""
-
 MOST = 10
 """Lines among which those are sought that are true together."""
 
@@ -70,6 +68,10 @@ class Answered(Protocol):
 
     def motions(self, here: Any, count: int) -> Iterator[AnswerAt]:
         """The answer at ``count`` other motions from the position of a state."""
+        ...
+
+    def heavier(self, here: Any, count: int) -> Iterator[AnswerAt]:
+        """The same with other values of the inertias that its lines have in letters, if any."""
         ...
 
 
@@ -138,13 +140,21 @@ def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
 
 
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
-    lines = [as_equation(truth, line) for line in in_coordinates(truth, lines)]
     other = expanded(truth)
+    lines = _with_held(other, [as_equation(truth, line) for line in in_coordinates(truth, lines)])
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
     second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
     return second if second.right or (truth.values and _rights(second) >= _rights(first)) else first
+
+
+def _with_held(truth: Compared, lines: list[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines; a length in two ways that is the same where constraints hold, ρ = √(s² + d²) = l + r φ, says these."""
+    twice = [line for line in lines if line.kind == "identity" and _names_in(truth, line) <= truth.known]
+    places = list(_places(truth, twice, [], given=False)) if twice and truth.model.constraints else []
+    true = {id(line) for j, line in enumerate(twice) if places and consistent(places, [j])}
+    return [replace(line, kind="equation", name=None) if id(line) in true else line for line in lines]
 
 
 def _rights(verdict: Verdict) -> int:
@@ -160,7 +170,7 @@ def _as_read(truth: Reference, read: SizeReading) -> bool:
     for given in (False, True):
         places = _places(other, equations, unknown, given=given)
         if all(
-            read.fits(dict(zip(unknown, map(float, _solved(p)), strict=True)), p.multipliers.tolist()) for p in places
+            read.fits(dict(zip(unknown, map(float, solved(p)), strict=True)), p.multipliers.tolist()) for p in places
         ):
             return True
     return False
@@ -253,7 +263,7 @@ def _places(
 
 
 def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:
-    """Whether the answer's multipliers are those of the system times what depends on the position alone.
+    """Whether the answer's multipliers are those of the system times what depends on the position alone, not on masses.
 
     A multiplier that also takes up a slip in its equation, such as a centrifugal term left out, is not: at one
     position it changes otherwise with rates and inputs.
@@ -265,15 +275,8 @@ def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequenc
         found = list(answer.motions(here, len(rows_of(truth.model)) + 4))
         if any(np.linalg.matrix_rank(p.by_multiplier, tol=1e-8) < len(unknown) for p in found):
             return True  # a multiplier that no line determines
-        own, right = np.array([_solved(p) for p in found]), np.array([p.multipliers for p in found])
-        if len(found) <= right.shape[1] + 1 or not (np.isfinite(own).all() and np.isfinite(right).all()):
-            continue
-        rest = own - right @ np.linalg.lstsq(right, own, rcond=1e-10)[0]
-        if np.abs(rest).max() > ROUGH * np.abs(own).max():
+        if are_scaled(found, list(answer.heavier(here, len(found)))) is False:
             return False
-        sizes = np.abs(own).max(axis=0), np.abs(right).max(axis=0)
-        if min(sizes[0]) <= SMALL * max(sizes[1]) < min(sizes[1]):
-            return False  # no force at all, where every constraint has one
     return True
 
 
@@ -367,7 +370,7 @@ def _named(truth: Compared, unknown: Sequence[sp.Basic], places: Sequence[Answer
     names = list(truth.derivation.multipliers.values())
     order = [row.name for row in rows_of(truth.model)]
     for k, s in enumerate(unknown):
-        found = [_solved(p)[k] for p in places]
+        found = [solved(p)[k] for p in places]
         for known in names:
             theirs = [p.multipliers[order.index(known.name)] for p in places]
             ratios = [x / y for x, y in zip(found, theirs, strict=True) if abs(y) > SMALL]
@@ -382,8 +385,3 @@ def _named(truth: Compared, unknown: Sequence[sp.Basic], places: Sequence[Answer
         else:
             if all(plain(known.symbol) != plain(s) for known in names):
                 yield text(f"'{plain(s)}' was read as a multiplier with a scale of your own.")
-
-
-def _solved(place: AnswerAt) -> Array:
-    """The answer's multipliers at a state."""
-    return np.asarray(np.linalg.lstsq(place.by_multiplier, -place.value, rcond=1e-10)[0], float)

@@ -17,9 +17,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.held import held
+from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reading import OwnCoordinates, named, of_coordinate, replaced_by
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
@@ -38,10 +39,13 @@ def chart(truth: Reference, lines: tuple[AnsweredLine, ...]) -> OwnCoordinates |
     """The coordinates of an answer, whose definitions say what its own are; None if they are those of the system, or
     if it is not clear which ones its own replace."""
     coordinates = [c.symbol for c in truth.model.coordinates]
-    stated, gone = replaced(truth, lines)
     on = held(truth) if truth.derivation.multipliers else None
     table = on.table if on is not None else {}
     rows = tuple(q - table[q] for q in coordinates if q in table)
+    stated, gone = replaced(truth, [x for x in lines if on is None or not _is_kinematic(x, on)])
+    if len(gone) <= len(rows):  # the constraints say what became of these: other names are abbreviations
+        asked = _names_of_quantities(lines)
+        stated = [x for x in stated if key(str(x.name)) in asked]
     own = tuple((key(str(line.name)), line.expr) for line in stated)
     return replaced_by(own, gone, tuple(coordinates), rows) if gone else None
 
@@ -67,14 +71,26 @@ def replaced(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[list[Answ
     moving = [x for x in lines if x.kind == "equation" and _has_any(x, [c.acceleration for c in coordinates])]
     moving = moving or [x for x in lines if x.kind != "definition" and _has_any(x, [c.rate for c in coordinates])]
     used = {name for x in moving for name in x.names or map(named, x.expr.atoms(AppliedUndef))}
-    used |= {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not is_numbered(x)}
-    used |= {key(found[1]) for line in lines if (found := _stated(line)) is not None}
+    used |= _names_of_quantities(lines)
     own = {key(c.name) for c in coordinates}
     of_system = (AnsweredLine("definition", truth.expand(d.symbol), 0, d.name) for d in truth.model.definitions)
     defined = (x for x in (*of_system, *lines) if x.kind == "definition" and _is_place(truth, x))
     said = {key(str(x.name)): x for x in defined}
     stated = [x for name, x in said.items() if name in used and name not in own]
     return stated, tuple(c.symbol for c in coordinates if key(c.name) not in used)
+
+
+def _names_of_quantities(lines: Sequence[AnsweredLine]) -> set[str]:
+    """The coordinates for which an answer states a quantity."""
+    named = {key(str(x.name)) for x in lines if x.kind in OF_COORDINATES and not is_numbered(x)}
+    return named | {key(found[1]) for line in lines if (found := _stated(line)) is not None}
+
+
+def _is_kinematic(line: AnsweredLine, on: OnConstraints) -> bool:
+    """Whether a line only says what constraints do, φ'' = x''/R: it is no equation of motion in φ."""
+    if line.kind != "equation" or not line.expr.has(*on.table):
+        return False
+    return zero_everywhere(on, on.put_in(line.expr))
 
 
 def system_coordinates(truth: Reference) -> OwnCoordinates:

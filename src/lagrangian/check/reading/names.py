@@ -16,6 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
@@ -33,13 +34,10 @@ T = TypeVar("T")
 MAX_NAME = 64
 MAX_UNKNOWN = 100
 """The largest number of unknown names in an answer."""
-
 MAX_HINTS = 20
 """The largest number of unknown names for which a suggestion is sought."""
-
 SHORTEST_NEAR, NEAR = 4, 0.8
-"""In LaTeX, where adjacent letters are a product: the fewest letters of a misspelled name, and the required
-similarity."""
+"""In LaTeX, where adjacent letters are a product: the fewest letters of a misspelled name, and its similarity."""
 
 PI = ("pi", "π", "Pi", "PI")
 """Names of π, also of programs."""
@@ -69,7 +67,7 @@ class Names:
         self.derivatives: dict[tuple[Value, sp.Expr], Value] = {}
         self.stating: set[str] = set()
         """The energies that lines of the answer state."""
-        self.relations = StatedRelations(model)
+        self.relations, self.inputs = StatedRelations(model), OwnInputs(model)
         self.moving = self.matrices = False
         """Whether the statement that is being read has accelerations (an energy must be stated then), and matrices."""
         self.columns = False
@@ -151,7 +149,7 @@ class Names:
     def define(self, written: str, value: Value) -> None:
         """Give a name of the answer its meaning; a number beside a value that moves is only one position."""
         base = key(undotted(written)[0])
-        above = self.own.get(base)
+        value, above = self.inputs.meant(written, value, self.occurs, self.notes), self.own.get(base)
         if above is not None and above[1].atoms(AppliedUndef) and isinstance(value, sp.Expr) and value.is_number:
             self.notes.setdefault(f"'{written} = {value}' was not judged: {written} moves, this is one position.")
             return

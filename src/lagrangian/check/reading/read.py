@@ -294,7 +294,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
 def _choose(reading: Choices, words: Words, lines: Lines) -> None:
     """Set how words and relations of coordinates are read."""
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
-    lines.names.relations.put = reading.put
+    lines.names.relations.put, lines.names.inputs.put = reading.put, reading.driven
 
 
 def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:
@@ -302,6 +302,8 @@ def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> 
     yield from marked_readings(marked(), lines.failed) if lines.failed else ()
     if lines.names.relations.asked:
         yield Choices(put=True)
+    if lines.names.inputs.asked:
+        yield Choices(driven=True)
 
 
 def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:

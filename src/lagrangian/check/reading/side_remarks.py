@@ -141,7 +141,12 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     told = [
         r for r in found if not _REST.search(text[r.start : r.end].split("=", 1)[0])
     ]  # a value at rest is no meaning
-    used = [r for r in told if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known))]
+    stated = {m["name"] for m in _STATED.finditer(bare)}  # for d = 0: u = 1, where another line says what u is
+    used = [
+        r
+        for r in told
+        if any(_uses(bare, name) for name in _explained(text[r.start : r.end], known) if name not in stated)
+    ]
     bare = _blanked(text, [r for r in found if r not in used]) if used else bare
     changed = [k for k, at in enumerate(starts[:-1]) if not bare.startswith(lines[k], at)]
     said: dict[int, frozenset[str]] = {}

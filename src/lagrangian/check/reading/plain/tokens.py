@@ -84,7 +84,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
     tokens: list[AnswerToken] = []
     at = 0
     value = (given := _VALUE.fullmatch(text)) is not None and _is_unit(given["behind"], given["name"], words)
-    units = value or words.units or _in_units(text, words)
+    units = value or _in_units(text, words)
     while at < len(text):
         match = TOKEN.match(text, at)
         assert match is not None
@@ -179,9 +179,9 @@ def with_points(text: str) -> str:
 
 
 def _in_units(text: str, words: Words) -> bool:
-    """Whether what follows the numbers of a statement are units: one is no product of names, 300 N/m, and nothing else
-    in the statement is a parameter: (8 kg + 2 kg) x'' + 300 N/m x = F."""
-    rest, at, sure = "", 0, False
+    """Whether what follows the numbers of a statement are units: one is no product of names, 300 N/m, or the answer is
+    read so, and nothing else in the statement is a parameter: (8 kg + 2 kg) x'' + 300 N/m x = F."""
+    rest, at, sure = "", 0, words.units
     for match in islice(_NUMBER.finditer(text), MOST):
         if match.start() >= at and (end := _unit(text, match.end(), words, True)[1]) > match.end():
             unit, behind = text[match.end() : end].strip(), _BEHIND.match(text, end)
