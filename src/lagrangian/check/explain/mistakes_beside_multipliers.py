@@ -10,6 +10,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.constraints.exchanged_factors import with_exchanged
 from lagrangian.check.constraints.multipliers import with_own_multipliers
 from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences
 from lagrangian.check.explain.consequences import SMALL
@@ -53,6 +54,7 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
+    read = with_exchanged(truth, read, lines)
     judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
     judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
