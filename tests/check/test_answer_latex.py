@@ -39,6 +39,7 @@ PENDULUM = m * L**2 * theta.diff(t, 2) + b * theta.diff(t) + m * g * L * sp.sin(
         r"\boxed{mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0}",
         r"$$\underline{\underline{m\underline{L}^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0}}$$",
         r"\begin{align*} \theta:&\quad mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0 \end{align*}",
+        r"\begin{align*} \delta\theta:&\quad mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0 \end{align*}",
         r"\begin{eqnarray} mL^2\ddot\theta + b\dot\theta &=& - mgL\sin\theta:\end{eqnarray}",
         r"(1)\quad mL^2\ddot\theta = -b\dot\theta - mgL\sin\theta \qquad (1)",
         r"\mathrm{m}L^2\ddot{\theta}+\frac{b}{1}\dot\theta+\tfrac22 mgL\sin \theta=0",

@@ -199,3 +199,42 @@ def test_what_is_lost_when_a_constraint_is_differentiated_is_the_cause_of_what_f
 def test_a_spring_that_is_tied_to_another_body_is_named(belt: lg.Derivation) -> None:
     answer = FORCES.format("", " + k l sin(th)", " + k (x + l sin(th)) l cos(th)")
     assert "The deflection of spring 'spring' is taken as l*sin(th) + x; it is x." in told(belt, answer)
+
+
+@pytest.fixture(scope="module")
+def mast() -> lg.Derivation:
+    """A block on a mast, which a rod holds up from a cart."""
+    s = lg.System("mast")
+    x, d, h = s.coordinates("x d h")
+    m1, m2, m3, ell, g = s.parameters("m1 m2 m3 l g")
+    s.particle(m1, at=s.point("trolley", (x, 0)), name="trolley")
+    tail, block = s.point("tail", (x + d, 0)), s.point("block", (x, h))
+    s.particle(m2, at=tail, name="tail")
+    s.particle(m3, at=block, name="block")
+    s.gravity(direction=(0, -1), g=g)
+    s.constraint(d**2 + h**2 - ell**2, name="rod")
+    return s.derive()
+
+
+LAWS = """d^2 + h^2 = l^2
+m1 x'' = -N
+m3 x'' = N - S {0}/l
+m3 h'' = S {1}/l - m3 g
+m2 (x'' + d'') = S {0}/l"""
+
+
+@pytest.mark.parametrize("dropped", ["", "m1 x'' = -N\nm3 x'' = N - S {0}/l\n"])
+def test_factors_of_a_force_that_are_exchanged_are_one_mistake(mast: lg.Derivation, dropped: str) -> None:
+    laws = LAWS.replace(dropped, "(m1 + m2 + m3) x'' + m2 d'' = 0\n") if dropped else LAWS
+    assert mast.check(laws.format("d", "h")).right
+    verdict = mast.check(laws.format("h", "d"))
+    assert not verdict.right and verdict.findings[0].status.right, verdict.to_text()
+    (mistake,) = verdict.mistakes
+    assert "The factors of the multiplier S are exchanged" in str(mistake.what), verdict.to_text()
+
+
+def test_a_line_without_unknown_forces_is_judged_beside_them(mast: lg.Derivation) -> None:
+    verdict = mast.check(
+        "d^2 + h^2 = l^2\n(m1 + m2 + m3) x'' + m2 d'' = 0\nm3 h'' = S + N - P\nm2 (x'' + d'') = S P - N"
+    )
+    assert [f.status.right for f in verdict.findings] == [True, True, False, False], verdict.to_text()

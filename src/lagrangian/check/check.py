@@ -28,6 +28,7 @@ from lagrangian.check.explain.definitions import with_right_definitions, with_wr
 from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
+from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
@@ -131,9 +132,10 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
     verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict
     if not explain:
         return verdict
-    named = named_beside_multipliers(truth, read.lines, verdict, lambda x: judged_lines(truth, x).findings)
-    named = with_rows_put_in(truth, read.lines, named)
-    return _free(truth, read.lines, named) or with_special_case(truth, named)
+    own = without_other_forces(truth, read.lines, verdict, lambda x: check_in_any_angle(truth, x, hint))
+    named = named_beside_multipliers(truth, own.lines, own.verdict, lambda x: judged_lines(truth, x).findings)
+    named = with_rows_put_in(truth, own.lines, named)
+    return _free(truth, own.lines, named) or with_special_case(truth, named)
 
 
 def _valued(

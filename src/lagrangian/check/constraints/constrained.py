@@ -193,7 +193,7 @@ def verdict_at_states(truth: Compared, lines: Sequence[AnsweredLine], hint: int,
     forces = [s for s in unknown if is_factor_of_forces(s, equations)]
     if equations and (len(unknown) > len(truth.derivation.multipliers) or len(forces) < len(unknown)):
         notes += [not_there(truth.model, s) for s in unknown]
-        found = {id(line): Finding(line, Status.WRONG) for line in equations}
+        found |= _beside_unknown(truth, equations, unknown, given=given)
         status = Status.WRONG
     elif equations:
         places = list(_places(truth, equations, unknown, given=given))
@@ -260,6 +260,17 @@ def _places(
     answer = truth.answer(lines, unknown)
     for here in answer.states(STATES, given=given):
         yield answer.at(here)
+
+
+def _beside_unknown(
+    truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
+) -> dict[int, Finding]:
+    """The findings where names are not understood: only lines without these can be right."""
+    known = [line for line in lines if _names_in(truth, line).isdisjoint(unknown)]
+    places = list(_places(truth, known, [], given=given)) if known else []
+    true = _true_lines(places, len(known)) if places else set[int]()
+    found = {id(line): Finding(line, Status.WRONG) for line in lines}
+    return found | {id(x): _finding(truth, x, j, places, True) for j, x in enumerate(known) if j in true}
 
 
 def _are_forces(truth: Compared, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool) -> bool:

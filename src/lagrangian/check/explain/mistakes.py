@@ -153,8 +153,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
         slip = of_slip(pool, line)
         own += slip
         left += [] if slip else [line]
-    groups = [by_sums(pool, g, lines) for g in groups]
-    groups = [x for g in groups if (x := [e for e in g[:MOST_TOLD] if _is_said(pool.truth, e, quotable)])]
+    groups = [x for g in groups if (x := _tellable(pool, g, lines, quotable))]
     named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
     of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
@@ -192,6 +191,11 @@ def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
         return True
     same = [f for f in findings if f.line.kind == line.kind == "Xi" and f.line.name == line.name]
     return any(f.status.right for f in same) or finding in same[1:]
+
+
+def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: set[sp.Basic]) -> list[Explanation]:
+    """The likeliest explanations whose words quote only what was written."""
+    return [e for e in by_sums(pool, found, lines)[:MOST_TOLD] if _is_said(pool.truth, e, quotable)]
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:

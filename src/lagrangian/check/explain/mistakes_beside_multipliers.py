@@ -10,11 +10,12 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.constraints.exchanged_factors import with_exchanged
 from lagrangian.check.constraints.multipliers import with_own_multipliers
 from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences
 from lagrangian.check.explain.consequences import SMALL
 from lagrangian.check.explain.constraint_mistakes import beside_constraints
-from lagrangian.check.explain.constraint_slips import wrong_constraints
+from lagrangian.check.explain.constraint_slips import WrongConstraint, wrong_constraints
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.explain.put_in_terms import with_terms_put_in
@@ -53,17 +54,14 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
+    read = with_exchanged(truth, read, lines)
     judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
     judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
-    slipped = [lines[j].number for j in read.wrong]
-    others = [f.line.number for f in judged if f.status is Status.WRONG and not f.follows]
-    first = min((x.finding.line.number for x in wrong if not x.follows), default=None)
-    above = own is not None or (not wrong and min(slipped, default=0) < min(others, default=0))
-    above = above or (first is not None and first <= min(others, default=first))
+    above = own is not None or _are_above(wrong, [lines[j].number for j in read.wrong], judged)
     told = (*of_constraints, *named.told) if above else (*named.told, *of_constraints)
     if not told:
         return verdict
@@ -88,6 +86,16 @@ def named_beside_multipliers(
     return replace(
         verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
     )
+
+
+def _are_above(wrong: Sequence[WrongConstraint], slipped: Sequence[int], findings: Findings) -> bool:
+    """Whether what is wrong with constraints, or else the multipliers that ``slipped``, stands above all else that is
+    wrong."""
+    others = [f.line.number for f in findings if f.status is Status.WRONG and not f.follows]
+    first = min((x.finding.line.number for x in wrong if not x.follows), default=None)
+    if first is not None:
+        return first <= min(others, default=first)
+    return not wrong and min(slipped, default=0) < min(others, default=0)
 
 
 def _clashing(finding: Finding, other: Finding) -> Finding:

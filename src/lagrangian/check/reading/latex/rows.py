@@ -60,7 +60,7 @@ _LETTER_BEFORE = re.compile(
 )
 """A letter or a number with a bracket that nothing opens, perhaps after a word, and Roman numbers: ad a), (ii)."""
 _NAME_BEFORE = re.compile(
-    rf"{_SPACE}(?:\\[A-Za-z]{{2,12}}|[^\W\d_])(?:\s?_\s?(?:\w|\{{\w{{1,8}}\}}))?\s*:(?={_SPACE}[^\s=])(?=.*=)",
+    rf"{_SPACE}(?:\\delta\s*+)?(?:\\[A-Za-z]{{2,12}}|[^\W\d_])(?:\s?_\s?(?:\w|\{{\w{{1,8}}\}}))?\s*:(?={_SPACE}[^\s=])(?=.*=)",
     re.DOTALL,
 )
 """The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F."""

@@ -1,0 +1,56 @@
+"""Explains an answer by Newton's laws with more forces than constraints: those between its bodies are eliminated first.
+
+m₁ ẍ = F − N and m₃ ẍ = N − S d/l beside the force S of a rod: N is no force of a constraint of the system, and what the
+two lines say together is compared with its equations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from itertools import combinations, islice
+
+from lagrangian.check.constraints.constrained import expanded, unknown_names
+from lagrangian.check.constraints.eliminated import without_forces
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.records import dataclass
+
+MOST = 6
+"""The largest number of choices of forces that stay."""
+
+
+@dataclass(frozen=True, eq=False)
+class WithoutOthers:
+    """The lines without the forces between bodies, and the verdict on them."""
+
+    lines: tuple[AnsweredLine, ...]
+    verdict: Verdict
+
+
+def without_other_forces(
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    verdict: Verdict,
+    judge: Callable[[Sequence[AnsweredLine]], Verdict],
+) -> WithoutOthers:
+    """The wrong answer without all but as many unknown forces as the system has multipliers, those of which most lines
+    are right; as it is if there are not more."""
+    found = WithoutOthers(tuple(lines), verdict)
+    equations = [line for line in lines if line.kind == "equation"]
+    unknown = unknown_names(expanded(truth), equations) if verdict.status is Status.WRONG else []
+    own = {m.symbol for m in truth.derivation.multipliers.values()}
+    if len(unknown) <= len(own):
+        return found
+    for kept in islice(combinations(unknown, len(own)), MOST):
+        read = without_forces(truth, lines, {*kept, *own})
+        other = judge(read.lines) if read is not None else None
+        if read is None or other is None or other.status is not Status.WRONG or _rights(other) < _rights(found.verdict):
+            continue
+        found = WithoutOthers(read.lines, replace(other, notes=(*other.notes, read.note)))
+    return found
+
+
+def _rights(verdict: Verdict) -> int:
+    """How many lines are right."""
+    return sum(f.status.right for f in verdict.findings)
