@@ -10,7 +10,8 @@ from sympy.physics.mechanics import dynamicsymbols
 import lagrangian as lg
 from effort import at_most
 from lagrangian import bounded
-from lagrangian.bounded import searches
+from lagrangian.bounded import searches, writing
+from lagrangian.bounded.effort import CallCount
 
 a, b, c, d, e = sp.symbols("a b c d e")
 q, w = dynamicsymbols("q w")
@@ -238,7 +239,7 @@ def test_a_search_that_was_given_up_is_sought_again(monkeypatch: pytest.MonkeyPa
     """Whether it ends may depend on what is counted around it."""
     expr = a * b + a * c
     with monkeypatch.context() as patch:
-        patch.setattr(searches, "searched", lambda routine, x: None)
+        patch.setattr(searches, "_counted", lambda routine, arguments, calls: (None, calls))
         assert bounded.factored(expr) is None and bounded.cancel(expr) == expr
     assert bounded.factored(expr) == a * (b + c)
 
@@ -247,3 +248,41 @@ def test_sines_are_only_sought_where_there_are_some() -> None:
     with at_most(500):
         assert bounded.trigsimp((a + b) ** 2 * q - w / c) == (a + b) ** 2 * q - w / c
     assert bounded.trigsimp(sp.cosh(q) ** 2 - sp.sinh(q) ** 2) == 1
+
+
+def test_a_kept_search_counts_each_time_in_a_question() -> None:
+    """Else an answer that is refused as too long would be judged when it comes again."""
+    expr = (a * q + b * q) ** 3 / (a + b) + (c * w + d * w) ** 2 / (c + d)
+
+    def calls() -> int:
+        count = CallCount(1_000_000, anywhere=False)
+        count.run(lambda: bounded.cancel(bounded.together(expr)))
+        return count.limit - count.left
+
+    first, again = calls(), calls()
+    assert first > 1_000 and abs(first - again) < 0.1 * first
+    with at_most(first // 2):
+        bounded.cancel(bounded.together(expr))  # it is still not sought again
+
+
+PLAIN = [
+    a * (b + c * (d - q)) * sp.sin(q * (a + b)) - (a + b) ** 3 / (c + d) ** 2,
+    sp.Derivative(q, t) * (a + q) ** 2 * sp.cosh(2 * (a + b) * w),
+    a * b - c * sp.cos(q) ** 2,
+    sp.sqrt(a * b) * (c + d) + (a * b) ** e * (a + 1),
+    sp.log(a * b) * (a + sp.exp(b + c)),
+    sp.Pow(sp.Mul(a, b, evaluate=False), 2, evaluate=False) * (c + 1),
+    sp.Piecewise((a * (b + c), a > b), (0, True)) * (d + e),
+    (a + sp.sqrt(b + c)) ** 2 * sp.atan2(a * (b + c), d),
+]
+
+
+@pytest.mark.parametrize("expr", PLAIN)
+def test_rules_that_change_nothing_are_left_out_of_an_expansion(expr: sp.Expr) -> None:
+    assert writing._multiplied(expr) == sp.expand(expr)
+
+
+def test_letters_that_are_kept_are_not_changed_by_who_asks() -> None:
+    expr = a * q + b
+    bounded.letters(expr).clear()
+    assert bounded.letters(expr) == {a, b, q, t}

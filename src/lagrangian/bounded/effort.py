@@ -38,8 +38,6 @@ class CallCount:
 
     def called(self, frame: FrameType, event: str, argument: object) -> None:
         """Count a call; raise `SpentError` where an exception does no harm if none are left."""
-        if self.former is not None:
-            self.former(frame, event, argument)
         if event == "call":
             self.left -= 1
             # an exception raised while a generator is closed is lost, and Python would stop counting; our own objects
@@ -51,13 +49,19 @@ class CallCount:
             ):
                 raise SpentError
 
+    def _told(self, frame: FrameType, event: str, argument: object) -> None:
+        """Tell a profiler of what happens, and count."""
+        if self.former is not None:
+            self.former(frame, event, argument)
+        self.called(frame, event, argument)
+
     def run(self, routine: Callable[[], T]) -> T:
         """Return the result of a routine; raise `SpentError` if it makes too many calls."""
         before = sys.getprofile()
         if self.outer is None and callable(before):
             self.former = before  # whoever profiles goes on seeing every call
         _running.count = self
-        sys.setprofile(self.called)
+        sys.setprofile(self.called if self.former is None else self._told)  # most events are of no call: each costs
         try:
             return routine()
         except SpentError:

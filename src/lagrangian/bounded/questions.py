@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -31,6 +31,9 @@ INSIDE = 12
 HIGH = 6
 """A power of a sum is hard if its exponent has a larger numerator or denominator."""
 
+MOST_GIVEN_UP = 30
+"""The number of questions of a kind that are remembered as given up."""
+
 NUMBERS = Advice(
     *("shorten the expressions, or use ", Verb("simulate"), ", ", Verb("linearize"), ", ", Verb("export")),
     " or, in Python, compile(), which do not need the written equations",
@@ -39,27 +42,47 @@ NUMBERS = Advice(
 
 
 def answered(
-    doing: str, is_hard: Callable[..., bool], fix: str = NUMBERS
+    doing: str, is_hard: Callable[..., bool], fix: str = NUMBERS, *, once: bool = False
 ) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Decorate a question about a system: it ends with `TooLarge` after `QUESTION` calls if ``is_hard`` says so.
 
-    Questions inside a counted question share its count. ``doing`` is the subject of the error's sentence.
+    Questions inside a counted question share its count. ``doing`` is the subject of the error's sentence. With
+    ``once`` one that was given up is not tried again: what is kept of the first try would let the second one come
+    further. This is for questions about what does not change.
     """
+    given_up: dict[object, None] = {}
 
     def decorate(question: Callable[P, T]) -> Callable[P, T]:
         @wraps(question)
         def asked(*args: P.args, **named: P.kwargs) -> T:
             if is_counted() or not is_hard(*args, **named):
                 return question(*args, **named)
+            asked_for = _key(args, named) if once else None
+            if asked_for is not None and asked_for in given_up:
+                raise TooLarge(f"{doing} takes more than {QUESTION} steps", fix=fix, code="E601")
             try:
                 return CallCount(QUESTION, anywhere=False).run(lambda: question(*args, **named))
             except SpentError:
                 pass
+            if asked_for is not None:
+                given_up[asked_for] = None
+                while len(given_up) > MOST_GIVEN_UP:
+                    del given_up[next(iter(given_up))]
             raise TooLarge(f"{doing} takes more than {QUESTION} steps", fix=fix, code="E601")
 
         return asked
 
     return decorate
+
+
+def _key(args: tuple[Any, ...], named: dict[str, Any]) -> object:
+    """What a question is about, to know it again; None for what may change."""
+    try:
+        key = QUESTION, tuple(tuple(x) if isinstance(x, list) else x for x in args), tuple(sorted(named.items()))
+        hash(key)
+    except TypeError:
+        return None
+    return key
 
 
 def hard(expressions: Iterable[sp.Basic], plain: int = PLAIN) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any, TypeVar, cast
 
@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from lagrangian.bounded.effort import CallCount, SpentError
+from lagrangian.bounded.effort import CallCount, SpentError, count_operations
 from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
 
 T = TypeVar("T")
@@ -24,15 +24,20 @@ PROOFS = 10_000
 
 def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
     """Return the result of one of SymPy's routines, or None if it makes more than ``calls`` calls."""
+    return _counted(routine, arguments, calls)[0]
+
+
+def _counted(routine: Callable[..., T], arguments: Sequence[Any], calls: int) -> tuple[T | None, int]:
+    """The same, and how many calls it made."""
     counted = CallCount(calls, anywhere=True)
     try:
-        return counted.run(lambda: routine(*arguments))
+        return counted.run(lambda: routine(*arguments)), counted.limit - counted.left
     except SpentError:
         if counted.outer is not None and counted.outer.left < 0:
             raise  # the question within which it was searched is given up, too
-        return None
+        return None, calls
     except RecursionError:
-        return None
+        return None, calls
 
 
 def is_zero(value: Any) -> bool:
@@ -93,10 +98,28 @@ class _GivenUpError(Exception):
     """A search was given up: how far it came may depend on what was counted around it, so this is not kept."""
 
 
-@lru_cache(maxsize=2_000)
+class _Result:
+    """What a search found, how many calls it made, and whether these were counted by whoever asked first."""
+
+    def __init__(self, found: Any, calls: int) -> None:
+        self.found, self.calls, self.counted = found, calls, False
+
+
 def _searched_once(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
-    """The result of a search, kept: the same is sought in many lines and in many answers."""
-    found = searched(routine, expr)
+    """The result of a search, kept: the same is sought in many lines and in many answers.
+
+    In a question that is counted it counts each time, so that the end does not depend on what was asked before.
+    """
+    kept = _kept(routine, expr)
+    if kept.counted:
+        count_operations(kept.calls)
+    kept.counted = True
+    return cast("sp.Expr", kept.found)
+
+
+@lru_cache(maxsize=2_000)
+def _kept(routine: Callable[[Any], Any], expr: sp.Expr) -> _Result:
+    found, calls = _counted(routine, (expr,), CALLS)
     if found is None:
         raise _GivenUpError
-    return cast("sp.Expr", found)
+    return _Result(found, calls)

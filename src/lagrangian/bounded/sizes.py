@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
 from math import comb
 from typing import Any
 
@@ -84,7 +85,13 @@ def names(expr: sp.Basic) -> set[sp.Basic]:
 
 def letters(expr: sp.Basic) -> set[Any]:
     """Return the symbols and functions of time in an expression, with time and what stands only below a derivative."""
-    return {*expr.free_symbols, *expr.atoms(AppliedUndef)}
+    return set(_letters(expr))
+
+
+@lru_cache(maxsize=5_000)
+def _letters(expr: sp.Basic) -> frozenset[Any]:
+    """The same, kept: every reader of a line asks for them."""
+    return frozenset((*expr.free_symbols, *expr.atoms(AppliedUndef)))
 
 
 def terms(expr: sp.Basic) -> int:

@@ -7,6 +7,9 @@ from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.hyperbolic import HyperbolicFunction
+from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from lagrangian.bounded.parts import bent, replaced
 from lagrangian.bounded.searches import cancel, together
@@ -22,10 +25,39 @@ def expand(expr: sp.Expr) -> sp.Expr:
 
     Maxima and cases stay as they are, as SymPy would try to prove their conditions.
     """
-    return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(sp.expand, expr)
+    return _expanded(expr)
 
 
 @lru_cache(maxsize=5_000)
+def _expanded(expr: sp.Expr) -> sp.Expr:
+    return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(_multiplied, expr)
+
+
+def _multiplied(expr: sp.Expr) -> sp.Expr:
+    """What SymPy's expand returns, without its rules for logarithms and powers of products where none of these is."""
+    sums = False
+    for node in each(expr):
+        if isinstance(node, sp.Pow):
+            if not isinstance(node.args[1], sp.Integer) or isinstance(node.args[0], sp.Mul):
+                return cast("sp.Expr", sp.expand(expr))
+            sums = sums or isinstance(node.args[0], sp.Add)
+        elif isinstance(node, sp.Mul):
+            sums = sums or any(isinstance(a, sp.Add) for a in node.args)
+        elif node.args and not isinstance(node, _PLAIN) and not _is_of_time(node):
+            return cast("sp.Expr", sp.expand(expr))
+    return cast("sp.Expr", sp.expand(expr, **_SUMS_ONLY)) if sums else expr
+
+
+def _is_of_time(node: sp.Basic) -> bool:
+    """Whether a node is a coordinate or an input, or a rate, in which nothing can be multiplied out."""
+    function = node.expr if isinstance(node, sp.Derivative) else node
+    return isinstance(function, AppliedUndef) and all(a.is_Atom for a in function.args)
+
+
+_PLAIN: tuple[Any, ...] = (sp.Add, TrigonometricFunction, HyperbolicFunction)
+_SUMS_ONLY: dict[str, bool] = {"basic": False, "log": False, "power_base": False, "power_exp": False}
+
+
 def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
     """Apply a routine to an expression in which symbols replace maxima and cases."""
     letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(bent(expr))}

@@ -53,7 +53,10 @@ _log = logging.getLogger(__name__)
 
 
 @bounded.answered(
-    "checking the answer", hard_to_check, "shorten the lines of the answer, and the expressions of the system"
+    "checking the answer",
+    hard_to_check,
+    "shorten the lines of the answer, and the expressions of the system",
+    once=True,
 )
 def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, explain: bool = True) -> Verdict:
     """Return what is right and what is wrong in an answer, line by line and as a whole.

@@ -7,6 +7,7 @@ With the right energies they hold, or a note tells that they do not. Those of no
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -18,6 +19,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, compare, zero_everywhere
 from lagrangian.check.stated import dissipation
 from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive import Derived
 from lagrangian.errors import listed
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -46,15 +48,23 @@ def untrue_in_general(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterat
 
 def _slopes(truth: Reference, expr: sp.Expr) -> dict[Any, tuple[str, sp.Expr]]:
     """The derivatives of energies without a value in an expression: the energy of each, and its right value."""
-    atoms = expr.atoms(sp.Derivative, AppliedUndef)
+    known = _written(truth.derivation)
     found: dict[Any, tuple[str, sp.Expr]] = {}
+    for form in expr.atoms(sp.Derivative, AppliedUndef) & known.keys():
+        kind, orders = known[form]
+        energy = dissipation(truth) if kind == "D" else {"T": truth.T, "V": truth.V, "L": truth.L}[kind]
+        found[form] = kind, bounded.diff(energy, *orders)
+    return found
+
+
+@lru_cache(maxsize=32)
+def _written(derivation: Derived) -> dict[Any, tuple[str, tuple[Any, ...]]]:
+    """How derivatives of energies may be written: the energy of each, and by what it is differentiated."""
+    found: dict[Any, tuple[str, tuple[Any, ...]]] = {}
     for kind, name in ENERGIES.items():
-        for c in truth.model.coordinates:
+        for c in derivation.model.coordinates:
             for by in (c.symbol, c.rate):
                 alone = slope(str(name), (by,))
-                rate = sp.Derivative(alone, time)
-                for form in {sp.Derivative(name, by), alone, rate} & atoms:
-                    energy = dissipation(truth) if kind == "D" else {"T": truth.T, "V": truth.V, "L": truth.L}[kind]
-                    orders = (by, time) if form == rate else (by,)
-                    found[form] = kind, bounded.diff(energy, *orders)
+                found |= {sp.Derivative(name, by): (kind, (by,)), alone: (kind, (by,))}
+                found[sp.Derivative(alone, time)] = kind, (by, time)
     return found

@@ -74,7 +74,7 @@ def judged_lines(
         if line.kind in ("definition", "statement"):
             findings += [replace(alone[k], line=own)] if k in alone else []
             continue
-        finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, chart)
+        finding = of_equation[id(line)] if line.kind == "equation" else judge(truth, moved, k, chart, compared=compared)
         if finding is not None:
             findings.append(replace(finding, line=own))
         else:

@@ -96,12 +96,18 @@ def left_sides(truth: Reference, L: sp.Expr) -> list[sp.Expr]:
 
 
 def judge(
-    truth: Reference, lines: Sequence[AnsweredLine], k: int, change: OwnCoordinates | None = None
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    k: int,
+    change: OwnCoordinates | None = None,
+    *,
+    compared: bool = True,
 ) -> Finding | None:
     """The finding for line number ``k``, which may follow from lines above it; None for a coordinate of which nothing
     says what it replaces.
 
-    ``change`` are the coordinates that all lines are in, if these do not say so themselves.
+    ``change`` are the coordinates that all lines are in, if these do not say so themselves. Unless it is ``compared``,
+    it is not said in which terms a wrong line differs.
     """
     line = lines[k]
     i = index_of(truth, line.name)
@@ -135,6 +141,8 @@ def judge(
     right = undamped[0] if undamped and undamped[0] is not None else right
     follows = bool(stated_for) and _follows(truth, line, stated_for[0], given(truth, lines[:k]))
     follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
+    if not compared:
+        return Finding(line, Status.WRONG, None, coordinate, (), follows)
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i, line.expr) if mine is not None and own is not None else ()
     differing = tuple(_without_constants(truth, differing)) if line.kind in ("T", "V", "L") else differing

@@ -112,6 +112,7 @@ class CompiledExpressions:
         self.table: dict[sp.Basic, int] = {}
         self._memo: dict[Any, int] = {}
         self.ids = [self.node(e) for e in exprs]
+        self._order: tuple[tuple[int, ...], list[int]] = (), []
 
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
@@ -164,7 +165,9 @@ class CompiledExpressions:
                 inputs.append(np.full(states.size, float(self._numbers[s])))
             else:
                 inputs.append(instead[s] if s in instead else states.of(s))
-        return _walk(self.graph, self.ids, inputs, states.size)
+        if self._order[0] != tuple(self.ids):
+            self._order = tuple(self.ids), reached(self.graph, self.ids)
+        return _walk(self.graph, self.ids, self._order[1], inputs, states.size)
 
     def exactly(self, states: States, index: int, instead: Mapping[sp.Basic, Any] | None = None) -> list[Any]:
         """The values at one state, with 50 digits."""
@@ -225,11 +228,12 @@ _NUMPY: dict[str, Any] = {
 }
 
 
-def _walk(graph: Graph, ids: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
-    """The values of nodes as arrays over the states; NaN if there is no value."""
+def _walk(graph: Graph, ids: Sequence[int], order: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
+    """The values of nodes as arrays over the states, by all nodes that they need in ``order``; NaN if there is no
+    value."""
     value: dict[int, Any] = {}
     with np.errstate(all="ignore"):
-        for i in reached(graph, ids):
+        for i in order:
             node = graph.nodes[i]
             op = node[0]
             if op == "const":

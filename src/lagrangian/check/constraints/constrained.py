@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from itertools import combinations
 from typing import Any, Protocol, TypeAlias, cast
 
@@ -142,6 +142,8 @@ def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
 def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
     other = expanded(truth)
     lines = _with_held(other, [as_equation(truth, line) for line in in_coordinates(truth, lines)])
+    once = lru_cache(maxsize=None)(partial(judge, truth, lines))  # an energy is the same with values and without
+    other = replace(other, judge=lambda _, k: once(k))
     first = verdict_at_states(other, lines, hint, given=False)
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first

@@ -14,18 +14,39 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.derive.algebra import Form
+from lagrangian.derive.algebra.form import Ring
 
 LONGEST = 60
 """What an element adds is not used with more operations."""
 
 
+MOST_KEPT = 200
+"""The number of right lines of a system of which the displayed terms are kept."""
+
+
 def groupings(truth: Reference, right: Form, index: int | None) -> Iterator[list[sp.Expr]]:
     """The terms of a right line, whose sum is ``right``, in every grouping; ``index`` is the coordinate of a row."""
-    yield [t.expr for t in right.terms()]
+    yield list(_displayed(right))
     for whole, terms in _of_elements(truth, index):
         if (whole - right).is_zero:
             yield list(_as_products(truth, terms))
             return
+
+
+def _displayed(right: Form) -> tuple[sp.Expr, ...]:
+    """The terms as they are displayed; they are sought once, as many lines are compared with the same right one."""
+    kept = _of_algebra(right.algebra)
+    known = right.den, frozenset((h, frozenset(p.items())) for h, p in right.parts.items())
+    if known not in kept:
+        if len(kept) >= MOST_KEPT:
+            kept.clear()
+        kept[known] = tuple(t.expr for t in right.terms())
+    return kept[known]
+
+
+@lru_cache(maxsize=32)
+def _of_algebra(algebra: Ring) -> dict[object, tuple[sp.Expr, ...]]:
+    return {}
 
 
 @lru_cache(maxsize=64)

@@ -7,6 +7,7 @@ terms and the terms of the right sum; pieces of them only where the rest of a te
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -44,11 +45,23 @@ class Pair:
 
 def pairs(truth: Reference, expr: sp.Expr, right: Sequence[sp.Expr], factor: sp.Expr) -> list[Pair] | None:
     """The differences between ``expr`` and ``factor`` times the sum of ``right``; None if they have no normal form."""
-    theirs = pieces([scaled_term(t, factor) for t in right])
-    found = _compared(truth, pieces(written_terms(expr)), theirs, right, factor)
+    theirs = _scaled_pieces(tuple(right), factor)
+    found = _compared(truth, _own_pieces(expr), theirs, right, factor)
     if found is not None or (form := truth.form(expr)) is None:
         return found
     return _compared(truth, pieces([t.expr for t in form.terms()]), theirs, right, factor)
+
+
+@lru_cache(maxsize=500)
+def _own_pieces(expr: sp.Expr) -> list[WrittenTerm] | None:
+    """The pieces of a sum, kept: it is compared with several groupings of the right terms."""
+    return pieces(written_terms(expr))
+
+
+@lru_cache(maxsize=500)
+def _scaled_pieces(right: tuple[sp.Expr, ...], factor: sp.Expr) -> list[WrittenTerm] | None:
+    """The pieces of right terms times a factor, kept: many lines are compared with the same."""
+    return pieces([scaled_term(t, factor) for t in right])
 
 
 def _compared(
