@@ -352,8 +352,7 @@ class Lines:
             if (listed or said) and not any(map(accelerates, values[0] if listed else values)):
                 self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
                 return [] if listed else labelled(values[0], sides[0], reader)
-            values.append(sp.S.Zero)
-            sides = [*sides, sides[0]]
+            values, sides = [*values, sp.S.Zero], [*sides, sides[0]]
         values, sides = without_parts(*without_amounts(values, sides, self.model), reader)
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
