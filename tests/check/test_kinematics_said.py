@@ -1,5 +1,7 @@
 """Lines of kinematics that no other line uses are judged: rates of points, deflections, velocities in words.
 
+An energy in which one of them is another one is told by it.
+
 Oracle: by hand, a wheel on a spring with a pendulum of length s at its axle, r counted to the right, heights upwards:
 
     (M + m + J/R²) ẍ + m s θ̈ cos θ − m s θ̇² sin θ + k x + b ẋ = 0
@@ -14,6 +16,7 @@ import pytest
 import sympy as sp
 
 from lagrangian import CheckedAnswer, Derivation, System
+from lagrangian.model import time
 
 BOB = "m s^2 theta'' + m s x'' cos(theta) + m g s sin(theta) = 0"
 WHEEL = "(M + m + J/R^2) x'' + m s theta'' cos(theta) - m s theta'^2 sin(theta) + k x + b x' = 0"
@@ -132,3 +135,61 @@ def test_what_is_said_once_more_of_the_rate_follows() -> None:
     said = "gamma' = ((R + r) alpha' + R beta')/r\ngamma' - alpha' = R/r (alpha' + beta')"
     wrong = f"{ENERGIES}\n{D}".replace("- R beta'", "+ R beta'").replace("alpha' - beta'", "alpha' + beta'")
     assert found(planet().check(f"{said}\n{wrong}"))[:2] == [(1, False, False), (2, False, True)]
+
+
+@cache
+def carried() -> Derivation:
+    """A disc at a point that is moved in a prescribed way, on a spring and a damper that hang on what moves it, and a
+    counterweight at half the way of a block on a turning arm."""
+    sys = System("carried")
+    phi, s = sys.coordinates("phi s")
+    J, m, M, k, b, A, W = sys.parameters("J m M k b A W")
+    u = sys.define("u", A * sp.sin(W * time))
+    frame = sys.frame(phi, name="arm")
+    sys.rigid_body(1, J, at=sys.origin, frame=frame, name="arm")
+    sys.particle(m, at=frame.point(s, 0), name="block")
+    sys.particle(M, at=frame.point(-s / 2, 0), name="counterweight")
+    sys.spring(k, deflection=phi - u, name="coil")
+    sys.damper(b, deflection=phi - u, name="oil")
+    return sys.derive()
+
+
+ARM = "1/2 J {arm}^2 + 1/2 m (s'^2 + s^2 phi'^2) + 1/2 M ({half}^2 + s^2 phi'^2/4)"
+PARTS = {"arm": "phi'", "half": "(s'/2)", "coil": "(phi - u)", "oil": "(phi' - u')"}
+
+
+@pytest.mark.parametrize(
+    ("part", "wrong", "told"),
+    [
+        ("arm", "(phi' - u')", "the angular velocity of rigid body 'arm' is phi', not -A*W*cos(W*t) + phi'"),
+        ("arm", "(phi'/2)", "the angular velocity of rigid body 'arm' is phi', not phi'/2"),
+        ("half", "s'", "the component of the velocity of particle 'counterweight' along axes turned by phi is s'/2"),
+    ],
+)
+def test_an_energy_with_another_rate_is_told_by_the_rate(part: str, wrong: str, told: str) -> None:
+    right = ARM.format(**PARTS)
+    V = "V = 1/2 k (phi - u)^2"
+    assert "not right" not in carried().check(f"T = {right}\n{V}").to_text()
+    verdict = carried().check(f"T = {ARM.format(**(PARTS | {part: wrong}))}\n{V}")
+    assert str(verdict.mistakes[0].what).startswith(f"Line 1 is not right: {told}")
+    assert len(verdict.mistakes) == 1
+
+
+def test_a_damper_without_the_rate_of_a_driven_end_is_told_so() -> None:
+    sheet = f"T = {ARM.format(**PARTS)}\nV = 1/2 k (phi - u)^2\nQ_phi = -b (phi' - u')\nQ_s = 0"
+    assert carried().check(sheet).right
+    verdict = carried().check(sheet.replace("(phi' - u')", "phi'"))
+    assert str(verdict.mistakes[0].what) == (
+        "The force of damper 'oil' is made of phi' in place of -A*W*cos(W*t) + phi'."
+    )
+
+
+def test_a_rate_in_D_that_is_not_that_of_the_damper_is_told() -> None:
+    absolute = D.replace("R^2/r^2 (alpha' - beta')^2", "((R + r) alpha' - R beta')^2/r^2")
+    verdict = planet().check(f"{ENERGIES}\n{absolute}")
+    assert str(verdict.mistakes[0].what).startswith("Line 3 is not right: the velocity of damper 'bearing' is ")
+
+
+def test_twice_an_energy_is_no_other_velocity() -> None:
+    verdict = carried().check(f"T = {ARM.format(**PARTS).replace('1/2 J', 'J')}\nV = 1/2 k (phi - u)^2")
+    assert "angular velocity" not in str(verdict.mistakes[0].what)

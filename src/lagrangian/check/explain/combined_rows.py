@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.held import held
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import Finding, Status, TermDifference, Verdict
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
@@ -38,9 +39,10 @@ NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
 def with_combined_rows(truth: Reference, verdict: Verdict) -> Verdict:
     """The verdict on an answer without an explanation, in which an equation that is a sum of right ones but for one of
     its terms differs in this term alone."""
-    if verdict.mistakes or truth.n < 2 or not np.isfinite(truth.W).all():
+    on = held(truth) if truth.derivation.multipliers else truth
+    if verdict.mistakes or on is None or on.n < 2 or not np.isfinite(on.W).all():
         return verdict
-    return replace(verdict, findings=tuple(_with_one_term(truth, f) for f in verdict.findings))
+    return replace(verdict, findings=tuple(_with_one_term(on, f) for f in verdict.findings))
 
 
 def _with_one_term(truth: Reference, finding: Finding) -> Finding:

@@ -48,6 +48,7 @@ from lagrangian.check.explain.slips import below_right_equations, of_slip
 from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.explain.sums_written import by_sums
+from lagrangian.check.explain.taken_as import taken_as
 from lagrangian.check.explain.term_said import with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
@@ -129,10 +130,10 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
             if said := bodies.of_line(line):
                 likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
                 found, more, blamed = _with_definitions(line, said, (found, likely, more), blamed)
+            found, more = (found, more) if said else taken_as(truth, line, found, more)
             more = more or (of_differences(line, findings) if not found else [])
             groups.append(unopposed(found, against) or found)  # a slip in one of two lines shows in that one
-            own += more
-            left += [] if found or more else [line]
+            own, left = [*own, *more], [*left, *([] if found or more else [line])]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
     groups += [of_energy_theorem(pool, line.expr) for line in powers]
     of_equation = [f for f in findings if f.line.kind == "equation" and not any(f.line is x for x in powers)]

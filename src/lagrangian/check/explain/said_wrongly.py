@@ -235,10 +235,10 @@ def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> It
         for written, sign in _senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
             if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
-                yield SaidWrongly(line, effect, partial(_in_words, s, q, written, sign), elsewhere)
+                yield SaidWrongly(line, effect, partial(in_words, s, q, written, sign), elsewhere)
 
 
-def _in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords:
+def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords:
     """What is wrong in a quantity, as the answer counts it."""
     if (share := damper_share(s, q, written)) is not None:
         return replace(

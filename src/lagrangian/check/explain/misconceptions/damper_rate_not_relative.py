@@ -16,8 +16,8 @@ WHY = text("The force of a damper is b times the rate of its own deflection: the
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """For every linear damper: a force from one rate on both ends, the sum of the rates, one without its factor, or
-    the rate of another coordinate."""
+    """For every linear damper: a force from one rate on both ends, the sum of the rates, one without its factor or
+    without what is prescribed, or the rate of another coordinate."""
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue
@@ -28,6 +28,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             put(rate, {v: -v}) for v in (*held[1:], *held[:1]) if len(held) > 1
         ]  # the first sign is rarely slipped
         others += [x for v in held if len(held) > 1 and (x := _without_factor(rate, v)) != rate]
+        others += _without_prescribed(s, rate)
         others += [put(rate, {v: w}) for v in held for w in s.v if w not in held]
         others += [put(rate, {v: v + sign * w}) for v in held for w in s.v if w not in held for sign in (-1, 1)]
         for other in dict.fromkeys(others):
@@ -43,6 +44,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 said = text(f"{element.title} is counted in the equation of ", there, ", with ", other, *belongs)
                 yield Variant(what=said, Xi={i: x for i, x in full.items() if x != 0}, element=element, stated=NO_D)
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element, doubt=int(swapped))
+
+
+def _without_prescribed(s: Ingredients, rate: sp.Expr) -> list[sp.Expr]:
+    """A rate without that of an end that is moved in a prescribed way, and with its other sign: φ̇ for φ̇ − u̇."""
+    moved = put(rate, dict.fromkeys(s.v, sp.S.Zero))
+    return [bounded.expand(rate - moved), bounded.expand(rate - 2 * moved)] if moved != 0 else []
 
 
 def _without_factor(rate: sp.Expr, v: sp.Expr) -> sp.Expr:
