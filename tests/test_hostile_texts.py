@@ -98,6 +98,9 @@ ANSWERS = {
     "comments": "x1 = 1\n" + "# x1'' + x1 = 0\n" * (N // 16),
     "a comment behind blanks": "x1 = 1" + BLANK + "#" * (N // 10) + "x1'' + x1 = 0",
     "returns": "A = [1]\n" + "return   " * (N // 9) + "a.b.c.solve(A, ",
+    "signs between words": "x1'' = 0\n" + "mast + arm " * (N // 11) + ". And",
+    "quotation marks": "x1'' = 0\n" + ('a a a "b = ' * (N // 400) + "\n") * 30,
+    "labels of slopes": "d/dt ∂T/∂x1" + BLANK + "y: x1'' = 0",
     "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }
 

@@ -358,3 +358,18 @@ def test_a_title_may_hold_definitions_and_a_sentence_an_angle_in_degrees() -> No
     slope.gravity()
     said = slope.derive().check("The angle alpha = 30° stands only in this: m s'' = -m g sin alpha")
     assert said.right and "α = ⅙ π" in said.to_text()
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I take cart + pole as two bodies with one rail. Notation: A = M + m, B = m l.",
+        '"let me call the mass A = M + m; the first moment is B = m l"',
+        'The sheet says "A = M + m, B = m l" for these. ',
+    ],
+)
+def test_signs_between_words_and_quotation_marks_are_no_mathematics(said: str) -> None:
+    rows = """A x'' + B cos theta theta'' - B theta'^2 sin theta + b x' = F
+d/dt ∂T/∂θ' :   (J + m l^2) theta'' + B cos theta x'' = m g l sin theta"""
+    twins(f"{said}\n{rows}", "M + m", "M - m")
+    twins(f"{said}\n{rows}", "B cos theta x''", "B sin theta x''")

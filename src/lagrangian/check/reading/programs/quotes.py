@@ -1,4 +1,4 @@
-"""Writes equations that a program has in quotes without these.
+"""Writes equations that a program has in quotes, and sentences in quotes, without these.
 
 eq1 = "m*xdd + k*x = 0"                     m*xdd + k*x = 0
 T = sympify('m*v**2/2')  "T": "m*v**2/2"    T = m*v**2/2
@@ -33,13 +33,20 @@ _STATED = re.compile(r"(?<![=<>!:])==?(?![=>])")
 _WORD = re.compile(r"[^\W\d_]{2,}[ ][^\W\d_]{2,}[ ][^\W\d_]{2,}")
 """Three words, which are no formula."""
 
+_SPOKEN = re.compile(
+    r"^(?P<before>(?:[^\"\n(]{0,400}+(?<=[^\s=,:][ \t]))?[ \t]*+)\"(?P<said>(?=\w)[^\"=\n]{0,400}+=[^\"\n]{1,400}+)\""
+    r"(?P<behind>[^\"\n]{0,400}+)$",
+    re.MULTILINE,
+)
+"""The only text in quotes of a line, which says something; no mark in front of it is that of a name: x"."""
+
 
 def without_quotes(written: TracedText) -> TracedText:
     """Return an answer in which formulas that fill a line in quotes stand without these; the name of an equation is
     left out."""
     if "'" not in written.text and '"' not in written.text:
         return written
-    return written.sub(_LISTED, _on_lines).sub(_QUOTED, _unquoted)
+    return written.sub(_LISTED, _on_lines).sub(_QUOTED, _unquoted).sub(_SPOKEN, _spoken)
 
 
 def _on_lines(match: re.Match[str]) -> str:
@@ -57,6 +64,12 @@ def _unquoted(match: re.Match[str]) -> str:
     if not _is_formula(said) or not (states or (match["to"] and not shows)):
         return match.group()
     return f"{match['indent']}{said if states else match['to'] + ' = ' + said}{match['end']}"
+
+
+def _spoken(match: re.Match[str]) -> str:
+    """A sentence without its quotation marks, of which the second is no mark of an acceleration."""
+    line = f"{match['before']} {match['said']} {match['behind']}"
+    return line if _WORD.search(line) is not None else match.group()
 
 
 def _is_formula(said: str) -> bool:

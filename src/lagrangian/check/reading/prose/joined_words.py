@@ -17,16 +17,28 @@ _JOINED = re.compile(
     re.MULTILINE,
 )
 _ASIDE = re.compile(rf"(?<=[ \t])\({_SAID}\)(?=[ \t]*(?:$|[,.;:]))", re.MULTILINE)
+_SENTENCE = re.compile(r"^(?=[^.;=\n]{0,400}[+&])[^\W\d_][^.;=\n]{2,400}+\.(?=[ ][^\W\d_])", re.MULTILINE)
+"""A sentence without an equals sign, with another behind it: I treat mast + arm as one body. Let …"""
+_TWO = re.compile(rf"(?<!\w){_WORD}(?:{_SIGN}{_WORD}){{1,3}}(?!\w)")
 _PARTS = re.compile(r"[^\W\d_]+")
 
 
 def with_words_joined(text: str, words: Words) -> str:
     """Return an answer in plain text with blanks for the signs between such words, of which none is a name."""
 
-    def joined(match: re.Match[str]) -> str:
-        listed = _PARTS.findall(match.group())
-        if any(not x.isalpha() or words.readable(x) or words.is_product(x) for x in listed):  # m₁ẋ₁² is no word
-            return match.group()
-        return re.sub("[+&]", " ", match.group())
+    def are_words(said: str) -> bool:
+        return all(x.isalpha() and not words.readable(x) and not words.is_product(x) for x in _PARTS.findall(said))
 
+    def joined(match: re.Match[str]) -> str:
+        return re.sub("[+&]", " ", match.group()) if are_words(match.group()) else match.group()  # m₁ẋ₁² is no word
+
+    def as_one(match: re.Match[str]) -> str:
+        """One word, because a gap would part what it stands between."""
+        return (
+            re.sub(_SIGN, lambda m: "and"[: len(m.group())], match.group())
+            if are_words(match.group())
+            else match.group()
+        )
+
+    text = _SENTENCE.sub(lambda m: _TWO.sub(as_one, m.group()), text)
     return _ASIDE.sub(joined, _JOINED.sub(joined, text))
