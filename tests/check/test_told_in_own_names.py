@@ -55,7 +55,7 @@ JIB = """rho = p + s/2
 
 def test_a_term_is_told_in_the_names_of_the_answer() -> None:
     assert jib().check(JIB).right
-    told = first(jib(), JIB.replace("n/2 rho phi'^2", "n/2 J phi'^2"))
+    told = first(jib(), JIB.replace("n/2 rho phi'^2", "n/2 m rho phi'^2"))
     assert "rho*phi'^2" in told and "p + s/2" not in told
     told = first(jib(), JIB.replace("n rho^2", "n rho"))
     assert "n*rho^2" in told and "2*p + s" not in told

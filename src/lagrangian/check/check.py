@@ -90,7 +90,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     if not verdict.right:
-        named = with_terms_alone(with_combined_rows(truth, verdict)) if explain else verdict
+        named = with_terms_alone(with_combined_rows(truth, written, verdict)) if explain else verdict
         verdict = in_own_names(truth, written, named)
     verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:

@@ -7,7 +7,7 @@ t lies outside it are one multiple of each other, 1 − f.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -15,9 +15,10 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import Finding, Status, TermDifference, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
@@ -36,24 +37,65 @@ NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
 """What a term may have to be multiplied by."""
 
 
-def with_combined_rows(truth: Reference, verdict: Verdict) -> Verdict:
+def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on an answer without an explanation, in which an equation that is a sum of right ones but for one of
-    its terms differs in this term alone."""
+    its terms differs in this term alone.
+
+    A term that was put in from a definition is wrong there, and the same term further down follows from it.
+    """
     on = held(truth) if truth.derivation.multipliers else truth
     if verdict.mistakes or on is None or on.n < 2 or not np.isfinite(on.W).all():
         return verdict
-    return replace(verdict, findings=tuple(_with_one_term(on, f) for f in verdict.findings))
+    findings, told = list(verdict.findings), list[WrongTerm]()
+    for finding in verdict.findings:
+        rows = finding.status is Status.WRONG and finding.line.kind == "equation" and len(finding.differences) != 1
+        if not rows or (wrong := one_wrong_term(on, finding.line.expr)) is None:
+            continue
+        k = next(k for k, f in enumerate(findings) if f is finding)
+        if any(wrong.factor == x.factor and _quotient(on, wrong.term, x.term) for x in told):
+            findings[k] = replace(finding, differences=(), follows=True)
+            continue
+        told.append(wrong)
+        if (above := _put_in_from(on, lines, finding.line, wrong)) is not None:
+            findings[k] = replace(finding, differences=(), follows=True)
+            findings = inserted(findings, above)
+            continue
+        note = finding.note if _stands_in(wrong.term, finding.line) else text("with what other lines say put in")
+        differences = (_difference(on, wrong, finding.coordinate),)
+        findings[k] = replace(finding, differences=differences, coordinate=None, note=note)
+    return replace(verdict, findings=tuple(findings))
 
 
-def _with_one_term(truth: Reference, finding: Finding) -> Finding:
-    if finding.status is not Status.WRONG or finding.line.kind != "equation" or len(finding.differences) == 1:
-        return finding
-    if (wrong := one_wrong_term(truth, finding.line.expr)) is None:
-        return finding
-    letters = {key(str(x)) for x in bounded.letters(wrong.term) if isinstance(x, sp.Symbol)}
-    written = key(finding.line.text)  # also within words: m₃ae
-    note = finding.note if all(x in written for x in letters) else text("with what other lines say put in")
-    return replace(finding, differences=(_difference(truth, wrong, finding.coordinate),), coordinate=None, note=note)
+def _put_in_from(
+    truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine, wrong: WrongTerm
+) -> Finding | None:
+    """The finding for the definition from which a wrong term was put in: its name stands in the line, in which a letter
+    of the term does not. None if there is none, or several."""
+    if _stands_in(wrong.term, line):
+        return None
+    found: list[Finding] = []
+    for x in lines:
+        if x.kind != "definition" or x.name is None or key(x.name) not in key(line.text):
+            continue
+        value = truth.expand(x.expr)
+        own = _own_terms(value) if terms(value) <= MOST_TERMS else []
+        there = [t for t in own if _quotient(truth, wrong.term, t)]
+        found += [
+            Finding(x, Status.WRONG, differences=(_difference(truth, replace(wrong, term=t), None),)) for t in there
+        ]
+    return found[0] if len(found) == 1 else None
+
+
+def _stands_in(term: sp.Expr, line: AnsweredLine) -> bool:
+    """Whether the text of a line has all letters of a term, also within words: m₃ae."""
+    written = key(line.text)
+    return all(key(str(x)) in written for x in bounded.letters(term) if isinstance(x, sp.Symbol))
+
+
+def _quotient(truth: Reference, one: sp.Expr, other: sp.Expr) -> bool:
+    """Whether a term is another one times a factor that depends on the place alone."""
+    values = CompiledExpressions([one, other]).at(truth.states).reshape(2, SETS * PLACES, -1)
+    return _share(values[0], values[1]) is not None
 
 
 @dataclass(frozen=True)

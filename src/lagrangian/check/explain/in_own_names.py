@@ -216,18 +216,19 @@ def with_names(expr: sp.Expr, names: Sequence[OwnName]) -> sp.Expr:
 
 def _with(expr: sp.Expr, name: OwnName) -> sp.Expr:
     """A formula in which a name stands wherever its value does: as a part, as some terms of a sum, as some factors."""
-    number, value = name.value.as_content_primitive() if isinstance(name.value, sp.Add) else (sp.S.One, name.value)
-    symbol = cast("sp.Expr", name.symbol / number)
+    number, primitive = name.value.as_content_primitive() if isinstance(name.value, sp.Add) else (sp.S.One, name.value)
+    forms = {name.value: name.symbol, primitive: cast("sp.Expr", name.symbol / number)}
     made: dict[int, Any] = {}
     for node in bounded.each(expr):
         inside = bool(node.args) and not isinstance(node, (AppliedUndef, sp.Derivative))
         built: Any = bounded.rebuilt(node, [made[id(a)] for a in node.args]) if inside else node
-        if built == value:
-            built = symbol
-        elif isinstance(value, sp.Add) and isinstance(built, sp.Add):
-            built = _some_terms(built, value, symbol)
-        elif isinstance(value, sp.Mul) and isinstance(built, (sp.Mul, sp.Pow)):
-            built = _some_factors(built, value, symbol)
+        for value, symbol in forms.items():
+            if built == value:
+                built = symbol
+            elif isinstance(value, sp.Add) and isinstance(built, sp.Add):
+                built = _some_terms(built, value, symbol)
+            elif isinstance(value, sp.Mul) and isinstance(built, (sp.Mul, sp.Pow)):
+                built = _some_factors(built, value, symbol)
         made[id(node)] = built
     return cast("sp.Expr", made[id(expr)])
 

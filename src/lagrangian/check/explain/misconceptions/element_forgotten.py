@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, negative
 from lagrangian.model import Gravity
+from lagrangian.model.elements.raw import Energy
 from lagrangian.page.formula import text
 
 STEP = 2
@@ -25,7 +26,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if element.ledger == "T*":
             if element in weight:
                 yield Variant(what=what, T=-s.kinetic(element), V=-weight[element], element=element)  # type: ignore[operator]
-            yield Variant(what=text(f"{title} is missing in T*."), T=-s.kinetic(element), element=element)
+            own = s.kinetic(element)
+            raw = text("The part ", own, " of T* is missing.")  # an energy that is given has no other name
+            whole = raw if isinstance(element, Energy) else text(f"{title} is missing in T*.")
+            yield Variant(what=whole, T=-own, element=element)
         elif element.ledger == "V":
             V = s.expand(element.potential(s.model))
             yield Variant(what=what, V=-V, element=element)
