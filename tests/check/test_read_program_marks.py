@@ -5,6 +5,7 @@ twin, which stays wrong.
 """
 
 import pytest
+import sympy as sp
 
 from built_in import derivation
 from lagrangian import ParseError, System
@@ -195,3 +196,17 @@ def test_maple_indexes_parameters_in_brackets() -> None:
     assert masses.check(rows).right
     assert not masses.check(rows.replace("m[2]", "m[1]")).right
     assert not masses.check(rows.replace("= k[a]", "= -k[a]")).right
+
+
+def test_a_letter_is_what_a_program_declares_it_as() -> None:
+    s = System("slope")
+    x = s.coordinates("x")
+    m, g, alpha, k = s.parameters("m g alpha k")
+    s.kinetic(m * x.diff() ** 2 / 2)
+    s.potential(-m * g * x * sp.sin(alpha))
+    s.spring(k, deflection=x)
+    program = "m, g, al, c = sp.symbols('m g alpha k')\nV = -m*g*x*sp.sin(al) + c*x**2/2\nT = m*x'**2/2\n"
+    d = s.derive()
+    assert d.check(program).right
+    assert not d.check(program.replace("sin(al)", "sin(c)")).right
+    assert not d.check(program.replace("'m g alpha k'", "'m alpha g k'")).right

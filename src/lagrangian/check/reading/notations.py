@@ -26,7 +26,7 @@ from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
-from lagrangian.check.reading.programs.names import with_program_names
+from lagrangian.check.reading.programs.names import with_declared, with_program_names
 from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
 from lagrangian.check.reading.programs.quotes import without_quotes
 from lagrangian.check.reading.programs.residuals import residuals
@@ -83,6 +83,8 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
+    own = {key(name) for name in lines.model.symbols}
+    prompted = with_declared(prompted, lambda name: key(name) in own)
     zero = residuals(prompted, taken, names.changes)
     names.residuals = zero.names
     code = without_code(zero.written, taken, commands.append, session=is_session(text))
@@ -90,7 +92,6 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     if commands:
         names.notes.setdefault(told_commands(text, commands))
     names.in_order(told_order(text))
-    own = {key(name) for name in lines.model.symbols}
     if not LATEX.search(session.text):
         session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
         paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)

@@ -64,13 +64,18 @@ def with_program_names(written: TracedText, moves: Callable[[str], bool], taken:
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
     text = written.text
-    edits = [*_declared(text, taken), *_commented(text, taken)]
+    edits = list(_commented(text, taken))
     edits += [(*m.span(), f"{m['name']} = ") for m in _OF_TIME.finditer(text)]
     edits += _joined(text)
     rates = [m for m in _RATE_OF.finditer(text) if not taken(m.group())]
     edits += [(*m.span(), m["of"] + ("''" if m["two"] else "'")) for m in rates]
     edits += _rates(text, moves, taken)
     return written.edited(apart(edits))
+
+
+def with_declared(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer in which declarations that name letters of the system otherwise state them: al = alpha."""
+    return written.edited(apart(list(_declared(written.text, taken))))
 
 
 def _declared(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
