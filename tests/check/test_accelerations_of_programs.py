@@ -283,3 +283,31 @@ def test_what_is_zero_may_be_a_function_of_three_columns(program: str, old: str,
     assert not right(program.replace(old, new))
     second = derivation("cart-pole").check(program.replace("- m*g*l", "+ m*g*l")).findings[1]
     assert not second.status.right and second.line.number == 5
+
+
+TOGETHER = """Mass = [M+m, 0; 0, J];
+G = [1, -R];
+sol = [Mass, -G'; G, 0] \\ [F - k*x; 0; 0];   % [xdd; phidd; lambda]"""
+UNNAMED = TOGETHER.replace(" \\ [", "\\[").partition("   %")[0]
+SCALARS = """import numpy as np
+def accelerations(x, phi, xd, phid, F):
+    \"\"\"x'', phi'' and the multiplier of x - R*phi = 0\"\"\"
+    A = np.array([[M + m, 0, -1], [0, J, R], [1, -R, 0]])
+    return np.linalg.solve(A, np.array([F - k*x, 0, 0]))"""
+
+
+@pytest.mark.parametrize("program", [TOGETHER, UNNAMED, SCALARS, f"% q = [x; phi]\n{UNNAMED}"])
+def test_accelerations_and_multipliers_are_solved_for_together(program: str) -> None:
+    assert wheel().check(program).right
+    for old, new in (("F - k*x", "F + k*x"), ("1, -R", "1, R"), ("0, J", "0, 2*J")):
+        assert old in program
+        assert not wheel().check(program.replace(old, new)).right
+
+
+def test_a_hessian_matrix_is_carried_out() -> None:
+    program = """syms M m l J b g F x th xd thd xdd thdd real
+T = M/2*xd^2 + m/2*(xd^2 + 2*l*xd*thd*cos(th) + l^2*thd^2) + J/2*thd^2;
+MM = hessian(T, [xd; thd]);
+eom = MM*[xdd; thdd] + [b*xd - F - m*l*thd^2*sin(th); -m*g*l*sin(th)]"""
+    assert right(program)
+    assert not right(program.replace("J/2", "J"))

@@ -121,3 +121,23 @@ def test_names_that_python_keeps_for_itself_are_names_in_julia() -> None:
     judge = derivation("cart-pole")
     assert judge.check(program).right
     assert not judge.check(program.replace("- b*ẋ", "+ b*ẋ")).right
+
+
+def test_values_in_tuples_and_by_conditions() -> None:
+    program = """M, m, l = 1.0, 0.2, 0.3
+J, b, g = 0.006, 0.1, 9.81
+F(t) = t < 1 ? 20.0 : 0.0
+function massmatrix(θ)
+    [M + m        m*l*cos(θ);
+     m*l*cos(θ)   J + m*l^2]
+end
+function pole!(du, u, _, t)
+    x, θ, v, ω = u
+    du[1:2] = [v, ω]
+    du[3:4] = massmatrix(θ) \\ [F(t) - b*v + m*l*sin(θ)*ω^2, m*g*l*sin(θ)]
+end"""
+    cart = derivation("cart-pole")
+    assert cart.check(program).right
+    assert cart.check(program.replace("F(t) = t < 1 ? 20.0 : 0.0\n", "").replace("F(t)", "F")).right
+    for old, new in (("F(t) -", "-F(t) -"), ("J + m", "J - m"), ("[v, ω]", "[ω, v]")):
+        assert not cart.check(program.replace(old, new)).right

@@ -124,3 +124,46 @@ def test_rates_as_matlab_writes_them_in_latex_are_read(second: str) -> None:
         "+L\\,g\\,m\\,\\sin \\left(\\theta \\left(t\\right)\\right)=0$$"
     )
     twins(rows, "+L\\,g", "-L\\,g", "pendulum")
+
+
+ENERGY = "1/2 M x'[t]^2 + 1/2 m (x'[t]^2 + 2 l x'[t] theta'[t] Cos[theta[t]] + l^2 theta'[t]^2) + 1/2 J theta'[t]^2"
+
+
+@pytest.mark.parametrize(
+    ("stated", "of"),
+    [
+        (f"tt = {ENERGY};\nvv = m g l Cos[theta[t]];\nlag = tt - vv;", "lag"),
+        (f"T = {ENERGY};\nV = m g l Cos[theta[t]];", "T - V"),
+        (f"T = {ENERGY};\nV = m g l Cos[theta[t]];\neq[q_, Q_] := D[D[T, q'[t]], t] - D[T, q[t]] == Q;", "T - V"),
+    ],
+)
+def test_what_is_differentiated_has_a_name_of_its_own(stated: str, of: str) -> None:
+    lines = "\n".join(
+        f"D[D[{of}, {q}'[t]], t] - D[{of}, {q}[t]] == {Q}" for q, Q in (("x", "F - b x'[t]"), ("theta", "0"))
+    )
+    cart = derivation("cart-pole")
+    found = cart.check(f"{stated}\n{lines}")
+    assert found.right and "Q_" not in str(found)
+    assert not cart.check(f"{stated}\n{lines}".replace("m g l", "2 m g l")).right
+    assert not cart.check(f"{stated}\n{lines}".replace("F - b", "F + b")).right
+
+
+MODEL = """model Pole "on a cart"
+  parameter Real M = 1, m = 0.2, l = 0.3, b = 0.1, g = 9.81, J = 0.006;
+  input Real F;
+  Real x(start = 0), theta(start = 0.1), v, omega "rate of the pole";
+  Real s = sin(theta);
+equation
+  v = der(x);
+  omega = der(theta);
+  (M + m)*der(v) + m*l*cos(theta)*der(omega) - m*l*s*omega^2 + b*v = F;   // cart
+  (J + m*l^2)*der(omega) + m*l*cos(theta)*der(v) = m*g*l*s;
+end Pole;"""
+
+
+def test_a_model_in_modelica_is_its_equations() -> None:
+    cart = derivation("cart-pole")
+    assert cart.check(MODEL).right
+    for old, new in (("= F;", "= -F;"), ("sin(theta)", "cos(theta)"), ("s*omega^2", "s*omega")):
+        assert old in MODEL
+        assert not cart.check(MODEL.replace(old, new)).right

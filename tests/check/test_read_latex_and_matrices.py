@@ -178,3 +178,17 @@ def test_a_bold_letter_with_its_arguments_is_not_the_letter_of_the_system() -> N
 \mathbf f=\begin{bmatrix}F-b\dot x+ml\dot\theta^2\sin\theta\\0\end{bmatrix}. \]"""
     assert derivation("cart-pole").check(answer).right
     assert derivation("cart-pole").check(answer.replace("-mgl", "mgl")).status == "wrong"
+
+
+def test_matrices_of_the_column_of_coordinates() -> None:
+    answer = (
+        r"With $q=(x,\theta)^T$ we get $A(q)\ddot q+C(q,\dot q)\dot q+K(q)=Q$ where "
+        r"\[A=\begin{pmatrix}M+m&ml\cos\theta\\ml\cos\theta&J+ml^2\end{pmatrix},\quad "
+        r"C=\begin{pmatrix}b&-ml\sin\theta\dot\theta\\0&0\end{pmatrix},\quad "
+        r"K=\begin{pmatrix}0\\-mgl\sin\theta\end{pmatrix},\quad "
+        r"Q=\begin{pmatrix}F\\0\end{pmatrix}.\]"
+    )
+    cart = derivation("cart-pole")
+    assert cart.check(answer).right
+    for old, new in (("-mgl", "mgl"), ("b&-ml", "b&ml"), ("q+C(q,", "q-C(q,")):
+        assert not cart.check(answer.replace(old, new)).right

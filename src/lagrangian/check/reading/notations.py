@@ -26,6 +26,7 @@ from lagrangian.check.reading.operators import without_operators
 from lagrangian.check.reading.programs.indexed_parameters import with_indexed_parameters
 from lagrangian.check.reading.programs.marks import without_program_marks, without_terminators
 from lagrangian.check.reading.programs.matrices import told_order, with_whole_matrices
+from lagrangian.check.reading.programs.modelica import without_modelica
 from lagrangian.check.reading.programs.names import with_declared, with_program_names
 from lagrangian.check.reading.programs.notebooks import with_columns, with_named_matrices, with_shown_values
 from lagrangian.check.reading.programs.quotes import without_quotes
@@ -79,7 +80,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    typed_in = without_crossed_out(without_terminators(without_maxima(_copied(text))), names.notes)
+    typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(_copied(text)))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))

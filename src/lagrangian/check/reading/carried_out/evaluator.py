@@ -282,7 +282,7 @@ class Evaluator:
         given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
         options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
         if isinstance(of, OwnFunction):
-            return self.function(of, given)
+            return self.function(of, given, called)
         if isinstance(of, BoundMethod):
             own = isinstance(of.of, Mechanical)
             return of.of.call(of.name, given, options) if own else self._method(of, given)
@@ -309,11 +309,11 @@ class Evaluator:
             return found
         return routine(name, given, options) if given or name in ("Function",) else UNKNOWN
 
-    def function(self, of: OwnFunction, given: Sequence[Value]) -> Value:
-        """The value of a function of the program."""
+    def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
+        """The value of a function of the program, which may have no name but that by which it is ``called``."""
         self.called.add(of.name)
-        if self.known(of.name) and list(given) == [TIME]:
-            return sp.Symbol(of.name)  # an input, of which the program has an example
+        if self.known(of.name or called) and list(given) == [TIME]:
+            return sp.Symbol(of.name or called)  # an input, of which the program has an example
         self.depth += 1
         if self.depth > DEEPEST:
             raise AbandonedError

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Iterable, Mapping
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
@@ -14,6 +15,7 @@ from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
     MOST_ENTRIES,
+    TIME,
     UNKNOWN,
     AbandonedError,
     Outside,
@@ -136,7 +138,10 @@ class Interpreter(Evaluator):
             if isinstance(value, Outside) and self.known(target.id):
                 value = sp.Symbol(target.id)  # F = workpiece(t, x), which the program has elsewhere
             given = isinstance(value, sp.Symbol) and not self.known(value.name) and "[" not in value.name
-            if isinstance(value, sp.Expr) and (value.is_number or given) and self.known(target.id):
+            given = given or (
+                isinstance(value, sp.Expr) and value.free_symbols <= {TIME} and not value.atoms(AppliedUndef)
+            )
+            if isinstance(value, sp.Expr) and given and self.known(target.id):
                 value = sp.Symbol(target.id)
             elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
                 value = self._of_value(value)

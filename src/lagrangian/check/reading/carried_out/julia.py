@@ -22,8 +22,15 @@ _PARAMETERS = re.compile(
     rf"^[ \t]*+(?:\([ \t]*+;[^()=\n]++\)|@unpack\b[^=\n]++)[ \t]*+=(?!=)[ \t]*+{_NAME}[ \t]*+$", re.MULTILINE
 )
 _UNPACKED = re.compile(
-    rf"^(?P<indent>[ \t]*+)(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME})++)[ \t]*+=(?!=)", re.MULTILINE
+    rf"^(?P<indent>[ \t]*+)(?P<names>{_NAME}(?:[ \t]*+,[ \t]*+{_NAME})++)[ \t]*+=(?!=)"
+    r"(?P<listed>[^\n%()\[\],]*+(?:,[^\n%()\[\],]*+)++)?",
+    re.MULTILINE,
 )
+_CONDITION = re.compile(
+    r"(?P<to>=[ \t]*+(?:@\([\w ,]{0,60}+\)[ \t]*+)?)(?P<given>[^=?\n%]{1,200}+)\?[^\n%:]{1,200}+:[^\n%]++$",
+    re.MULTILINE,
+)
+"""A value by a condition: F(t) = t < 1 ? 20.0 : 0.0."""
 _WHOLE = re.compile(rf"^(?P<to>[ \t]*+{_NAME})(?:\[[ \t]*+:[ \t]*+\])?[ \t]*+\.=[ \t]*+(?P<bare>\()?", re.MULTILINE)
 _LEFT_OUT = re.compile(
     r"^[ \t]*+(?:(?:using|import|export|const|plot|println|print|display)\b|@(?!unpack))[^\n]*+$", re.MULTILINE
@@ -45,6 +52,8 @@ _IS_JULIA = re.compile(
     rf"^[ \t]*+function[ \t]++{_NAME}!?\([^\n=]*+$|^[ \t]*+using[ \t]++[A-Z]|^[ \t]*+\([ \t]*+;[^()=\n]++\)[ \t]*+=",
     re.MULTILINE,
 )
+CONDITIONAL = "conditional"
+"""What gives a value that depends on a condition, of which nothing is known."""
 RESULT = "result_of_it"
 """The name of what a function returns that has none for it."""
 
@@ -62,9 +71,10 @@ def in_matlab(text: str) -> str:
     text = _CHANGES.sub("", _FUNCTION.sub(_header, text))
     text = _SHORT.sub(lambda m: f"{m['name']} = @({m['given']}) ", text)
     text = _ARROW.sub(lambda m: f"@({m['given'] or m['one']}) ", text)
+    text = _CONDITION.sub(lambda m: f"{m['to']}{CONDITIONAL}()", text)
     text = _RETURNED.sub(lambda m: f"{m['indent']}{RESULT} = ", text)
     text = _with_results(_FACTOR.sub(lambda m: f"{m['number']}*", text).split("\n"))
-    return _UNPACKED.sub(lambda m: f"{m['indent']}[{m['names']}] =", _brackets(text))
+    return _UNPACKED.sub(_unpacked, _brackets(text))
 
 
 def _letters(text: str) -> str:
@@ -104,19 +114,26 @@ def _header(match: re.Match[str]) -> str:
     return f"function {out} = {match['name']}({', '.join(given)})"
 
 
+def _unpacked(match: re.Match[str]) -> str:
+    """Several names on the left of one list: [a, b] = [1; 2]."""
+    listed = f" [{match['listed'].replace(',', ';')}]" if match["listed"] else ""
+    return f"{match['indent']}[{match['names']}] ={listed}"
+
+
 def _with_results(lines: list[str]) -> str:
     """The program in which a function returns what its last line says, if that is a value alone."""
-    function, last = False, -1
+    function, last, depth = False, -1, 0
     for k, line in enumerate(lines):
         bare = line.partition("%")[0].strip()
         if bare.startswith("function "):
-            function, last = f"function {RESULT} " in bare, -1
+            function, last, depth = f"function {RESULT} " in bare, -1, 0
         elif function and _ENDS.fullmatch(bare):
             if last >= 0 and re.search(r"(?<![=<>~.])=(?!=)", lines[last].partition("%")[0]) is None:
                 lines[last] = f"{RESULT} = {lines[last].strip()}"
             function = False
         elif bare:
-            last = k
+            last = last if depth > 0 else k
+            depth += sum((c in "([") - (c in ")]") for c in bare)
     return "\n".join(lines)
 
 

@@ -48,9 +48,11 @@ LONGEST_LINE = 6_000
 _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
-    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$",
+    r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$"
+    r"|^[^%#\n\\=]*+=[^%#\n\\=]*+(?<=[\w\]) \t])\\(?:(?<=[ \t]\\)[ \t]++|(?<=[\w\])]\\))[\[(]",
     re.MULTILINE,
 )
+"""Signs of MATLAB: a function, symbols, A \\ b and A \\ [c; d]."""
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
@@ -228,7 +230,7 @@ def _of_states(
     run: Interpreter, names: dict[str, Value], reader: StateReader, loose: Loose | None
 ) -> Iterator[tuple[int, str]]:
     """The accelerations that the functions of a program return, as equations of motion."""
-    coordinates = reader.model.coordinates
+    coordinates = [c.name for c in reader.model.coordinates]
     in_the_open = None if loose is None else reader.in_the_open(loose, names.get(loose.rates))
     for found in reader.functions(names) if in_the_open is None else (in_the_open,):
         yield from _equations(run, found, reader)
@@ -236,10 +238,15 @@ def _of_states(
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
             continue
-        called = reader.in_comments(one.name)
+        called = reader.in_comments(one.name) or reader.behind(one.line)
         rates = [sp.Symbol(called[k + 1]) for k in range(len(solved)) if k + 1 in called]
-        if not rates and len(solved) == len(coordinates):
-            rates = [sp.Function(c.name)(TIME).diff(TIME, 2) for c in coordinates]
+        n = len(coordinates)
+        if not rates and len(solved) in (n, n + len(reader.model.constraints)):
+            said = reader.in_comments("q")
+            named = [said.get(k + 1, "") for k in range(n)]
+            listed_so = sorted(x for name in named for x in reader.scope.meanings(name)[0]) == sorted(coordinates)
+            rates = [sp.Function(x)(TIME).diff(TIME, 2) for x in (named if listed_so else coordinates)]
+            solved = solved[:n, :]
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
             yield from _equations(run, found, reader)

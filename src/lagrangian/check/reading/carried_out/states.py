@@ -29,6 +29,8 @@ from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.records import dataclass
 
+_LIST_BEHIND = re.compile(r"[%#]++[ \t]*+(?:=[ \t]*+)?\[(?P<entries>[^\[\]\n]{1,200}+)\][ \t]*+(?:\^T|['’])?[ \t]*+\Z")
+
 
 @dataclass(frozen=True, eq=False)
 class StateFunction:
@@ -83,9 +85,10 @@ class StateReader:
         """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd)."""
         coordinates = [c.name for c in self.model.coordinates]
         named = [x for x in arguments if set(self.scope.meanings(x)[0]) & set(coordinates)]
-        if len(named) != len(rates) or len(rates) != len(coordinates):
+        more = rates[len(coordinates) :]  # multipliers that are solved for
+        if len(named) != len(coordinates) or len(rates) < len(named) or not set(more) <= self.run.solved.keys():
             return None
-        return [(sp.Function(x)(TIME).diff(TIME, 2), value) for x, value in zip(named, rates, strict=True)], {}
+        return [(sp.Function(x)(TIME).diff(TIME, 2), value) for x, value in zip(named, rates, strict=False)], {}
 
     def _of_state(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Any:
         """The pairs and the meaning of the entries of the first argument whose entries are among the rates."""
@@ -179,6 +182,12 @@ class StateReader:
                 return {k + 1: x for k, x in enumerate(words) if NAME.fullmatch(x)}
             found |= {int(m[1]): f"{m[2]}dot" if m[3] else m[2] for m in single.finditer(comment.group())}
         return found
+
+    def behind(self, line: int) -> dict[int, str]:
+        """The names of the entries that a comment behind a statement lists: A \\ b  % [xdd; thetadd; lambda]."""
+        match = _LIST_BEHIND.search(self.text.split("\n")[line - 1])
+        words = re.split(r"[\s,;]+", match["entries"].strip()) if match is not None else []
+        return {k + 1: x for k, x in enumerate(words)} if all(map(NAME.fullmatch, words)) else {}
 
 
 def _line(f: OwnFunction) -> int:

@@ -191,7 +191,9 @@ class LatexSymbols(Parser):
             return 0
         stated = self.tokens[end + 1].kind == "="
         stated = stated or self._says(base, self.next.start, self.tokens[end].end)
-        return end + 1 - self.i if commas or stated or base.startswith("bold ") else 0
+        inside = self.tokens[self.i + 1].text.lstrip("\\")
+        column = end == self.i + 2 and inside in ("q", "xi", "ξ") and not self.names.scope.meanings(inside)[0]
+        return end + 1 - self.i if commas or stated or column or base.startswith("bold ") else 0
 
     def _says(self, base: str, start: int, end: int) -> bool:
         """Whether the answer states this quantity with these arguments elsewhere."""

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from lark import Tree
+from lark import Token, Tree
 
-from lagrangian.check.reading.nodes import Node, column, inside, name, node, only_name
+from lagrangian.check.reading.nodes import Node, column, inside, leaf, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain.conditions import PlainConditions
 from lagrangian.check.reading.plain.tokens import TOKEN
+from lagrangian.check.reading.prose.words import Words
+from lagrangian.check.reading.stated import energy_of
 
 ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3, '"': 2}
 """How often each mark differentiates."""
@@ -23,7 +25,9 @@ CLOSING = {"(": ")", "[": "]"}
 
 
 class PlainDerivatives(PlainConditions):
-    """The part of the parser that reads derivatives."""
+    """The part of the parser that reads derivatives; ``words`` are those of the answer."""
+
+    words: Words
 
     def _moves(self, called: str) -> bool:
         """Whether a name changes with time."""
@@ -129,7 +133,14 @@ class PlainDerivatives(PlainConditions):
         return int(token.text)
 
     def _energy(self, made: Tree, token: AnswerToken) -> Node:
+        """The energy that is differentiated, T - V as L, or an expression by the name that the answer gives it."""
         which = only_name(made)
+        terms = [only_name(x) for x in inside(made).children if isinstance(x, Tree)] if made.data != "name" else []
+        kinds = [energy_of(str(x[0]), self.words.names.model) for x in terms if x is not None and not x[1]]
+        if kinds == ["T", "V"] and [str(x) for x in inside(made).children if isinstance(x, Token)] == ["-"]:
+            return leaf("NAME", "ℒ", token.start)
+        if which is not None and not which[1] and self.words.is_own(str(which[0])):
+            return which[0]
         if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
             raise self.source.error(
                 "only T, V, L and D can be differentiated by a coordinate or its rate",

@@ -50,6 +50,7 @@ _TABLE = re.compile(rf"{_NAME}[ \t]*+=[ \t]*+(?:dict\([^\n]*+|\{{[^{{}}=:]{{1,20
 _DEFINED = re.compile(
     rf"[ \t>]*+(?P<name>{_NAME})\([ \t]*+(?P<by>{_NAME})[^()\n]{{0,80}}\)[ \t]*+=(?!=)(?P<body>[^\n]*+)"
 )
+_TEMPLATE = re.compile(rf"[ \t>]*+{_NAME}\[(?P<given>[\w ,]{{1,80}}+)\][ \t]*+:?=(?!=)")
 _CALL = re.compile(r"(?<![\w.\\])(?P<name>[^\W\d]\w{1,39}+)[(\[]")
 MOST_CALLS = 60
 """The most calls that are looked at in one statement."""
@@ -113,7 +114,7 @@ def without_code(
     for piece in pieces(text):
         said = text[piece.start : piece.end]
         if (session and (_calls_own(said, own, taken) or _READS.match(said))) or (
-            _TABLE.match(said) and not carries(said)
+            (_TABLE.match(said) and not carries(said)) or _is_template(said)
         ):
             edits.append((piece.start, piece.end, ""))
         else:
@@ -123,6 +124,13 @@ def without_code(
         if not made:
             left_out(written.origins[start] if written.origins else start)
     return written.edited(kept)
+
+
+def _is_template(said: str) -> bool:
+    """Whether a statement of Mathematica defines a function of anything: eq[q_, Q_] := D[D[L, q'[t]], t] == Q."""
+    match = _TEMPLATE.match(said)
+    given = [x.strip() for x in match["given"].split(",")] if match is not None else []
+    return any(x.endswith("_") and x != "t_" for x in given)
 
 
 def _prompts(text: str) -> Iterator[Edit]:
