@@ -44,6 +44,7 @@ def test_a_force_of_an_axle_is_none_of_the_constraint(last: bool) -> None:
     assert wheel().check(answer.replace("F - H - A", "F + H - A").replace("R H", "-R H")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -90,6 +91,7 @@ BESIDE = """Forces: H is a force of the floor, A of the axle.
    x'' = R phi''"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["acc", "ab", "ax"])
 def test_a_name_is_defined_behind_a_gap_and_is_no_product_with_an_article(name: str) -> None:
     answer = BESIDE.replace("acc", name)

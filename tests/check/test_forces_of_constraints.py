@@ -47,6 +47,7 @@ def test_a_generalized_force_may_hold_the_force_of_a_constraint(equations: str) 
     assert spinner().check(ENERGIES + FORCES + equations).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [("Q_z = -S", "Q_z = S"), ("Q_z = -S", "Q_z = -2 S"), ("- S\nQ_z", "+ S\nQ_z"), ("-b r' - S\nQ", "b r' - S\nQ")],
@@ -132,6 +133,7 @@ REMARKS = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("remark", REMARKS)
 def test_special_cases_are_remarks_where_constraints_hold(remark: str) -> None:
     assert spinner().check(f"{TENSION}\n{remark}").right
