@@ -181,7 +181,7 @@ def test_what_is_stated_in_own_coordinates_is_right_in_these(name: str) -> None:
     assert found.right, found.to_text()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("name", "now", "wrong"), [(name, a, b) for name, (_, _, twins) in SHEETS.items() for a in twins for b in twins[a]]
 )
