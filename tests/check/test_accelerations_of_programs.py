@@ -66,6 +66,7 @@ def right(text: str, model: str = "cart-pole") -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -133,6 +134,7 @@ eq1 = (M+m)*pdd + m*l*cos(a)*add + diff(diff(Ts,pd),a)*ad + b*pd == F;
 eq2 = diff(Ts,ad,2)*add + m*l*cos(a)*pdd + diff(diff(Ts,ad),a)*ad - diff(Ts,a) + diff(Vs,a) == 0;"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [

@@ -43,6 +43,7 @@ def roller() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("rolls", ["x' = R phi'", "x - R phi = 0", "R w = x', w = phi'"])
 def test_rolling_says_what_the_angle_is(rolls: str) -> None:
     rows = f"m x'' = F - k x - H\n1/2 m R^2 phi'' = R H\n{rolls}\n"
@@ -51,6 +52,7 @@ def test_rolling_says_what_the_angle_is(rolls: str) -> None:
     assert not wrong.right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("p", ["p_x", "P", "pi_x"])
 @pytest.mark.parametrize("rate", ["%s' =", "d%s/dt ="])
 def test_hamiltons_equations_alone_say_what_the_momentum_is(p: str, rate: str) -> None:

@@ -63,6 +63,7 @@ def helicopter() -> lg.Derivation:
 FLIES = "m l^2 theta'' + m g l sin(theta) = l F\nJ psi'' = d P - c F\n\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -87,6 +88,7 @@ def test_what_inputs_hold_does_not_stand_for_an_equation_of_motion() -> None:
     assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -115,6 +117,7 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
     assert right or (verdict.motion and verdict.first_wrong.line.number > 2)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("line", "right"),
     [

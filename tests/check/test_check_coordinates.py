@@ -11,6 +11,7 @@ RELATIVE = "(m1 + m2)*x1'' + m2*{s}'' = 0\nm2*x1'' + m2*{s}'' + k*{s} = F"
 ABSOLUTE = "m1*x1'' - k*({x} - x1) = -F\nm2*{x}'' + k*({x} - x1) = F"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "answer"),
     [

@@ -55,6 +55,7 @@ def test_a_force_may_be_stated_in_an_angle_of_the_circle() -> None:
     assert not damped.check(answer.replace("Q_x = -b l cos", "Q_x = -b l sin")).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -68,6 +69,7 @@ def test_a_wrong_equation_in_an_angle_is_wrong(pendulum: lg.Derivation, answer: 
     assert found.status is Status.WRONG and "Read with x = l sin θ, y = −l cos θ." in str(found)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["lam", "lmbda", "lambda"])
 def test_a_multiplier_needs_no_sign_of_a_product(pendulum: lg.Derivation, name: str) -> None:
     assert pendulum.check(f"m x'' = 2 {name} x\nm y'' + m g = 2 {name} y").right
@@ -124,6 +126,7 @@ def test_below_the_terms_nothing_of_a_wrong_answer_holds_a_formula(pendulum: lg.
         assert (data["lines"][0]["note"] is not None) == ("times 1/m" in verdict.to_text()) == (hint == 3)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["lambda", "S", "lambda_rod"])
 @pytest.mark.parametrize("scale", ["", "-", "2*"])
 def test_a_force_that_is_only_a_result_is_judged(pendulum: lg.Derivation, name: str, scale: str) -> None:
@@ -145,6 +148,7 @@ WRONG = (
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("answer", WRONG)
 def test_a_wrong_answer_stays_wrong(pendulum: lg.Derivation, answer: str) -> None:
     assert pendulum.check(answer).status is Status.WRONG
@@ -246,6 +250,7 @@ def test_derivatives_of_an_energy_with_the_constraint_put_in_beside_right_equati
     assert (found.right or found.motion) and not found.mistakes
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("force", ["J^T lambda", "Jᵀ λ", "J^T*lambda, J q' = 0"])
 def test_the_transpose_of_a_matrix_that_is_given_below(pendulum: lg.Derivation, force: str) -> None:
     """J is a list, which is a column; in front of a column it is a row."""

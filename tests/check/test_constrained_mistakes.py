@@ -89,6 +89,7 @@ def trammel() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "kind", "element"),
     [
@@ -182,6 +183,7 @@ def bob() -> lg.Derivation:
 ROWS = "m x'' = 2 lambda x\nm y'' = 2 lambda y - m g\n"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("line", "kind", "said"),
     [
@@ -214,6 +216,7 @@ def test_a_multiplier_is_read_with_the_signs_that_most_equations_agree_on(trolle
     assert str(verdict.mistakes[1].what).endswith("y/l belongs there.")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["la", "La", "lam"])
 def test_a_short_name_between_a_number_and_a_sum_is_a_factor(trolley: lg.Derivation, name: str) -> None:
     """That la is an article in French does not cut the equation."""
@@ -237,6 +240,7 @@ ON_CIRCLE = "x = l sin theta\ny = -l cos theta\n"
 FORCE = "lambda = -m/(2 l^2)*(g l cos theta + l^2 theta'^2)"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [

@@ -36,6 +36,7 @@ def findings(answer: str) -> list[bool]:
     return [f.status.right for f in wagon().check(answer).findings]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "right"),
     [

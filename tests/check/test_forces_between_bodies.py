@@ -7,6 +7,7 @@ from functools import cache
 import pytest
 
 from lagrangian import Derivation, System
+from size import rest_slow
 
 NEWTON = """H is the friction of the floor on the wheel, to the left; A is the force of the axle on the box.
 m x'' = F - H - A
@@ -44,6 +45,7 @@ def test_a_force_of_an_axle_is_none_of_the_constraint(last: bool) -> None:
     assert wheel().check(answer.replace("F - H - A", "F + H - A").replace("R H", "-R H")).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -75,11 +77,17 @@ def test_a_force_that_leaves_nothing_but_the_constraint_is_judged() -> None:
     assert not sys.derive().check(f"m r'' = -S\n{together}").right  # S would be 0
 
 
+TWINS = {"phi = x/R": "phi = 2 x/R", "1/2 J": "J", "1/2 k x^2": "k x^2", "= F": "= -F"}
+
+
+@pytest.mark.parametrize("right", rest_slow(TWINS, {"phi = x/R"}))
+def test_wrong_energies_into_which_a_coordinate_is_put_are_wrong(right: str) -> None:
+    assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, TWINS[right])).right
+
+
 def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None:
     verdict = wheel().check(ENERGIES)
     assert verdict.right and any("put into its energies" in str(note) for note in verdict.notes)
-    for right, wrong in (("phi = x/R", "phi = 2 x/R"), ("1/2 J", "J"), ("1/2 k x^2", "k x^2"), ("= F", "= -F")):
-        assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, wrong)).right
     assert not wheel().check(f"{ENERGIES}\n(M + m) x'' + k x = F").right
 
 
@@ -90,6 +98,7 @@ BESIDE = """Forces: H is a force of the floor, A of the axle.
    x'' = R phi''"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["acc", "ab", "ax"])
 def test_a_name_is_defined_behind_a_gap_and_is_no_product_with_an_article(name: str) -> None:
     answer = BESIDE.replace("acc", name)

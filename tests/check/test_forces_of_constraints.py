@@ -8,6 +8,7 @@ import pytest
 from sympy import sqrt
 
 from lagrangian import Derivation, System
+from size import rest_slow
 
 ENERGIES = """T = 1/2 (J + m r^2) phi'^2 + 1/2 m r'^2 + 1/2 M z'^2
 V = -M g z
@@ -47,6 +48,7 @@ def test_a_generalized_force_may_hold_the_force_of_a_constraint(equations: str) 
     assert spinner().check(ENERGIES + FORCES + equations).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [("Q_z = -S", "Q_z = S"), ("Q_z = -S", "Q_z = -2 S"), ("- S\nQ_z", "+ S\nQ_z"), ("-b r' - S\nQ", "b r' - S\nQ")],
@@ -132,6 +134,7 @@ REMARKS = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("remark", REMARKS)
 def test_special_cases_are_remarks_where_constraints_hold(remark: str) -> None:
     assert spinner().check(f"{TENSION}\n{remark}").right
@@ -147,17 +150,27 @@ V = m g (a sin(theta) + w)
 (J + m u^2) theta'' + m u u' theta' + m g u = tau"""
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("turned", [False, True])
+TWINS_OF_ROOT = {
+    "cos(theta) - a sin": "cos(theta) + a sin",
+    "z = a sin(theta) + w": "z = a sin(theta) - w",
+    "+ m g u = tau": "- m g u = tau",
+    "V = m g (a": "V = 2 m g (a",
+    "1/2 (J + m u^2)": "1/2 (J + 2 m u^2)",
+    "sqrt(l^2": "sqrt(2 l^2",
+}
+
+
+@pytest.mark.parametrize("turned", rest_slow([False, True], {False}))
 def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
+    assert lift().check(ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT).right
+
+
+@pytest.mark.parametrize("turned", rest_slow([False, True], {False}))
+@pytest.mark.parametrize("right", rest_slow(TWINS_OF_ROOT, {"cos(theta) - a sin", "+ m g u = tau"}))
+def test_wrong_twins_of_a_constraint_that_is_solved_with_a_root(right: str, turned: bool) -> None:
     answer = ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT
-    assert lift().check(answer).right
-    assert not lift().check(answer.replace("cos(theta) - a sin", "cos(theta) + a sin")).right
-    assert not lift().check(answer.replace("z = a sin(theta) + w", "z = a sin(theta) - w")).right
-    assert not lift().check(answer.replace("+ m g u = tau", "- m g u = tau")).right
-    assert not lift().check(answer.replace("V = m g (a", "V = 2 m g (a")).right
-    assert not lift().check(answer.replace("1/2 (J + m u^2)", "1/2 (J + 2 m u^2)")).right
-    assert not lift().check(answer.replace("sqrt(l^2", "sqrt(2 l^2")).right
+    assert right in answer
+    assert not lift().check(answer.replace(right, TWINS_OF_ROOT[right])).right
 
 
 PRESSED = """a cos(theta) + l cos(beta) = c

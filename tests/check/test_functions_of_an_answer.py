@@ -111,6 +111,7 @@ ROW = "m L^2 theta'' + b theta' + m g L sin(theta) = 0"
 OF_U = "m L^2 theta'' = -U'(theta) - b theta'\nU = -m g L cos(theta)"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "sheet",
     [

@@ -31,6 +31,7 @@ m r'' - m r (Omega + theta')^2 - m a Omega^2 cos(theta) + k r = 0
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("energy", "right"),
     [
@@ -50,6 +51,7 @@ def test_what_no_coordinate_and_no_rate_changes_may_be_left_out(
     assert ("M a² Ω², which no coordinate and no rate changes" in " ".join(verdict.to_text().split())) is right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("energy", "right"),
     [
@@ -69,6 +71,7 @@ RELATIVE, WHOLE = "m/2*R^2*theta'^2", "m/2*R^2*(theta'^2 + Omega^2*sin(theta)^2)
 BEAD = "m R^2 theta'' + m g R sin(theta) - m R^2 Omega^2 sin(theta) cos(theta) = 0"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("sheet", "right"),
     [
@@ -105,6 +108,7 @@ EXPANDED = "m/2*(r'^2 + r^2*(theta' + Omega)^2 + a^2*Omega^2 + {}*(r'*sin(theta)
 RELATIVE_ALONE = "In the velocity of particle 'slider', theta' alone stands in place of Omega + theta'."
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("energy", "name", "words"),
     [

@@ -105,6 +105,7 @@ def commented(rows: str, mark: str) -> str:
     return "\n".join(f"{mark} {row}" for row in rows.splitlines())
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("mark", ["#", "%", "//", "##  and"])
 def test_equations_that_only_comments_state_are_read(mark: str) -> None:
     (first, *_) = told(f"{ENERGIES}\n{commented(ROWS, mark)}")

@@ -33,6 +33,7 @@ $$ m \ddot x + \frac{{1}}{{2}} {SLOPE} \dot q^2 + k x = 0 $$
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "right"),
     [

@@ -72,6 +72,7 @@ SAID = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("said", "letters"), SAID.items(), ids=SAID)
 def test_declared_letters_are_read(said: str, letters: dict[str, str]) -> None:
     equations = written(letters)
@@ -137,6 +138,7 @@ def test_words_that_change_a_value_do_not_say_that_it_is_one(said: str) -> None:
     assert not any("as the words say" in note for note in notes)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("value", ["J + l^2 m", "J + m l^2 in what follows", "the inertia J + m l l", "l m l + J"])
 def test_a_value_in_words_ends_with_its_expression(value: str) -> None:
     arm = derivation("dc-motor")
@@ -222,6 +224,7 @@ RATES = """(M + m) x2 + m l cos(theta) p2 - m l sin(theta) p1^2 + b x1 = F
 (J + m l^2) p2 + m l cos(theta) x2 - m g l sin(theta) = 0"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "legend",
     [

@@ -46,6 +46,7 @@ def rows_with(name: str, effect: Site) -> list[sp.Expr]:
     return rows
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_sums_keep_their_value_when_they_are_folded(name: str) -> None:
     p = pool(name)

@@ -67,6 +67,7 @@ def right(program: str) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [

@@ -58,6 +58,7 @@ def test_a_value_under_a_name_of_the_programs_own_is_that_parameter() -> None:
     assert not any("sin" in str(d.term) for f in verdict.findings for d in f.differences)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("said", "wrong"), [("sin(slope)", "cos(slope)"), ("pi/12", "pi/10"), ("+ (m", "- (m"), ("- k*y(2)", "")]
 )

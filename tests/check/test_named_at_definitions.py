@@ -153,6 +153,7 @@ def trough() -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("D", "told", "hint"),
     [

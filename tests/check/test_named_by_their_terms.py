@@ -160,6 +160,7 @@ REDUCED = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("right", "wrong", "said", "term"),
     [

@@ -24,6 +24,7 @@ def test_solved_rows_are_right_as_they_stand() -> None:
     assert derivation("cart-pole").check("\n".join(SOLVED)).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("row", "right", "wrong", "kind", "words"),
     [

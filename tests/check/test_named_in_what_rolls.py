@@ -20,6 +20,7 @@ def _first(verdict: Verdict) -> str:
     return str(verdict.mistakes[0].what)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("force", ["F", "-F R", "F l"])
 def test_a_force_without_its_arm_is_told_as_such(force: str) -> None:
     assert reel().check(f"x = R phi\nQ_phi = F R - c (phi' + psi')\n{TURN}\n{SWING}").right

@@ -23,6 +23,7 @@ def yo_yo() -> lg.System:
 DERIVED = yo_yo().derive()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [
@@ -97,6 +98,7 @@ def scotch_yoke() -> lg.System:
     return s
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [

@@ -37,6 +37,7 @@ def right(written: str) -> bool:
         return False
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", FORMS)
 def test_a_product_with_a_column_is_given_as_a_whole(form: str) -> None:
     written = FORMS[form]

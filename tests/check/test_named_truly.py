@@ -22,6 +22,7 @@ CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
 POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "answer", "element", "ending"),
     [

@@ -25,6 +25,7 @@ def test_right_lines_beside_a_wrong_energy_are_right() -> None:
     assert "should be J ẋ²/(2 R²)" in str(verdict) and "does not belong" not in str(verdict)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -61,6 +62,7 @@ ROWS = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("above", [[T, *TURNED], TURNED, []])
 def test_what_follows_from_a_wrong_sense_of_rolling_is_no_mistake_of_its_own(above: list[str]) -> None:
     verdict = check("phi = -x/R", *above, *ROWS)
@@ -103,6 +105,7 @@ def test_a_square_keeps_its_constant() -> None:
     assert "½ k s² should be ½ k (s − s₀)²" in str(sys.derive().check("T = m s'^2/2\nV = k s^2/2"))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [

@@ -65,6 +65,7 @@ def test_a_power_of_ten_belongs_to_a_value(stiffness: str) -> None:
     assert derivation("lecture-3b").check(f"{values.replace(', ', chr(10))}\n{rows}").right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("pi", ["Pi", "PI", "π", "pi"])
 def test_pi_is_a_number_in_the_spelling_of_every_program(pi: str) -> None:
     answer = f"alpha = theta - {pi}/2\nm L^2 alpha'' + b alpha' + m g L cos(alpha) = 0"

@@ -139,6 +139,7 @@ def test_a_force_where_a_coordinate_of_the_answers_own_replaces_another() -> Non
     assert not d.check(f"w = z - y\nQ_y = F - b*w'\n{rows}").right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     ["V = -k*s^2   <- crossed out", "V = k*s^2  (crossed out, the half is missing)", "V = k*s^2  // durchgestrichen"]
@@ -189,6 +190,7 @@ m a^2 theta'' + m a^2 phi'' cos(theta - phi) + m a^2 phi'^2 sin(theta - phi) = -
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [
@@ -258,6 +260,7 @@ m2*X2'' + k*(X2 - x1) = F
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("without", ["X2 = x1 + x2\n", "T = 1/2*m1*x1'^2 + 1/2*m2*X2'^2\nV = 1/2*k*(X2 - x1)^2\n", ""])
 def test_a_definition_of_the_system_takes_the_place_of_a_coordinate(without: str) -> None:
     """Ξ_x1 is 0 with the relative x2, and −F with the absolute X2."""

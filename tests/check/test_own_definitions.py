@@ -265,6 +265,7 @@ def test_the_square_of_a_dotted_column_is_that_of_its_length(velocity: str, sign
     assert right(f"{answer}\n{CART}\n{POLE}") == is_right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("said", "reason"),
     [

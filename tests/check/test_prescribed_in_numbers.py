@@ -42,6 +42,7 @@ def plank() -> Derivation:
     return loads(PLANK).derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -67,6 +68,7 @@ def test_values_that_are_rounded(answer: str) -> None:
     assert not any(f.status.value == "wrong" for f in verdict.findings), verdict.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -87,6 +89,7 @@ def test_wrong_numbers_stay_wrong(answer: str) -> None:
     assert not plank().check(answer).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "line",
     [

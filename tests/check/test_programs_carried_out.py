@@ -160,6 +160,7 @@ PROGRAMS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("text", "right", "wrong"), PROGRAMS.values(), ids=PROGRAMS)
 def test_what_a_program_computes_is_judged(text: str, right: str, wrong: str) -> None:
     assert right in text
@@ -260,6 +261,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
 def test_a_hostile_program_is_not_executed_and_ends(text: str, tmp_path: Path) -> None:
     here = tmp_path / "made"

@@ -10,6 +10,7 @@ from student_answers import CART, POLE, right
 BRACED = "(M + m) x'' + m l {theta'' cos theta - theta'^2 sin theta} + b x' = F"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "written",
     [

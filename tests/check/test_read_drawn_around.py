@@ -55,6 +55,7 @@ DRAWN = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("drawn", DRAWN)
 def test_frames_and_arrows_are_no_part_of_an_equation(drawn: str) -> None:
     assert right(drawn.format("m x'' + d x' + k x = F"))

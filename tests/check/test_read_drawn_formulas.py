@@ -27,6 +27,7 @@ def right(written: str, name: str = "cart-pole") -> bool:
     return derivation(name).check(written).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("wide", [True, False])
 @pytest.mark.parametrize(
     "form",
@@ -165,6 +166,7 @@ e2 = L.diff(theta.diff(t)).diff(t) - L.diff(theta)
 {}"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("shown", "between"),
     [

@@ -15,6 +15,7 @@ def drawn(thing: sp.Basic, wide: bool = True) -> str:
     return str(sp.pretty(thing, use_unicode=False, wrap_line=not wide, num_columns=80))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("form", ["equations", "pieces", "session", "fractions", "stacked", "matrix"])
 def test_what_sympy_draws_without_unicode_is_read(form: str) -> None:
     def answer(sign: int) -> str:

@@ -88,6 +88,7 @@ def test_letters_of_energies_and_remarks_are_what_the_answer_makes_of_them(writt
     assert not accepted(drum(), written.replace("m g", "2 m g"))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "written",
     [
@@ -162,6 +163,7 @@ def test_an_energy_may_have_the_constraint_put_in() -> None:
     assert not accepted(derived, written.replace("r^2 + J) phi'^2", "r + J) phi'^2"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

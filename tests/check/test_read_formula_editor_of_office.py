@@ -22,6 +22,7 @@ SOLVED = "\nnewline\n".join(
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "sheet",
     [
@@ -59,6 +60,7 @@ NAMED = """x2 = (F - b x1 - m l p2 cos p + m l p1^2 sin p)/(M + m)
 p2 = [m g l sin p - m l x2 cos p]/(J + m l^2)"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "said",
     [

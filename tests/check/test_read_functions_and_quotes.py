@@ -22,6 +22,7 @@ def right(answer: str) -> bool:
     return derivation("lecture-3b").check(answer).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -47,6 +48,7 @@ def test_functions_without_a_name_give_the_rates_of_a_state(answer: str) -> None
     assert not right(wrong)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -67,6 +69,7 @@ def test_a_state_may_be_called_as_a_coordinate_that_the_code_does_not_use() -> N
     assert right(f"% x = [x1; x2r; x1d; x2rd], xdot = A*x + B*F\n{SPACE}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "form",
     [
@@ -101,6 +104,7 @@ def test_a_text_in_quotes_is_no_formula() -> None:
         derivation("lecture-3b").check('T = "two carts"')
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("module", ["import sympy as sp", "import sympy as sm", "import sympy as symbolic"])
 @pytest.mark.parametrize("call", ["simplify", "expand", "trigsimp"])
 def test_what_a_module_rewrites_stands_for_itself(module: str, call: str) -> None:

@@ -21,6 +21,7 @@ def test_a_name_with_a_star_in_latex(star: str) -> None:
     assert not right(f"With ${star} = M + 2m$\n{LATEX % star}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("star", ["m*", "m^*", r"μ\*", "m_r⋆"])
 def test_a_name_with_a_star_in_plain_text(star: str) -> None:
     sheet = f"{star} = M + m\nT* = 1/2 {star} x'^2 + m*l x' theta' cos theta + 1/2 (J + m*l^2) theta'^2\n"
@@ -75,6 +76,7 @@ def test_small_fractions_of_packages_of_latex() -> None:
     assert not right(sheet.replace("nicefrac12", "nicefrac13"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("by_time", ["d/dt(..) =", "- d/dt →", "d/dt -> ", "d/dt[…] =", 'd/dt(") =', "⇒ d/dt …:"])
 def test_a_derivative_of_what_stands_above(by_time: str) -> None:
     mark = "- " if by_time.startswith("-") else ""
@@ -127,6 +129,7 @@ def test_what_stands_in_which_equation_renames_nothing() -> None:
     assert "'lambda' was read as λ_contact" in smooth_puck().check(sheet).to_text()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("of", ["f(r, theta)", "f", "g_1(r)"])
 def test_a_stated_function_is_differentiated_by_a_coordinate(of: str) -> None:
     sheet = f"{of} = r^2/(2 R) - R/2 = 0\ndf/dr = r/R\ndf/dtheta = 0\nm r'' - m r theta'^2 + m g cos(theta) = lambda\n"

@@ -106,6 +106,7 @@ MATRIX = "M = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\n"
 FORCES = "f = [F - b*x' + m*l*theta'^2*sin(theta); m*g*l*sin(theta)]\n"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

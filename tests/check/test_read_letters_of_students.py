@@ -61,6 +61,7 @@ def test_an_answer_that_says_what_l_is_does_not_mean_ell() -> None:
     assert not accepted(f"l = 3*ell\n{CART}\n" + BOB.replace("m ell^2", "m l^2/4"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("first", "second"),
     [
@@ -79,12 +80,14 @@ def test_labels_in_front_of_equations_are_no_factors(first: str, second: str) ->
     assert not accepted(f"{first}{CART}\n{second}{BOB.replace('g ell', 'g ell^2')}")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("factor", ["k  ", "M_x  ", "2   ", "mk  ", "F_a   ", "m ell  ", "twice  "])
 def test_factors_far_in_front_of_an_equation_stay(factor: str) -> None:
     assert not accepted(f"{CART}\n{factor}m ell theta'' + m x'' cos(theta) + m g sin(theta) = 1")
     assert not accepted(f"{factor}(M+m) x'' = F_a - k x\n{BOB}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     [

@@ -34,6 +34,7 @@ ANSWERS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("answer", ANSWERS)
 def test_marks_around_statements_are_no_part_of_them(answer: str) -> None:
     assert right(answer)
@@ -68,6 +69,7 @@ SHEET = f"### Cart\n\n- {KINETIC}\n- V = {{}} m g l cos theta\n- Q_x = F - b x'\
 BROKEN = "> EOM;\n[{}*l*m*cos(theta)*theta'' + (M + m)*x'' - l*m*sin(theta)*theta'^2 + b*x' = F,\n " + POLE_TYPED + "]"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("answer", [PRINTED, PRINTED.replace("\\left", "").replace("\\right", ""), SHEET, BROKEN])
 def test_a_minus_in_mathematics_is_none_of_a_list_and_a_bullet_no_minus(answer: str) -> None:
     assert right(answer.format(1))

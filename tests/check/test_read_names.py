@@ -14,6 +14,7 @@ LEVER = "m*L_m^2*theta'' + b*L_b^2*theta' + k*L_k^2*theta + m*g*L_m*sin(theta)"
 SHAFT = "p'' = (tau - b*(p' - q') - k*(p - q))/J1\nq'' = (b*(p' - q') - b_load*q' + k*(p - q))/J2"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "answer", "said"),
     [
@@ -46,6 +47,7 @@ def test_names_of_the_answers_own_are_read_and_told(name: str, answer: str, said
     assert said in " ".join(map(str, verdict.notes))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("name", "answer"),
     [

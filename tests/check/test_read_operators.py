@@ -16,6 +16,7 @@ def right(written: str, name: str = "pendulum") -> bool:
     return derivation(name).check(written).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

@@ -50,6 +50,7 @@ def plate(permittivity: str = "eps") -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("permittivity", ["eps", "epsilon", "ε", "eps_0"])
 @pytest.mark.parametrize("product", ["εA", "eps A", "ε₀A", "(epsilon*A)", "\\varepsilon A", "(2 epsA)/2"])
 def test_greek_letters_are_read_in_full_or_shortened_next_to_others(permittivity: str, product: str) -> None:
@@ -198,6 +199,7 @@ def slope() -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("written", "right"),
     [
@@ -276,6 +278,7 @@ def test_a_factor_with_a_raised_digit_in_front_is_no_word() -> None:
 RATE = "-g/L*sin(theta) - b/(m*L**2)*omega"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("written", "right"),
     [

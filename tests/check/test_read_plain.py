@@ -42,6 +42,7 @@ SPELLINGS = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("written", SPELLINGS)
 def test_one_equation_in_many_spellings_is_right(written: str) -> None:
     verdict = derivation("pendulum").check(written)

@@ -124,6 +124,7 @@ end
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("written", "old", "new"),
     [
@@ -142,6 +143,7 @@ def test_names_of_columns_and_states(written: str, old: str, new: str) -> None:
     assert not derivation(name).check(written.replace(old, new)).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("written", "old", "new"),
     [
@@ -210,6 +212,7 @@ HEAD = """def rhs(t, y):
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("end", "right"),
     [
@@ -259,6 +262,7 @@ IN_PYTHON = """def rhs(t, y):
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "program",
     [
@@ -306,6 +310,7 @@ def test_matrices_without_an_equation_are_not_wrong(form: str) -> None:
     assert verdict.status.name == "INCOMPLETE" and not verdict.findings
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     [

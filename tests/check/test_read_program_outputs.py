@@ -35,6 +35,7 @@ def printed(shape: str, name: str, factor: int) -> str:
     return together(rows)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("shape", SHAPES)
 def test_equations_that_a_program_prints_are_read(shape: str) -> None:
     are_read("cart-pole", printed(shape, "cart-pole", 1), printed(shape, "cart-pole", 3))

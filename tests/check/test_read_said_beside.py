@@ -23,6 +23,7 @@ def right(written: str, name: str = "cart-pole") -> bool:
         return False
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("unit", "factor"), [("   [N m]", " [m]"), (" [N m].", " (N m)"), ("\t[kg m²/s²]", " [m l]"), ("   [m]", " [g]")]
 )
@@ -150,6 +151,7 @@ def test_a_position_at_rest_must_be_one() -> None:
     assert not right(f"{row}\ncos theta = g/(R Omega)", "bead-on-hoop")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "line",
     [
@@ -198,6 +200,7 @@ HALVES = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "written",
     [

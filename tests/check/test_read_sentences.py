@@ -21,6 +21,7 @@ def twins(written: str, old: str, new: str, name: str = "cart-pole") -> None:
     assert not right(written.replace(old, new), name), written.replace(old, new)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "old", "new"),
     [
@@ -70,6 +71,7 @@ def test_a_wrong_answer_is_judged_with_the_values_that_words_give() -> None:
     assert not verdict.right and "weight" in str(verdict.mistakes[0].what).lower(), verdict.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [
@@ -90,6 +92,7 @@ def test_what_may_belong_to_an_equation_is_not_left_out(row: str) -> None:
     assert not right(f"{row}\n{POLE}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     [
@@ -220,6 +223,7 @@ deflection = "y2"
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("said", "old", "new"),
     [

@@ -31,6 +31,7 @@ def twins(written: str, name: str, old: str = "l*m*cos", new: str = "l*m*sin") -
     assert not right(written.replace(old, new), name)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "session",
     [

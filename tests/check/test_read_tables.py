@@ -30,6 +30,7 @@ BY_QUANTITY = r"""
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("table", "was", "now"),
     [

@@ -32,6 +32,7 @@ def test_a_derivative_that_names_nothing_is_that_of_its_line(step: str) -> None:
     assert not right(f"{wrong}\n\n{BOTH}")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "aside",
     [
@@ -123,6 +124,7 @@ def test_the_slopes_of_a_lagrangian_with_multipliers_have_them() -> None:
     assert not bead.check(own.replace("m r^2 β'' +", "m r^2 β'' -")).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "said", [" with J_A = J + m l^2", ",  J_A = J + m l^2", ", where J_A = J + m l^2 (about the pin)"]
 )

@@ -29,6 +29,7 @@ BESIDE = {
 """Lines of a sheet beside the equations of the cart with a pole."""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("kind", BESIDE)
 def test_what_stands_beside_equations_leaves_them_right_or_wrong(kind: str) -> None:
     assert right(f"{BESIDE[kind]}\n{CART}\n{POLE}")
@@ -142,6 +143,7 @@ expression = "x^2 + y^2 - R^2"
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "beside",
     [

@@ -23,6 +23,7 @@ def test_names_of_all_coordinates_in_front_of_broken_equations_are_labels(labels
     assert not right(sheet.replace("= m g", "= -2 m g"))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("word", ["mit", "wobei", "with", "avec", "con", "met", "dove"])
 def test_a_word_between_a_formula_and_what_a_name_means_is_a_word(word: str) -> None:
     rows = f"(M + m) x'' + m s'' + b x' = F\n{POLE}"

@@ -58,6 +58,7 @@ def yoke() -> lg.Derivation:
 F = "x - r cos(theta) = 0"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("answer", "right"),
     [
@@ -108,6 +109,7 @@ def hoist() -> lg.Derivation:
 HOIST = "J_m phi_m'' + c (phi_m - phi_1) = tau\nm R^2 phi_1'' - c (phi_m - phi_1) + m g R = -d phi_1'"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("above", "right"),
     [
@@ -142,6 +144,7 @@ def tilted() -> lg.Derivation:
     return system.derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -189,6 +192,7 @@ ALL_FORCES = "Q_x = F - b x', Q_theta = m g l sin theta"
 GIBBS = "S = 1/2 M x''^2 + 1/2 (J + m l^2) theta''^2 + m l x'' theta'' cos theta\n"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "sheet",
     [

@@ -78,6 +78,7 @@ def test_the_edge_of_a_sleigh_put_into_its_energy(equations: str, lost: tuple[st
         )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("energy", ENERGIES.values())
 def test_an_energy_on_the_constraint_is_right_beside_right_equations(energy: str) -> None:
     """Its value is that of T*, and the equations cannot have been derived from it."""

@@ -26,6 +26,7 @@ def test_a_line_that_cannot_be_read_does_not_stop_a_right_answer(line: str) -> N
     assert any("Line 2 could not be read (" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("line", ASIDE)
 @pytest.mark.parametrize("rest", [f"{POLE.replace('- m g', '+ m g')}", "", f"{POLE}\n{CART.replace('b x', '2 b x')}"])
 def test_a_line_that_cannot_be_read_is_an_error_beside_what_is_not_right(line: str, rest: str) -> None:

@@ -43,6 +43,7 @@ def test_remarks_in_latex_are_taken_off_with_their_formulas() -> None:
     assert not right(f"$${cart}$$\n$${pole.replace('- m g', '+ m g')}$$\n{said}\n{case}\n")
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -68,6 +69,7 @@ def test_a_constraint_is_no_remark() -> None:
     assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls").right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "remark",
     [
@@ -86,6 +88,7 @@ def test_a_case_is_no_constraint(remark: str) -> None:
     assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}").right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "remark",
     [

@@ -173,6 +173,7 @@ Q2 = F
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", SHEETS)
 def test_what_is_stated_in_own_coordinates_is_right_in_these(name: str) -> None:
     system, sheet, _ = SHEETS[name]
@@ -180,7 +181,7 @@ def test_what_is_stated_in_own_coordinates_is_right_in_these(name: str) -> None:
     assert found.right, found.to_text()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("name", "now", "wrong"), [(name, a, b) for name, (_, _, twins) in SHEETS.items() for a in twins for b in twins[a]]
 )
@@ -275,6 +276,7 @@ def test_coordinates_of_the_system_may_be_any_functions_of_the_answers() -> None
     assert found.right and "other coordinates" in found.to_text(), found.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [

@@ -46,6 +46,7 @@ m \ddot y + c (y - x) - m g &= 0
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("first", "more", "wrong"),
     [

@@ -34,6 +34,7 @@ end
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("arguments", ["~, z, F", "t, z, F", "tt, z", "z", "time, z, par"])
 def test_the_state_is_the_argument_with_an_index(arguments: str) -> None:
     written = BY_INDEX.format(arguments=arguments)
@@ -47,6 +48,7 @@ def test_the_state_is_the_argument_with_an_index(arguments: str) -> None:
         assert not derivation("cart-pole").check(written.replace(old, new)).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("states", "a"),
     [

@@ -71,6 +71,7 @@ SLIDE = "m x'' - m (e + x cos(alpha)) cos(alpha) psi'^2 + k x - c (y - x) - b (y
 LOAD = "n y'' + c (y - x) + b (y' - x') = 0"
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong", "said"),
     [

@@ -1,10 +1,12 @@
 """What verification says of systems that hold time."""
 
+import pytest
 from sympy import cos, sin
 
 import lagrangian as lg
 
 
+@pytest.mark.slow
 def test_a_mass_matrix_that_holds_time_is_checked_with_time_held() -> None:
     """A pendulum whose length grows, L = L0 + c t: M = m L², so that Ṁ alone is not 2C."""
     system = lg.System("growing pendulum")
