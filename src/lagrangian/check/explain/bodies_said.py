@@ -26,6 +26,7 @@ from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
@@ -180,7 +181,7 @@ class BodiesSaid:
         own = [k for k, p in enumerate(self.parts) if not p.elsewhere]
         good = [k for k in own if np.isfinite(effects[k]).all() and np.abs(effects[k]).max() > SMALL]
         for count in range(1, MOST_TOGETHER + 1 if len(good) <= MOST_FOR_THREE else 3):
-            chosen = [k for k in combinations(good, count) if self._leads_to(effects, k, rest)]
+            chosen = [k for k in combinations(good, count) if self._leads_to(effects, k, rest) and self._differ(k)]
             if not chosen:
                 continue
             if self.is_T_right or all(x.kind == "V" for x in wrong):  # a height, not a position that is differentiated
@@ -216,6 +217,10 @@ class BodiesSaid:
         if len({id(self.parts[k].line) for k in chosen}) < len(chosen):
             return False
         return bool(np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL)
+
+    def _differ(self, chosen: Sequence[int]) -> bool:
+        """Whether definitions say different quantities: one of them is not wrong twice."""
+        return len(chosen) == 1 or len({str(text(*self.parts[k].words.of.words)) for k in chosen}) == len(chosen)
 
     def of_line(self, line: AnsweredLine) -> list[SaidWrongly]:
         """The wrong definitions from which a line of T*, V, L or D follows; none if it follows from none."""
@@ -257,7 +262,7 @@ class BodiesSaid:
                 said = [self.parts[k] for k in chosen]
                 if len({p.number for p in said}) < count:
                     continue
-                if np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size:
+                if np.abs(effects[list(chosen)].sum(axis=0) - rest).max() <= SMALL * size and self._differ(chosen):
                     return sorted(said, key=lambda p: p.number)
         return []
 
