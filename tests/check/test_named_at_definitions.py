@@ -182,3 +182,38 @@ def test_hints_speak_of_no_derivative_of_an_energy_that_nobody_stated() -> None:
     verdict = trough().check(row + "d (x' - y') + m y'^2")
     assert not verdict.right and verdict.mistakes
     assert not any("∂" in str(x) for m in verdict.mistakes for x in (m.what, m.why))
+
+
+def test_one_mistake_is_not_told_as_a_quantity_said_wrongly_twice() -> None:
+    s = System("ladder")
+    psi, theta = s.coordinates("psi theta")
+    J, m, n, a, b, e, d = s.parameters("J m n a b e d")
+    inner, outer = e + a * cos(theta), e + b * cos(theta)
+    s.kinetic(J * psi.diff() ** 2 / 2 + (m * inner**2 + n * outer**2) * psi.diff() ** 2 / 2)
+    s.kinetic((m * a**2 + n * b**2) * theta.diff() ** 2 / 2)
+    s.damper(d, deflection=psi, name="bearing")
+    s.torque(s.input("tau"), on=psi)
+    T = "T = J psi'^2/2 + m (a^2 theta'^2 + (e + a cos(theta))^2 psi'^2)/2"
+    T += " + n (b^2 theta'^2 + (e + b cos(theta))^2 psi'^2)/2"
+    answer = f"rho_1 = e + a cos(theta)\nrho_2 = e + b cos(theta)\n{T}\nQ_psi = tau - d psi'\nQ_theta = 0"
+    derived = s.derive()
+    assert derived.check(answer).right
+    verdict = derived.check(answer.replace("- d psi'", "+ d psi'"))
+    assert "bearing" in str(verdict.mistakes[0].what) and "sign" in str(verdict.mistakes[0].what)
+    assert all("rho" not in f.line.text for f in verdict.findings if not f.status.right)
+
+
+def test_a_coordinate_in_place_of_another_is_not_it_where_the_answer_relates_them() -> None:
+    s = System("roller")
+    x = s.coordinates("x")
+    m, J, r, g, alpha = s.parameters("m J r g alpha")
+    s.kinetic((m + J / r**2) * x.diff() ** 2 / 2)
+    s.potential(-m * g * x * sin(alpha))
+    answer = "I took the angle phi instead of x. Since it rolls, x = r*phi.\n\n"
+    answer += "T = (J + m*r^2)*phi'^2/2\nV = -m*g*r*phi*sin(alpha)\n"
+    derived = s.derive()
+    assert derived.check(answer).right
+    verdict = derived.check(answer.replace("sin(alpha)", "cos(alpha)"))
+    wrong = [f.line.text for f in verdict.findings if not f.status.right]
+    assert len(wrong) == 1
+    assert wrong[0].startswith("V")
