@@ -117,3 +117,14 @@ def test_what_a_name_is_in_a_special_case_is_not_said_of_all_motions() -> None:
         assert board.check(f"{answer}\n{remark}").right
         assert not board.check(f"{answer.replace('- k R s', '+ k R s')}\n{remark}").right
     assert not board.check(answer.replace("x - R", "x + R")).right
+
+
+def test_a_product_without_a_sign_is_no_condition() -> None:
+    s = System("disc")
+    phi = s.coordinates("phi")
+    J, k = s.parameters("J k")
+    s.kinetic(J * phi.diff() ** 2 / 2)
+    s.spring(k, deflection=phi)
+    derived = s.derive()
+    assert derived.check("J phi'' = -k phi\nCheck: at rest with phi = 0").right
+    assert not derived.check("Disc about its axle:   phi'' = k phi\n\nJ phi'' = -k phi").right

@@ -64,6 +64,7 @@ _RELATION = re.compile(
 )
 _GOES_ON = re.compile(r"(?<=[\w'’′])[ \t]*[-+−*/·][ \t]*[\w(\\]")
 """What makes a value a sum or a product: s = x - R theta."""
+_NEXT = re.compile(rf"[ \t]{{1,9}}(?P<name>{_NAME})(?![\w'’′])")
 _HELD = re.compile(
     r"^\W{0,4}(?:(?:if|when|wenn|falls|si)\b[^.;:=\n]{1,60}?\b(?:fixed|fest|fixe)|"
     r"(?:if|when|wenn|falls|si|with|mit|for|für|pour|avec)\b[^.;:=\n]{1,60}?\b(?:held|locked|blocked|clamped|stopped|zero|"
@@ -312,7 +313,7 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
         names = [match["left"], *re.findall(_NAME, match["chain"])]
         if not all(known(undotted(x.rstrip("'’′"))[0]) for x in names) or not _is_special(match, known):
             continue
-        if not match["right"].isdigit() and _GOES_ON.match(plain, match.end()):
+        if not match["right"].isdigit() and _goes_on(plain, match.end(), known):
             continue
         before = plain[max(0, match.start() - 80) : match.start()]
         if (led or match["left"] == "t") and _begins(before, known):
@@ -321,6 +322,12 @@ def _is_case(part: str, known: Callable[[str], bool], *, led: bool) -> bool:
         if cues and not _TERM.search(_RELATION.sub(" ", before[cues[-1].end() :])):
             return True
     return False
+
+
+def _goes_on(plain: str, end: int, known: Callable[[str], bool]) -> bool:
+    """Whether a value is part of a sum or a product: s = x - R theta, phi'' = F r."""
+    word = _NEXT.match(plain, end)
+    return _GOES_ON.match(plain, end) is not None or (word is not None and known(undotted(word["name"])[0]))
 
 
 def _begins(before: str, known: Callable[[str], bool]) -> bool:

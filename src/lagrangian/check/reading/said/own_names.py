@@ -49,6 +49,8 @@ _STANDS = (
 )
 _IS = r"(?P<stands>denotes|means|is|bezeichnet|bedeutet|ist)"
 _LINK = r"[ \t\n]{0,9}(?:=|:|[–—-]|\bis\b|\bist\b|\bfor\b|\bfür\b|\bdenotes\b|\bbezeichnet\b)[ \t\n]{1,9}"
+_GIVEN = re.compile(r"(?<![\w*/+^-])\\?(?P<left>[^\W\d]\w{0,15})[ \t]*=(?P<right>[^=\n;]{1,80})")
+_ANY_NAME = re.compile(r"\\?[^\W\d]\w{0,15}")
 _REST = r"(?P<rest>[^\0]{1,160})\Z"
 
 
@@ -177,7 +179,7 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
     for x in found:
         if x.own in kept or key(x.new) in {key(y.new) for y in kept.values()}:
             continue
-        if not x.sure and key(x.new) in stated:
+        if (not x.sure and key(x.new) in stated) or _is_related(bare, x):
             continue  # what it is stands elsewhere
         other = bool(system.find(x.new)) and key(x.new) not in owns
         if key(x.own) in used - news and (other or not x.sure):
@@ -194,6 +196,15 @@ def declarations(text: str, model: Model) -> DeclaredLetters:
         stands = text[first:end].rstrip(" .!\n)")
         text = f"{blanked(text[: first - 1], start, first - 1)};{stands};".ljust(end) + text[end:]
     return DeclaredLetters({own: x.new for own, x in kept.items()}, text, tuple(notes))
+
+
+def _is_related(text: str, letter: DeclaredLetter) -> bool:
+    """Whether an answer says how a letter gives what it would stand for: x = r φ, so that φ is another quantity."""
+    for match in _GIVEN.finditer(text):
+        names = [key(undotted(word.lstrip("\\"))[0]) for word in _ANY_NAME.findall(match["right"])]
+        if key(match["left"]) == key(letter.own) and key(letter.new) in names and len(names) > 1:
+            return True
+    return False
 
 
 def _is_factor(before: str, system: _System) -> bool:
