@@ -238,3 +238,25 @@ def test_a_line_without_unknown_forces_is_judged_beside_them(mast: lg.Derivation
         "d^2 + h^2 = l^2\n(m1 + m2 + m3) x'' + m2 d'' = 0\nm3 h'' = S + N - P\nm2 (x'' + d'') = S P - N"
     )
     assert [f.status.right for f in verdict.findings] == [True, True, False, False], verdict.to_text()
+
+
+def test_the_velocity_term_that_is_missing_is_told_where_a_root_was_put_in(mast: lg.Derivation) -> None:
+    rows = """h = sqrt(l^2 - d^2)
+(m1 + m2 + m3) x'' + m2 d'' = 0
+m2 x'' + (m2 + m3 d^2/(l^2 - d^2)) d'' - m3 g d/sqrt(l^2 - d^2){} = 0"""
+    assert mast.check(rows.format(" + m3 l^2 d d'^2/(l^2 - d^2)^2")).right
+    words = told(mast, rows.format(""))
+    assert "The term" in words and "of the equation of d is missing" in words and "d'^2" in words, words
+
+
+def test_a_line_that_says_nothing_once_a_force_is_written_out_stands_for_no_equation(belt: lg.Derivation) -> None:
+    rows = """x' - R phi' = a0 t
+J phi'' + c (phi' + th') = -R F
+m l x'' cos(th) + m l^2 th'' + c (phi' + th') = 0
+F = -J phi''/R - c (phi' + th')/R
+"""
+    first = "(M + m) x'' + m l th'' cos(th) {} m l th'^2 sin(th) + k x = F"
+    assert belt.check(rows + first.format("-")).right
+    assert not belt.check(rows).right
+    verdict = belt.check(rows + first.format("+"))
+    assert not verdict.right and not verdict.motion, verdict.to_text()

@@ -30,7 +30,7 @@ ROUNDING = 1e-6
 
 
 CANCELLED = 1e-13
-"""The slope by a multiplier, in the terms of its line, that is rounding: the multiplier cancels there."""
+"""The slope by a multiplier or an acceleration, in the terms of its line, that is rounding: it cancels there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +103,7 @@ class AnswerOnRows:
         slopes = np.array([self._values({**still, x: still[x] + 1.0}) - value for x in changes]).T
         acting = self._values({**still, **dict.fromkeys(self.unknown, 1.0)}, terms=True)
         slopes[:, n:][np.abs(slopes[:, n:]) <= CANCELLED * acting[:, None]] = 0.0
+        slopes[:, :n][np.abs(slopes[:, :n]) <= CANCELLED * self._values(still, terms=True)[:, None]] = 0.0
         size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(self._values(state))
         off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
         size = np.maximum(size, np.abs(self._values({**still, **off})))

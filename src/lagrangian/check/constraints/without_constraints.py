@@ -33,6 +33,8 @@ from lagrangian.page.formula import text
 
 SMALL = 1e-9
 """The size, relative to 1, below which the value of a constraint is rounding."""
+NEARER = (0.4, 0.4, 0.4)
+"""By what coordinates are multiplied, one after the other, until roots are real."""
 
 
 def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
@@ -75,12 +77,28 @@ def _tables(
     constraints = truth.derivation.constraints
     if constraints is not None and not new:
         yield _of_unwritten(truth, lines, {q: x for w in constraints.proposals if w.new is None for q, x in w.written})
+    if not said and not new and (solved := _solved(truth, lines)):
+        yield solved
     if constraints is None or len(new) != 1:
         return
     for way in constraints.proposals:
         if way.new is not None:
             proposed = {q: cast("sp.Expr", value.xreplace({way.new: new[0]})) for q, value in way.written}
             yield _of_unwritten(truth, lines, proposed)
+
+
+def _solved(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
+    """The coordinates that a line gives by others, h = √(l² − d²), and that no line accelerates."""
+    moved = {d.expr for line in lines for d in _second(line.expr)}
+    found: dict[sp.Expr, sp.Expr] = {}
+    for line in lines:
+        if line.kind != "equation" or line.expr.has(sp.Derivative) or bounded.letters(line.expr) - truth.names:
+            continue
+        for q in (c.symbol for c in truth.model.coordinates if c.symbol not in moved and line.expr.has(c.symbol)):
+            value = bounded.expand(q - line.expr / slope) if (slope := bounded.diff(line.expr, q)) in (1, -1) else q
+            if not value.has(q, *found):
+                found.setdefault(q, value)
+    return found
 
 
 def _of_unwritten(
@@ -118,10 +136,21 @@ def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence
         other = Reference(derive(found), truth.values)
     except ModelError:
         return None
+    _keep_in_reach(other, [x for value in table.values() for x in value.atoms(sp.Pow) if x.exp == sp.S.Half])
     places = (integrated(truth, row) for row in rows_of(model))
     rows = [cast("sp.Expr", place.xreplace(table)) for place in places if place is not None]
     values = CompiledExpressions(rows).at(other.states)
     return other if np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL else None
+
+
+def _keep_in_reach(other: Reference, roots: Sequence[sp.Expr]) -> None:
+    """Bring the coordinates under roots, d of √(l² − d²), so near to 0 that the roots are real at every state."""
+    inside = [c.symbol for c in other.model.coordinates if any(x.has(c.symbol) for x in roots)]
+    for nearer in NEARER if inside else ():
+        if np.isfinite(CompiledExpressions(list(roots)).at(other.states)).all():
+            return
+        for q, values in zip(inside, CompiledExpressions(inside).at(other.states), strict=True):
+            other.states.fix(q, nearer * values)
 
 
 class _Free(Carrier):

@@ -12,6 +12,7 @@ from fractions import Fraction
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
@@ -19,6 +20,7 @@ from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.changes.ring import scaled
 from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import Mistake
+from lagrangian.derive.sampling import Array
 from lagrangian.page.formula import Text, text
 
 REASON = " A possible reason: "
@@ -37,6 +39,8 @@ PLAIN = (
 )
 """Misconceptions whose words already say what stands in the equation."""
 
+MOVING = (sp.Derivative, sp.sin, sp.cos)
+"""What the sums of one term do not hold."""
 OF_A_SUM = {"sign_in_a_sum": Fraction(-2), "left_out_of_a_sum": Fraction(-1)}
 """The kinds of changes that turn or leave out all terms of a part with one letter, with the multiple of these terms."""
 
@@ -92,23 +96,42 @@ def _term(pool: Pool, told: Told) -> tuple[LocalChange, Fraction] | None:
         times = simple_number(float(own @ made[row]) / float(own @ own))
         if times is not None and np.abs(float(times) * own - made[row]).max() <= SMALL * np.abs(made).max():
             return term, times
-    return _product(pool, told, row)
+    return _product(pool, told, row, made[row])
 
 
-def _product(pool: Pool, told: Told, row: int) -> tuple[LocalChange, Fraction] | None:
+def _product(pool: Pool, told: Told, row: int, made: Array) -> tuple[LocalChange, Fraction] | None:
     """The same for several terms that are one product with a sum of constants and coordinates, (M h + m r) R Ω² sin θ:
     left out, or with the other sign."""
     change = told.mistake.change
     times = OF_A_SUM.get(change.kind) if change is not None else None
     if change is None or times is None or set(change.effect.rows) != {row}:
+        change, times = _part_of(pool, row, made)
+    if change is None or times is None:
         return None
-    term = sp.factor_terms(pool.sites.ring.expr(scaled(change.effect.rows[row], 1 / times)))
-    sums = [f for f in sp.Mul.make_args(term) if isinstance(f, sp.Add)]
-    if not isinstance(term, sp.Mul) or any(f.has(sp.Derivative, sp.sin, sp.cos) for f in sums):
+    factor = 1 / times if change.kind in OF_A_SUM else Fraction(1)
+    above, below = sp.fraction(bounded.together(pool.sites.ring.expr(scaled(change.effect.rows[row], factor))))
+    term = (bounded.factored(above) or above) / below
+    sums = [f.as_base_exp()[0] for f in sp.Mul.make_args(term)]
+    if not isinstance(term, sp.Mul) or any(isinstance(f, sp.Add) and f.has(*MOVING) for f in sums):
         return None
     words: Words = ("the term ", term, " of the equation of ", pool.truth.derivation.coordinates[row])
     site = replace(change.effect, words=words, coordinate=row, rows={row: pool.sites.sum(term)}, single=True)
     return LocalChange(kind="part", cost=change.cost, site=site, effect=site, free=True), times
+
+
+def _part_of(pool: Pool, row: int, made: Array) -> tuple[LocalChange | None, Fraction | None]:
+    """The part of an equation that is left out or has the other sign, and the multiple."""
+    for k, possible in enumerate(pool.all):
+        change = possible.change
+        if change is None or change.kind != "part" or set(change.effect.rows) != {row} or change.site.single:
+            continue
+        own = pool.W[k, row]
+        times = simple_number(float(own @ made) / float(own @ own))
+        if times is None or times not in OF_A_SUM.values():
+            continue
+        if np.abs(float(times) * own - made).max() <= SMALL * np.abs(made).max():
+            return change, times
+    return None, None
 
 
 def _terms(pool: Pool) -> dict[int, list[tuple[int, LocalChange]]]:
