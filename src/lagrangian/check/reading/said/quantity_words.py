@@ -39,7 +39,8 @@ def kinds_of_words(words: str) -> tuple[str, ...]:
 def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
     """The definition that an expression behind such words is, with them in place of a name; none behind others."""
     place = reader.source.at(0)
-    before = _ENDS.split((place.text or "")[: (place.column or 1) - 1][-LONGEST:])[-1]
+    end = (place.column or 1) - 1
+    before = _ENDS.split((place.text or "")[max(0, end - LONGEST) : end])[-1]
     words = " ".join(before.strip(" \t:-–—*#>").split())
     if " " not in words or not kinds_of_words(words):
         return []
