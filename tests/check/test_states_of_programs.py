@@ -126,3 +126,21 @@ def right(written: str) -> bool:
         return derivation("cart-pole").check(written).right
     except ParseError:
         return False
+
+
+def test_a_wrong_program_is_told_by_what_it_computes_where_its_states_are_misread() -> None:
+    program = """function zd = sled(t, z, p)
+% z = [x theta xdot thetadot]
+x = z(1); th = z(2); xd = z(3); thd = z(4);
+D = (p.M + p.m)*(p.J + p.m*p.l^2) - p.m^2*p.l^2*cos(th)^2;
+r1 = p.F - p.b*xd + p.m*p.l*thd^2*sin(th);
+r2 = p.m*p.g*p.l*sin(th);
+xdd = ((p.J + p.m*p.l^2)*r1 - p.m*p.l*cos(th)*r2)/D;
+thdd = ((p.M + p.m)*r2 - p.m*p.l*cos(th)*r1)/D;
+zd = [xd; thd; xdd; thdd];
+end"""
+    cart = derivation("cart-pole")
+    assert cart.check(program).right
+    found = cart.check(program.replace("(p.M + p.m)*r2", "p.M*r2"))
+    assert [f.line.number for f in found.findings if not f.status.right] == [8]
+    assert not found.right and "z(" not in str(found)
