@@ -144,3 +144,25 @@ end"""
     found = cart.check(program.replace("(p.M + p.m)*r2", "p.M*r2"))
     assert [f.line.number for f in found.findings if not f.status.right] == [8]
     assert not found.right and "z(" not in str(found)
+
+
+DRIVEN = """function dz = f(t, z, p)
+% z = [theta; thetadot]
+th = z(1); w = z(2);
+y = p.a*cos(p.omega*t);
+dy = -p.a*p.omega*sin(p.omega*t);
+ddy = -p.a*p.omega^2*cos(p.omega*t);
+dz = [w; (p.m*p.L*(p.g + ddy)*sin(th) - p.b*w)/(p.m*p.L^2)];
+end"""
+
+
+def test_a_wrong_rate_of_a_prescribed_motion_in_a_program_is_told_by_its_line() -> None:
+    pendulum = derivation("kapitza-pendulum")
+    found = pendulum.check(DRIVEN)
+    assert found.right and len(found.findings) == 1
+    assert pendulum.check(DRIVEN.replace("ddy = -p.a", "ddy = p.a*(-1)")).right
+    wrong = pendulum.check(DRIVEN.replace("ddy = -p.a", "ddy = p.a"))
+    assert not wrong.right
+    assert [f.line.number for f in wrong.findings if not f.status.right] == [6, 7]
+    other = pendulum.check(DRIVEN.replace("p.g + ddy", "p.g - ddy"))
+    assert not other.right and len(other.findings) == 1
