@@ -128,3 +128,43 @@ def right(written: str) -> bool:
         return derivation("cart-pole").check(written).right
     except ParseError:
         return False
+
+
+def test_a_wrong_program_is_told_by_what_it_computes_where_its_states_are_misread() -> None:
+    program = """function zd = sled(t, z, p)
+% z = [x theta xdot thetadot]
+x = z(1); th = z(2); xd = z(3); thd = z(4);
+D = (p.M + p.m)*(p.J + p.m*p.l^2) - p.m^2*p.l^2*cos(th)^2;
+r1 = p.F - p.b*xd + p.m*p.l*thd^2*sin(th);
+r2 = p.m*p.g*p.l*sin(th);
+xdd = ((p.J + p.m*p.l^2)*r1 - p.m*p.l*cos(th)*r2)/D;
+thdd = ((p.M + p.m)*r2 - p.m*p.l*cos(th)*r1)/D;
+zd = [xd; thd; xdd; thdd];
+end"""
+    cart = derivation("cart-pole")
+    assert cart.check(program).right
+    found = cart.check(program.replace("(p.M + p.m)*r2", "p.M*r2"))
+    assert [f.line.number for f in found.findings if not f.status.right] == [8]
+    assert not found.right and "z(" not in str(found)
+
+
+DRIVEN = """function dz = f(t, z, p)
+% z = [theta; thetadot]
+th = z(1); w = z(2);
+y = p.a*cos(p.omega*t);
+dy = -p.a*p.omega*sin(p.omega*t);
+ddy = -p.a*p.omega^2*cos(p.omega*t);
+dz = [w; (p.m*p.L*(p.g + ddy)*sin(th) - p.b*w)/(p.m*p.L^2)];
+end"""
+
+
+def test_a_wrong_rate_of_a_prescribed_motion_in_a_program_is_told_by_its_line() -> None:
+    pendulum = derivation("kapitza-pendulum")
+    found = pendulum.check(DRIVEN)
+    assert found.right and len(found.findings) == 1
+    assert pendulum.check(DRIVEN.replace("ddy = -p.a", "ddy = p.a*(-1)")).right
+    wrong = pendulum.check(DRIVEN.replace("ddy = -p.a", "ddy = p.a"))
+    assert not wrong.right
+    assert [f.line.number for f in wrong.findings if not f.status.right] == [6, 7]
+    other = pendulum.check(DRIVEN.replace("p.g + ddy", "p.g - ddy"))
+    assert not other.right and len(other.findings) == 1

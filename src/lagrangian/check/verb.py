@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -98,6 +99,7 @@ def _expanded(model: Model) -> Derived | None:
     return None if hopeless else model.remembered("expanded", made)
 
 
+_ENTRY = re.compile(r"[^\W\d]\w{0,30}+[ \t]*+=[ \t]*+[^\W\d]\w{0,30}+[(\[]\d{1,2}[)\]][ \t]*+[;,]?")
 MOST_EXPANDED = 10_000
 """Terms of the equations, as predicted, up to which they are written out to name a mistake."""
 
@@ -143,7 +145,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         answer, decides = again.answer, again.decides
         verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=hint)
     asked = unexplained(derivation, answer, verdict)
-    if (asked or (answer.doubt is not None and not verdict.right)) and (program := _program(answer)) is not None:
+    unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
+    if unsure and (program := _program(answer)) is not None:
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
@@ -171,6 +174,12 @@ def _program(answer: Answer) -> Answer | None:
         return next((x for other in answer.others[-1:] if (x := other()).program), None)
     except ParseError:
         return None
+
+
+def _misread(verdict: check.Verdict) -> bool:
+    """Whether a line that only takes an entry of a state, v = y(3), is called wrong: it says nothing of the motion."""
+    wrong = (f.line.text for f in verdict.findings if f.status is check.Status.WRONG)
+    return any(_ENTRY.fullmatch(x) for x in wrong)
 
 
 def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:

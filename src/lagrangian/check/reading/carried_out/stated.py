@@ -21,6 +21,7 @@ from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
+from lagrangian.check.reading.carried_out.prescribed_rates import other_rates
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -114,6 +115,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         reader = StateReader(run, text, model, scope)
         with suppress(*TROUBLES):  # a function of its own that returns no rates
             found += _of_states(run, names, reader, loose)
+        found += [(one.line, f"{called} = {written(one.value)}") for one, called in other_rates(run)]
         if not any(_ACCELERATES.search(x) for _, x in found):
             told = equations_in_comments(run, names, reader)
             found += [(line, f"{written(x)} = 0") for line, entries in told for x in entries]
