@@ -104,6 +104,7 @@ ANSWERS = {
     "returns": "A = [1]\n" + "return   " * (N // 9) + "a.b.c.solve(A, ",
     "signs between words": "x1'' = 0\n" + "mast + arm " * (N // 11) + ". And",
     "quotation marks": "x1'' = 0\n" + ('a a a "b = ' * (N // 400) + "\n") * 30,
+    "rates of rates": "d/dt " * (N // 5) + "x1'' = 0",
     "labels of slopes": "d/dt ∂T/∂x1" + BLANK + "y: x1'' = 0",
     "letters in drawn lines": "  ─\n" + "a" * N + "\nx1'' = 0",
 }

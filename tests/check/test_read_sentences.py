@@ -377,3 +377,15 @@ def test_signs_between_words_and_quotation_marks_are_no_mathematics(said: str) -
 d/dt ∂T/∂θ' :   (J + m l^2) theta'' + B cos theta x'' = m g l sin theta"""
     twins(f"{said}\n{rows}", "M + m", "M - m")
     twins(f"{said}\n{rows}", "B cos theta x''", "B sin theta x''")
+
+
+def test_a_definition_stands_in_a_sentence_with_mathematics_and_the_is_no_product() -> None:
+    """With a coordinate θ and a parameter e, the is no th·e."""
+    arm = System("arm")
+    theta = arm.coordinate("theta")
+    m, e, length = arm.parameters("m e l")
+    arm.particle(m, at=arm.point("P", (length * sp.sin(theta), e - length * sp.cos(theta))))
+    arm.gravity()
+    told = "The bob has, with R = l θ', the momentum terms m l² θ'' + m R l θ'² sin θ about the hinge.\n"
+    for row, holds in (("m l R' = -m g l sin(θ)", True), ("m l R' = -m g e sin(θ)", False)):
+        assert arm.derive().check(told + row).right is holds

@@ -39,6 +39,8 @@ from lagrangian.read.letters import undotted
 _EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
 _BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
 _NUMBERS = frozenset(["number", "fraction"])
+MAX_RATES = 8
+"""The most signs d/dt in front of each other."""
 
 
 class PlainParser(PlainCalls):
@@ -175,6 +177,9 @@ class PlainParser(PlainCalls):
             case "other" if token.text == "|":
                 return self._absolute()
             case "ddt" | "ddt2":
+                run = self.tokens[self.i : self.i + MAX_RATES + 1]
+                if len(run) > MAX_RATES and all(x.kind in ("ddt", "ddt2") for x in run):
+                    raise self.source.error(f"more than {MAX_RATES} times d/dt", token.start, code="E703")
                 self.take()
                 return node("rate", token.start, self._postfix(), 1 if token.kind == "ddt" else 2)
             case "partial":

@@ -182,11 +182,22 @@ class Words:
         return self._counts[key(word)]
 
     def is_product(self, word: str) -> bool:
-        """Whether a word can be split into names of the system."""
+        """Whether a word can be split into names of the system; short forms of these that stand nowhere else are none:
+        the is no th·e of θ and e."""
         if word not in self._products:
             few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS
-            self._products[word] = few and bool(self._splits(word, called=False, extra=False))
+            split = self._splits(word, called=False, extra=False) if few else ()
+            self._products[word] = any(not any(map(self._is_new_short_form, parts)) for parts in split) or any(
+                function_of(x) is not None
+                for parts in split
+                for x in parts  # mgLsinth
+            )
         return self._products[word]
+
+    def _is_new_short_form(self, part: str) -> bool:
+        """Whether a part of a word is a short form of a name that no other word of the answer is."""
+        named = self.names.scope.meanings(part)[0]
+        return bool(named) and len(part) > 1 and key(part) not in map(key, named) and not self.count(part)
 
     def factors(self, word: str) -> list[str]:
         """The names of the system of which a word consists, coarsest first; the word itself if it is no product."""

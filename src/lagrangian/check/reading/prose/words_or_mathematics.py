@@ -355,11 +355,14 @@ def is_statement(text: str, words: Words) -> bool:
 
 
 def says_nothing(text: str, words: Words) -> bool:
-    """Whether a part of a line consists of words; a note tells one with names or numbers: multiplier lambda."""
+    """Whether a part of a line consists of words, or is a sentence that holds no statement, the terms are m l² θ''; a
+    note tells one with names or numbers: multiplier lambda."""
     if _DONE_TO_ALL.match(text):
         return True
     listed = _WORD.findall(text)
-    if _SIGNS.search(text) or not any(_is_word(x, words) for x in listed):
+    spoken = [_links(x, words) or _is_word(x, words) for x in listed]
+    sentence = "=" not in text and sum(spoken) > MOST_NAMES and all(spoken[:2])
+    if not sentence and (_SIGNS.search(text) or not any(_is_word(x, words) for x in listed)):
         return False
     if re.search(r"\d", text) or any(map(words.is_name, listed)):
         words.names.notes.setdefault(f"'{' '.join(text.split())}' was not judged: it has no equals sign.")
