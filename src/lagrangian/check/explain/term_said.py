@@ -125,6 +125,8 @@ def _part_of(pool: Pool, row: int, made: Array) -> tuple[LocalChange | None, Fra
         change = possible.change
         if change is None or change.kind != "part" or set(change.effect.rows) != {row} or change.site.single:
             continue
+        if len({pool.sites.element_of(row, m) for m in change.effect.rows[row]}) > 1:
+            continue  # what several bodies add is written as several terms
         own = pool.W[k, row]
         times = simple_number(float(own @ made) / float(own @ own))
         if times is None or times not in OF_A_SUM.values():
