@@ -25,22 +25,22 @@ from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candid
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.combined_rows import with_combined_rows
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
+from lagrangian.check.explain.explained import explained
 from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.own_terms import foreign_names
-from lagrangian.check.explain.reasoned import with_bodies
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
-from lagrangian.check.judged import Judged, judged_lines
+from lagrangian.check.judged import judged_lines
 from lagrangian.check.lines import filled, without_forms
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
-from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, not_there, spelled, values_of
+from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
@@ -204,7 +204,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     return (
         _elsewhere(truth, spelling, verdict, explain)
         or (_own_names(truth, spelling, verdict) if explain else None)
-        or (_explained(truth, spelling, judged, verdict) if explain else verdict)
+        or (explained(truth, spelling, judged, verdict) if explain else verdict)
     )
 
 
@@ -387,23 +387,3 @@ def _in_these(
         sure=named.sure,
         motion=judged.motion,
     )
-
-
-def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
-    """The verdict, with the mistakes that explain the answer."""
-    named = mistakes(truth, spelling.lines, judged.findings)
-    notes = (*verdict.notes, *(not_there(truth.model, name) for name in new_names(truth, spelling.lines)))
-    if too_long(truth) or not truth.tried_all:
-        every = "" if too_long(truth) else "all "
-        said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
-        notes = (*notes, text(said))
-    if named.told and named.left:
-        lines = [x for line in named.left for x in (line.title, ", ")][:-1]
-        notes = (
-            *notes,
-            text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
-        )
-    findings = with_wrong_definitions(verdict.findings, named.blamed)
-    told = with_bodies(truth, findings, named.told)
-    told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
-    return replace(told, notes=notes, sure=named.sure)

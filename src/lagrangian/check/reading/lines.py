@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import cast
 
 import sympy as sp
@@ -355,10 +356,8 @@ class Lines:
             values = [sp.S.Zero, *values] if "=" in reader.source.text else [*values, sp.S.Zero]  # eq1 = m x'' - F
             sides = [*sides, sides[0]]
         values, sides = without_parts(*without_amounts(values, sides, self.model), reader)
-        lines: list[AnswerLine] = []
-        for i in range(len(values) - 1):
-            lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)
-        return lines
+        pairs = zip(pairwise(values), pairwise(sides), strict=False)
+        return [x for (a, b), (left, right) in pairs for x in self._equation(a, b, left, right, reader)]
 
     def _equation(self, left: Value, right: Value, a: Tree, b: Tree, reader: Meaning) -> list[AnswerLine]:
         pairs = [(left, right)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -41,7 +41,7 @@ from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
-from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, said_values
+from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -195,7 +195,7 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
 
         others = (*others, corrected)
     answer = replace(answer, others=others)
-    for sure in (x for x in said if x.sure and not _related(answer, x.values, model)):
+    for sure in (x for x in said if x.sure and not related(answer, x.values, model)):
         try:
             found = read(sure)
         except ParseError:
@@ -205,24 +205,6 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
             return replace(found, notes=(*told, *found.notes))
         return replace(found, notes=(*told, *found.notes), others=(*found.others, lambda: answer, *others))
     return answer
-
-
-def _related(answer: Answer, values: Mapping[str, str], model: Model) -> bool:
-    """Whether a line says how a name depends on what it would be read as, x = r φ: then it is another quantity."""
-    symbols = {u.name: u.symbol for u in answer.unknown}
-    for line in answer.lines:
-        expr = sp.sympify(line.residual)
-        both = line.kind in ("equation", "identity") and not expr.atoms(sp.Derivative)
-        for name, value in values.items():
-            other = model.symbols.get(value)
-            said = line.kind == "definition" and line.name == value and expr != symbols.get(name)
-            if (
-                name in symbols
-                and expr.has(symbols[name])
-                and (said or (both and other is not None and expr.has(other)))
-            ):
-                return True
-    return False
 
 
 def _answer(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:

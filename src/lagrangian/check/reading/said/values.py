@@ -18,10 +18,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from difflib import get_close_matches
 from itertools import islice, pairwise, product
 
+import sympy as sp
+
+from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.numbered_rates import numbered_rates
 from lagrangian.check.reading.plain.spans import spans
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import CHANGING
+from lagrangian.model import Model
 from lagrangian.read.letters import SPELLED, key
 from lagrangian.records import dataclass
 
@@ -255,3 +259,21 @@ def _rated(
             shown = below.text if own else rf"\mathrm{{{name}}}"
             written = f"\\{'d' * order}ot{{{shown}}}" if latex else name + "'" * order
             yield item.text, written, len(own) == 1
+
+
+def related(answer: Answer, values: Mapping[str, str], model: Model) -> bool:
+    """Whether a line says how a name depends on what it would be read as, x = r φ: then it is another quantity."""
+    symbols = {u.name: u.symbol for u in answer.unknown}
+    for line in answer.lines:
+        expr = sp.sympify(line.residual)
+        both = line.kind in ("equation", "identity") and not expr.atoms(sp.Derivative)
+        for name, value in values.items():
+            other = model.symbols.get(value)
+            said = line.kind == "definition" and line.name == value and expr != symbols.get(name)
+            if (
+                name in symbols
+                and expr.has(symbols[name])
+                and (said or (both and other is not None and expr.has(other)))
+            ):
+                return True
+    return False

@@ -1,0 +1,36 @@
+"""The verdict on a wrong answer with the mistakes that explain it, and what is told of a long system."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lagrangian.check.coordinates.tried import new_names
+from lagrangian.check.explain.candidates import too_long
+from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.mistakes import mistakes
+from lagrangian.check.explain.reasoned import with_bodies
+from lagrangian.check.judged import Judged
+from lagrangian.check.names.spelling import Spelling, not_there
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import Verdict
+from lagrangian.page.formula import text
+
+
+def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
+    """The verdict, with the mistakes that explain the answer."""
+    named = mistakes(truth, spelling.lines, judged.findings)
+    notes = (*verdict.notes, *(not_there(truth.model, name) for name in new_names(truth, spelling.lines)))
+    if too_long(truth) or not truth.tried_all:
+        every = "" if too_long(truth) else "all "
+        said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
+        notes = (*notes, text(said))
+    if named.told and named.left:
+        lines = [x for line in named.left for x in (line.title, ", ")][:-1]
+        notes = (
+            *notes,
+            text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
+        )
+    findings = with_wrong_definitions(verdict.findings, named.blamed)
+    told = with_bodies(truth, findings, named.told)
+    told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)
+    return replace(told, notes=notes, sure=named.sure)
