@@ -37,6 +37,8 @@ class OwnName:
 
     symbol: sp.Expr
     value: sp.Expr
+    given: bool = False
+    """Whether the name is one of the system."""
 
     @property
     def key(self) -> str:
@@ -64,8 +66,8 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
 
 
 def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[AnsweredLine]) -> tuple[OwnName, ...]:
-    """The names with values that the wrong lines of an answer have, but for those that they define; the longest values
-    first."""
+    """The names with values that the wrong lines of an answer have, but for those that they define, and names of the
+    system for such values that the answer has anywhere; the longest values first."""
     used = {name for line in wrong if line.kind != "definition" for name in names_in(line)}
     taken = {key(name) for name in truth.model.symbols}
     found: dict[str, set[sp.Expr]] = {}
@@ -75,11 +77,13 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
         if line.kind == "definition" and _WORD.fullmatch(name) and key(name) in used - taken:
             found.setdefault(name, set()).add(line.expr)
             symbols[name] = cast("sp.Expr", moving_symbol(name) if _moves(line.expr) else sp.Symbol(name))
+    anywhere = {name for line in lines for name in names_in(line)}
     for d in truth.model.definitions:
-        if key(d.name) in used:
+        if key(d.name) in anywhere:
             found.setdefault(d.name, set()).add(truth.expand(d.symbol))
             symbols[d.name] = d.symbol
-    named = [OwnName(symbols[name], *values) for name, values in found.items() if len(values) == 1]
+    of_system = {d.name for d in truth.model.definitions}
+    named = [OwnName(symbols[x], *values, given=x in of_system) for x, values in found.items() if len(values) == 1]
     named = [x for x in named if x.value.args and 0 < bounded.operations(x.value) <= LONGEST_VALUE]
     named = [x for x in named if not _has_unknown(x.value, symbols.values())]
     every = [y for x in named for y in (x, *_rates(x))]
@@ -109,7 +113,7 @@ def _rates(name: OwnName) -> Iterator[OwnName]:
         value = bounded.diff(value, time)
         if not value.has(time):
             return
-        yield OwnName(cast("sp.Expr", sp.Derivative(symbol, (time, count))), value)
+        yield OwnName(cast("sp.Expr", sp.Derivative(symbol, (time, count))), value, name.given)
 
 
 def _differences(lines: Sequence[AnsweredLine]) -> frozenset[tuple[str, str]]:
@@ -129,7 +133,7 @@ class _Told:
         """A finding, but for its line."""
         if finding.status.right:
             return finding
-        own = _Told(tuple(x for x in self.names if x.key in names_in(finding.line)), self.differences)
+        own = _Told(tuple(x for x in self.names if x.given or x.key in names_in(finding.line)), self.differences)
         differences = tuple(map(own.difference, finding.differences))
         return replace(finding, differences=differences, note=own.words(finding.note))
 

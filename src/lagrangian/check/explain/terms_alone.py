@@ -18,7 +18,10 @@ def with_terms_alone(verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer, with the terms that differ as its mistakes if it has none and they are few."""
     roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows and not f.clash]
     differing = [(f, d) for f in roots for d in f.differences]
-    every = all(f.differences for f in roots)
+    forces = [f.line.name for f in verdict.findings if f.line.kind == "Xi"]
+    every = all(
+        f.differences and forces.count(f.line.name) < 2 for f in roots
+    )  # one that stands there twice is unclear
     if verdict.mistakes or verdict.hint == 0 or not every or not 0 < len(differing) <= MOST_TOLD:
         return verdict
     return replace(verdict, mistakes=tuple(_told(f, d) for f, d in differing), sure=True)

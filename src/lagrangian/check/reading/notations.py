@@ -85,8 +85,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
     own = {key(name) for name in lines.model.symbols}
-    prompted = with_declared(prompted, lambda name: key(name) in own)
-    zero = residuals(prompted, taken, names.changes)
+    zero = residuals(with_declared(prompted, lambda name: key(name) in own), taken, names.changes)
     names.residuals = zero.names
     code = without_code(zero.written, taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
