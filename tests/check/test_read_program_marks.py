@@ -210,3 +210,5 @@ def test_a_letter_is_what_a_program_declares_it_as() -> None:
     assert d.check(program).right
     assert not d.check(program.replace("sin(al)", "sin(c)")).right
     assert not d.check(program.replace("'m g alpha k'", "'m alpha g k'")).right
+    rates = "z = dynamicsymbols('x')\nzd = dynamicsymbols('x', 1)\n"
+    assert d.check(rates + program.replace("x'", "zd").replace("m*g*x", "m*g*z").replace("c*x", "c*z")).right

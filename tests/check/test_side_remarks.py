@@ -19,6 +19,7 @@ REMARKS = [
     "Special case m = 0: the cart alone, M x'' + b x' = F",
     "Sonderfall θ = 0:\n(M + m) x'' + b x' = F",
     "\nEquilibrium without F (x' = x'' = 0 etc.):\nm g l sin(theta_0) = 0\n",
+    "If M goes to infinity then x = l*theta and you get a fixed pivot.",
     "Setting b = 0 and F = 0 gives (M + m) x' + m l theta' cos theta = p_0 = const.",
     "Without friction (F = b = 0) and theta = 0: (M + m) x' = const",
     "Remark: without the pole (m = J = 0) the cart obeys M x'' = F - b x'.",

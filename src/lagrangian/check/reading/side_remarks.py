@@ -60,7 +60,8 @@ _NAME = r"[^\W\d]\w{0,23}+['’′]{0,2}"
 _SIMPLE = rf"(?:[-−]?\d(?:[\d./,]{{0,8}}\d)?|{_NAME}|∞)"
 _RELATION = re.compile(
     rf"(?<![\w^*/+)'’′-])(?P<left>{_NAME})(?P<chain>(?:[ \t]*=[ \t]*{_NAME}){{0,3}})"
-    rf"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=)[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
+    r"[ \t]*(?P<sign>->|→|≪|≫|<<|>>|≈|≡|=|(?<=[ \t])(?:(?:goes|tends)[ \t])?to(?=[ \t](?:infinity|∞|zero|0)\b))"
+    rf"[ \t]*(?P<right>{_SIMPLE})(?![\w^*/+(²])(?!['’′])"
 )
 _GOES_ON = re.compile(r"(?<=[\w'’′])[ \t]*[-+−*/·][ \t]*[\w(\\]")
 """What makes a value a sum or a product: s = x - R theta."""

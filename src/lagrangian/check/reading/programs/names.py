@@ -24,7 +24,7 @@ MOST, LONGEST = 60, 4_000
 _LIST = rf"{_NAME}(?:[ \t]*+,[ \t]*+{_NAME}){{0,15}}+"
 _DECLARED = re.compile(
     rf"^[ \t]*+(?P<names>{_LIST})[ \t]*+=[ \t]*+(?:\w{{1,6}}\.)?(?:symbols|dynamicsymbols|var|Symbol|Function)"
-    r"\([ \t]*+(?P<quote>['\"])(?P<called>[\w ,]{1,400}+)(?P=quote)[^\n]*+$",
+    r"\([ \t]*+(?P<quote>['\"])(?P<called>[\w ,]{1,400}+)(?P=quote)(?![ \t]*+,[ \t]*+\d)[^\n]*+$",
     re.MULTILINE,
 )
 _FUNCTION = re.compile(
