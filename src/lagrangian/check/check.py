@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
+from lagrangian.check.constraints.in_own_coordinates import right_in_own_coordinates
 from lagrangian.check.constraints.inputs_beside import judged_with_inputs
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
@@ -132,7 +133,8 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
     read = unfolded(truth, without_own_angles(truth, written))
     verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
     verdict = energies_on_rows(truth, read.lines, verdict, hint)
-    verdict = verdict if verdict.right else on_branch(truth, read.lines, hint) or verdict
+    if not verdict.right:
+        verdict = on_branch(truth, read.lines, hint) or right_in_own_coordinates(truth, read.lines, hint) or verdict
     if not explain:
         return verdict
     own = without_other_forces(truth, read.lines, verdict, lambda x: check_in_any_angle(truth, x, hint))

@@ -45,6 +45,8 @@ def blank(text: str, start: int, end: int) -> str:
     return text[:start] + " " * (end - start) + text[end:]
 
 
+_BEHIND_FORMULA = re.compile(r"(?:(?<=[\^*/]\d)|(?<=['’′²³]))\.(?=[ \t]{1,9}[^\W\d][\w/'’′]{0,23}[ \t]{0,9}=(?!=))")
+"""The full stop behind a formula, where a statement follows: P = F x' - d s'^2. dE/dt = P."""
 _BEHIND_SENTENCE = re.compile(
     r"^(?P<sentence>[ \t]*+(?:[^\W\d_]{1,20}[,:]?[ ]){2,30}[^\W\d_]{1,20}[.!?])[ ]"
     r"(?=(?:[*•-]|\(\w{1,3}\)|\d{1,2}[.)])[ ][^\n]*=)",
@@ -67,8 +69,9 @@ def without_markup(text: str) -> str:
 
 
 def sentences_apart(text: TracedText) -> TracedText:
-    """Return an answer in which a bullet or a label behind a sentence of words begins a line."""
-    return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n")
+    """Return an answer in which a bullet or a label behind a sentence of words begins a line, and a statement behind a
+    formula that a full stop ends."""
+    return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n").sub(_BEHIND_FORMULA, lambda _: ";")
 
 
 def opened_list(text: str) -> str:
