@@ -11,7 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
-from lagrangian.check.constraints.in_own_coordinates import right_in_own_coordinates
+from lagrangian.check.constraints.in_own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.constraints.inputs_beside import judged_with_inputs
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
@@ -38,7 +38,7 @@ from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
-from lagrangian.check.lines import filled, without_forms
+from lagrangian.check.lines import filled, without_forms, without_periods
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
@@ -81,6 +81,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     truth = truth.with_values(said.values) if said.values else truth
     truth.algebra.renew()
     judged, unjudged = without_forms(truth, said.lines)
+    judged, periods = without_periods(truth, judged)
     judged, added = with_energies_apart(truth, judged)
     judged, sides = with_forces_apart(truth, judged)
     judged, parts = without_first_parts(truth, judged)
@@ -93,7 +94,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if not verdict.right:
         named = with_terms_alone(with_combined_rows(truth, written, verdict)) if explain else verdict
         verdict = in_own_names(truth, written, named)
-    verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
+    verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")
@@ -137,6 +138,8 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
         verdict = on_branch(truth, read.lines, hint) or right_in_own_coordinates(truth, read.lines, hint) or verdict
     if not explain:
         return verdict
+    if (off := off_constraints(truth, read.lines, verdict)) is not None:
+        return off
     own = without_other_forces(truth, read.lines, verdict, lambda x: check_in_any_angle(truth, x, hint))
     named = named_beside_multipliers(truth, own.lines, own.verdict, lambda x: judged_lines(truth, x).findings)
     named = with_rows_put_in(truth, own.lines, named)
@@ -313,6 +316,11 @@ def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdi
     return replace(found, findings=tuple(findings), mistakes=told, alternatives=others)
 
 
+def _count_right(verdict: Verdict) -> int:
+    """How many energies and equations are right."""
+    return sum(f.status.right for f in verdict.findings if f.line.kind in ("T", "V", "L", "equation"))
+
+
 def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer in coordinates in which the constraints hold, if its mistakes are found so.
 
@@ -335,7 +343,7 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     if any(not unjudged.get(key, True) for key in wrong):
         return None
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
-    if found is None or not found.mistakes:
+    if found is None or not (found.mistakes or _count_right(found) > _count_right(verdict)):
         return None
     judged = {id(f.line): f for f in found.findings}
     there = {key: judged[id(x)] for key, x in moved.items() if id(x) in judged}

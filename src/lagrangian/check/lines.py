@@ -106,6 +106,16 @@ def _is_other_lagrangian(line: AnsweredLine) -> bool:
     return (line.kind, line.name) == ("statement", "L") and set() < used <= {T, V} and line.expr != T - V
 
 
+def without_periods(
+    truth: Reference, lines: Sequence[AnsweredLine]
+) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
+    """The lines without a T = 2 π √(L/g) that is no kinetic energy: it has π and no rate. With notes that say so."""
+    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
+    periods = [x for x in lines if x.kind == "T" and x.expr.has(sp.pi) and not x.expr.has(*moving, sp.Derivative)]
+    told = tuple(text(f"'{x.text}' was not judged: it is a period, and no kinetic energy.") for x in periods)
+    return tuple(x for x in lines if not any(x is y for y in periods)), told
+
+
 def without_forms(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """The lines without headings such as M q̈ + K q = f, of whose names the system and all other lines have none.
 

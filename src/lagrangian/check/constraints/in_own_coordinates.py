@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from lagrangian.check.constraints.without_constraints import without_constraints
+from lagrangian.check.constraints.without_constraints import breaking_constraints, without_constraints
 from lagrangian.check.coordinates.chart import system_coordinates, with_own_quantities
+from lagrangian.check.explain.constraint_slips import WHY
+from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import text
 
 
 def right_in_own_coordinates(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict | None:
@@ -27,6 +32,27 @@ def right_in_own_coordinates(truth: Reference, lines: Sequence[AnsweredLine], hi
         hint=hint,
         motion=judged.motion,
     )
+
+
+def off_constraints(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
+    """The verdict on a wrong answer in coordinates of its own with which the constraints do not hold: that is its first
+    mistake, and what it writes in them follows."""
+    if verdict.status is not Status.WRONG or (own := breaking_constraints(truth, lines)) is None:
+        return None
+    said = [x for x in lines if x.kind == "definition" and x.name in {c.name for c in truth.model.coordinates}]
+    titles = {row.element.title for row in rows_of(truth.model)}
+    element = next(iter(titles)) if len(titles) == 1 else None
+    what = text("With ", *own.change.words.parts[1:], f", {element or 'a constraint'} does not hold.")
+    brief = text(f"With your coordinates, {element or 'a constraint'} does not hold.")
+    mistake = Mistake("constraint_in_own_coordinates", what, WHY[0], 1, element, None, brief)
+    judged = judged_lines(own.truth, with_own_quantities(own.truth, own.lines, system_coordinates(own.truth)))
+    fit = {(f.line.number, f.line.text) for f in judged.findings if f.status.right}
+    findings = [replace(f, follows=f.follows or (f.line.number, f.line.text) in fit) for f in verdict.findings]
+    findings = [replace(f, differences=()) for f in findings]
+    findings = [f for f in findings if not any((f.line.number, f.line.text) == (x.number, x.text) for x in said)]
+    for line in {(x.number, x.text): x for x in said}.values():
+        findings = inserted(findings, Finding(line, Status.WRONG))
+    return replace(verdict, findings=tuple(findings), mistakes=(mistake,), alternatives=(), sure=True)
 
 
 def _unjudged(lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:

@@ -128,7 +128,35 @@ def _reference(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Seq
     return known[key]
 
 
+def breaking_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InStatedCoordinates | None:
+    """The answer in as many new coordinates as there are freedoms, x = l cos θ, if the constraints do not hold with
+    what it says that the system's are; None if it says no such thing, or what is right."""
+    own = {c.symbol for c in truth.model.coordinates}
+    new = sorted({d.expr for x in lines for d in _second(x.expr)} - own, key=str)
+    rows = rows_of(truth.model)
+    named = {c.name: c.symbol for c in truth.model.coordinates}
+    said = {named[str(x.name)]: x.expr for x in lines if x.kind == "definition" and str(x.name) in named}
+    freedoms = len(new) == truth.n - len(rows) and len(said) == truth.n
+    if not freedoms or any(integrated(truth, row) is None for row in rows):
+        return None
+    if not all(bounded.letters(value) - truth.names <= set(new) for value in said.values()):
+        return None
+    table = cast("dict[sp.Expr, sp.Expr]", said)
+    other = _carried(truth, table, [Coordinate(str(x.func), x) for x in new])
+    if other is None or _hold(truth, table, other):
+        return None
+    change = ProposedChange(table, _words(table), True)
+    unknown = {x for line in lines for x in bounded.letters(line.expr)} - other.names - own
+    return InStatedCoordinates(other, tuple(_moved(truth, lines, change, table, unknown)), change)
+
+
 def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    other = _carried(truth, table, coordinates)
+    return other if other is not None and _hold(truth, table, other) else None
+
+
+def _carried(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence[Coordinate]) -> Reference | None:
+    """The reference in other coordinates, without its constraints."""
     model = truth.model
     whole: dict[Any, sp.Expr] = {c.symbol: table.get(c.symbol, c.symbol) for c in model.coordinates}
     try:
@@ -137,10 +165,15 @@ def _made(truth: Reference, table: dict[sp.Expr, sp.Expr], coordinates: Sequence
     except ModelError:
         return None
     _keep_in_reach(other, [x for value in table.values() for x in value.atoms(sp.Pow) if x.exp == sp.S.Half])
-    places = (integrated(truth, row) for row in rows_of(model))
+    return other
+
+
+def _hold(truth: Reference, table: dict[sp.Expr, sp.Expr], other: Reference) -> bool:
+    """Whether the constraints hold in other coordinates."""
+    places = (integrated(truth, row) for row in rows_of(truth.model))
     rows = [cast("sp.Expr", place.xreplace(table)) for place in places if place is not None]
     values = CompiledExpressions(rows).at(other.states)
-    return other if np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL else None
+    return bool(np.isfinite(values).all() and np.abs(values).max(initial=0.0) <= SMALL)
 
 
 def _keep_in_reach(other: Reference, roots: Sequence[sp.Expr]) -> None:

@@ -201,7 +201,9 @@ def _is_value(written: str, words: Words) -> bool:
     named = re.findall(r"[^\W\d⁰¹²³⁴-⁹]\w*", written)
     if named == [written] and not words.names.known(written):
         return False  # another name of the answer
-    return bool(named) and written[-1] not in "+-*/^" and all(words.readable(x) or words.is_product(x) for x in named)
+    if written[0] in "'’′" or written[-1] in "+-*/^":
+        return False
+    return bool(named) and all(words.readable(x) or words.is_product(x) for x in named)
 
 
 # -- pairs ------------------------------------------------------------------------------------------------------------
