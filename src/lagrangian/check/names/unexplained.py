@@ -23,7 +23,8 @@ from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.derive.sampling import SETS, CompiledExpressions
 from lagrangian.errors import ParseError
-from lagrangian.model import Model, time
+from lagrangian.model import Gravity, Model, time
+from lagrangian.model.elements.raw import Potential
 from lagrangian.page.plain import plain
 from lagrangian.read.letters import key
 from lagrangian.values.dimensions import Mismatch, check_dimensions
@@ -52,6 +53,7 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given]
     moving = _moving(derivation.model, lines, answer)
     asked = [u for u in asked if u not in moving and not _is_known(u, derivation.model, lines)]
+    asked = [u for u in asked if not _is_gravity(u, derivation.model)]
     asked = [] if _is_last(derivation, lines, asked, answer.described) else asked
     equations = [line for line in lines if line.kind == "equation"]
     forces = [u for u in asked if derivation.multipliers and is_factor_of_forces(u.symbol, lines)]
@@ -74,6 +76,11 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
             return ()
         deciding |= {u.name: u for u in inside}
     return tuple(deciding.values())
+
+
+def _is_gravity(unknown: Unknown, model: Model) -> bool:
+    """Whether a name is g, in a system without gravity: everybody knows what it is, and that it is too much there."""
+    return unknown.name == "g" and not any(isinstance(e, (Gravity, Potential)) for e in model.elements)
 
 
 def question(asked: Sequence[Unknown]) -> ParseError:

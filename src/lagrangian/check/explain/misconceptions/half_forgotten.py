@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
@@ -23,6 +24,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if rotation != 0:
             what = text(f"The ½ of ½Jω² of {body.title} is missing.")
             yield Variant(what=what, T=rotation, element=body)
+        mass = s.expand(body.mass)
+        if mass.is_Symbol and bounded.expand(rotation).coeff(mass).could_extract_minus_sign():
+            continue  # J about the pivot, less what ½mv² has: nobody writes either
         what = text(f"The ½ of ½mv² of {body.title} is missing.")
         yield Variant(what=what, T=translation, element=body)
         if rotation != 0:

@@ -21,6 +21,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagrangian.check.reading.drawn.matrices import without_drawings
+from lagrangian.check.reading.drawn.side_by_side import side_by_side
 from lagrangian.check.reading.listed_rows import TRANSPOSED, spaced_rows, transposed_sides, tuple_sides, tuples
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -54,6 +55,7 @@ _OPEN_END = re.compile(r"(?:=|[-+]|\\cdot|\\times)\s*\Z")
 
 def on_one_line(written: TracedText) -> TracedText:
     """Return an answer with matrices in one line, and with commas between their entries."""
+    written = written.edited(list(side_by_side(written.text)))
     written = without_drawings(written.edited(spaced_rows(written.text)))
     if "\\begin{" in written.text:
         return _joined(written)

@@ -1,0 +1,98 @@
+"""Further habits of a class: matrices beside each other, g where there is none, periods, J about a pivot, divisions.
+
+Oracle: two masses on springs, a bar on a hinge, and a mass on a spring, with equations by hand.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.check.reading.characters import LATEX
+from lagrangian.check.reading.drawn.side_by_side import side_by_side
+
+
+@cache
+def skid() -> lg.Derivation:
+    """Heave and tilt on two springs and a damper, without gravity."""
+    s = lg.System("skid")
+    y, theta = s.coordinates("y theta")
+    m, J, a, b, k, c, d = s.parameters("m J a b k c d")
+    s.particle(m, at=s.point("P", (0, y)))
+    s.kinetic(J * theta.diff() ** 2 / 2)
+    s.spring(k, deflection=y - a * theta, name="left")
+    s.spring(c, deflection=y + b * theta, name="right")
+    s.damper(d, deflection=y + b * theta, name="foot")
+    s.force(s.input("F"), deflection=y)
+    return s.derive()
+
+
+ROWS = """m y'' + k (y - a theta) + c (y + b theta) + d (y' + b theta') = F
+J theta'' - k a (y - a theta) + c b (y + b theta) + d b (y' + b theta') = 0"""
+MATRICES = """M = [ m   0 ]     D = [ d     d b   ]     K = [ k + c         c b - k a     ]
+    [ 0   J ]         [ d b   d b^2 ]         [ c b - k a   k a^2 + c b^2 ]
+
+M [y''; theta''] + D [y'; theta'] + K [y; theta] = [F; 0]"""
+
+
+def test_named_matrices_may_stand_beside_each_other() -> None:
+    assert skid().check(ROWS).right
+    assert skid().check(MATRICES).right
+    assert not skid().check(MATRICES.replace("[ d b   d b^2 ]", "[ d b   d a^2 ]")).right
+    assert not skid().check(MATRICES.replace("k + c  ", "k - c  ")).right
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "M = [ m   0 ]     D = [ d ]\nx = 3",
+        "M = [ m   0 ]\n    [ 0   J ]",
+        "M = [ m   0 ]     D = [ d ]\n    [ 0 ]     [ d ]",
+        "M = [ m   0 ]     D = [ d ]\n    [ 0   1 ]",
+    ],
+)
+def test_other_lines_with_brackets_stay(text: str) -> None:
+    assert not list(side_by_side(text))
+
+
+def test_a_weight_in_a_system_without_gravity_is_judged() -> None:
+    verdict = skid().check(ROWS.replace("m y''", "m y'' + m g"))
+    assert not verdict.right
+    assert "g*m does not belong there" in str(verdict.mistakes[0].what)
+    with pytest.raises(lg.ParseError):
+        skid().check(ROWS.replace("m y''", "m y'' + m h"))
+
+
+def test_a_period_is_no_kinetic_energy() -> None:
+    s = lg.System("mass")
+    x = s.coordinates("x")
+    m, k = s.parameters("m k")
+    s.kinetic(m * x.diff() ** 2 / 2)
+    s.spring(k, deflection=x)
+    derived = s.derive()
+    assert derived.check("m x'' + k x = 0\nPeriod: T = 2 pi sqrt(m/k)").right
+    assert not derived.check("m x'' + k x = 0\nT = m x'^2").right
+
+
+def test_j_about_a_pivot_is_counted_twice_and_no_half_is_missing() -> None:
+    s = lg.System("bed")
+    phi = s.coordinates("phi")
+    J, m, a = s.parameters("J_B m_b a")
+    centre = s.point("G", (a * sp.cos(phi), a * sp.sin(phi)))
+    s.rigid_body(m, J - m * a**2, at=centre, frame=phi, name="bed")
+    verdict = s.derive().check("T_bed = 1/2 (J_B + m_b a^2) phi'^2\nT = T_bed")
+    assert not verdict.right
+    reason = str(verdict.mistakes[0].what).partition("A possible reason")[2]
+    assert "J about its pivot" in reason
+    assert "missing" not in reason
+
+
+@pytest.mark.parametrize(
+    ("text", "is_latex"),
+    [("xdot = E\\(A*x + B*u);", False), (r"so\(x = 3\)", True), (r"\(x = 3\)", True), (r"a \frac{1}{2}", True)],
+)
+def test_a_division_from_the_left_is_no_latex(text: str, is_latex: bool) -> None:
+    assert (LATEX.search(text) is not None) == is_latex
