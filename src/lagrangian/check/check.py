@@ -112,8 +112,8 @@ def _checked(
 ) -> Verdict:
     """The verdict on an answer, and on it with its own names ``written`` out."""
     if truth.derivation.multipliers and not truth.values and (numbers := numbers_alone(truth, written)):
-        verdict = _checked(truth.with_values(numbers.values), numbers.lines, numbers.lines, hint, explain)
-        return replace(verdict, notes=(*verdict.notes, *numbers.notes))
+        valued = truth.with_values(numbers.values)
+        return numbers.judged(valued, lambda said, explains: _checked(valued, said, said, hint, explain and explains))
     if truth.derivation.multipliers:
         return judged_with_inputs(truth, written, lambda said: _on_constraints(truth, said, hint, explain))
     written, told = speeds(truth, written)

@@ -11,6 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.check.names.spelling import in_numbers, values_of
 from lagrangian.check.reference import Reference
+from lagrangian.check.rounded import unrounded
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
@@ -100,6 +101,14 @@ class NumbersAlone:
     lines: tuple[AnsweredLine, ...]
     values: dict[sp.Symbol, sp.Expr]
     notes: tuple[Text, ...]
+
+    def judged(self, valued: Reference, judge: Callable[[Sequence[AnsweredLine], bool], Verdict]) -> Verdict:
+        """The verdict on these lines, whose numbers may be rounded; ``judge`` may explain what is wrong, or not."""
+        read, told = unrounded(valued, self.lines)
+        verdict = judge(read, True)
+        if told and not verdict.right and (exact := judge(self.lines, False)).right:
+            verdict, told = exact, ()
+        return replace(verdict, notes=(*told, *verdict.notes, *self.notes))
 
 
 def numbers_alone(truth: Reference, lines: Sequence[AnsweredLine]) -> NumbersAlone | None:

@@ -19,6 +19,7 @@ from lagrangian import bounded
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
+from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Text, text
 
 FEWEST_DIGITS = 4
@@ -53,7 +54,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     sizes = {float(abs(cast("Any", x))) for x in table}
     put: list[AnsweredLine] = []
     for line in lines:
-        expr, few = _right_line(cast("sp.Expr", line.expr.xreplace(table)), partial(_right_lines, truth))
+        expr, few = _right_line(truth, cast("sp.Expr", line.expr.xreplace(table)))
         put.append(replace(line, expr=expr))
         sizes |= few
     told = sorted(sizes)
@@ -87,18 +88,33 @@ def is_right_rounded(expr: sp.Expr, right: sp.Expr) -> bool:
     return False
 
 
-def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]) -> tuple[sp.Expr, set[float]]:
-    """The one of ``rights`` that a line is if every number that differs is rounded from what stands there, and the
-    sizes of these numbers; otherwise the line itself and none."""
-    numbers = expr.atoms(sp.Rational)
-    if not numbers or bounded.operations(expr) > LONGEST:
+def _right_line(truth: Reference, expr: sp.Expr) -> tuple[sp.Expr, set[float]]:
+    """The one of the right lines that a line is, but for forces of constraints, if every number that differs is rounded
+    from what stands there, and the sizes of these numbers; otherwise the line itself and none."""
+    if not expr.atoms(sp.Rational) or bounded.operations(expr) > LONGEST:
         return expr, set()
     own = {k: x for k, x in _sums(bounded.expand(expr)).items() if x}
+    forces = {k: x for k, x in own.items() if _is_force(truth, k)}
+    own = {k: x for k, x in own.items() if k not in forces}
     if not all(map(_is_finite, own.values())):
         return expr, set()
+    found, sizes = _right_sums(own, partial(_right_lines, truth))
+    return (sp.Add(*(k * x for k, x in (found | forces).items())), sizes) if sizes else (expr, sizes)
+
+
+def _is_force(truth: Reference, moving: sp.Expr) -> bool:
+    """Whether what moves holds a multiplier, whose scale is the answer's own."""
+    return bool(truth.derivation.multipliers) and not bounded.letters(moving) <= truth.names
+
+
+def _right_sums(
+    own: dict[sp.Expr, sp.Expr], rights: Callable[[], Sequence[dict[sp.Expr, sp.Expr]]]
+) -> tuple[dict[sp.Expr, sp.Expr], set[float]]:
+    """The one of ``rights`` that sums are but for numbers that are rounded, and the sizes of these."""
     if any(_last_digit(abs(x), 1) is None for x in own.values() if isinstance(x, sp.Rational)):
-        return _divided(expr, own, rights())
-    units: dict[Any, float] = {abs(x): u for x in numbers if (u := _last_digit(abs(x), FEWEST_IN_RIGHT_LINE))}
+        return _divided(own, rights())
+    numbers = {abs(x) for x in own.values() if isinstance(x, sp.Rational)}
+    units: dict[Any, float] = {x: u for x in numbers if (u := _last_digit(x, FEWEST_IN_RIGHT_LINE))}
     for right in rights() if units else ():
         if right.keys() != own.keys():
             continue
@@ -107,13 +123,13 @@ def _right_line(expr: sp.Expr, rights: Callable[[], Sequence[dict[sp.Expr, sp.Ex
             meant = {k: scale * x for k, x in right.items()}
             off = {abs(x): abs(float(x - meant[k])) for k, x in own.items() if not _same(x, meant[k])}
             if off and all(size in units and far <= 0.5000001 * units[size] for size, far in off.items()):
-                return sp.Add(*(k * x for k, x in meant.items())), {float(x) for x in off}
-    return expr, set()
+                return meant, {float(x) for x in off}
+    return own, set()
 
 
 def _divided(
-    expr: sp.Expr, own: dict[sp.Expr, sp.Expr], rights: Sequence[dict[sp.Expr, sp.Expr]]
-) -> tuple[sp.Expr, set[float]]:
+    own: dict[sp.Expr, sp.Expr], rights: Sequence[dict[sp.Expr, sp.Expr]]
+) -> tuple[dict[sp.Expr, sp.Expr], set[float]]:
     """The same for a line that was divided by a number, as (454.43 φ̈ − 60 s)/269.80: what it was divided by is sought,
     so that all its numbers become decimals that are right ones or rounded from these."""
     for right in rights:
@@ -123,8 +139,8 @@ def _divided(
             typed = {k: x / scale for k, x in own.items()}
             off = {k: x for k, x in typed.items() if not _same(x, right[k])}
             if off and scale.is_Rational and all(_is_rounded_from(x, right[k]) for k, x in off.items()):
-                return sp.Add(*(scale * k * x for k, x in right.items())), {abs(float(x)) for x in off.values()}
-    return expr, set()
+                return {k: scale * x for k, x in right.items()}, {abs(float(x)) for x in off.values()}
+    return own, set()
 
 
 def _is_rounded_from(number: sp.Expr, value: sp.Expr) -> bool:
@@ -139,8 +155,11 @@ def _same(a: sp.Expr, b: sp.Expr) -> bool:
 @lru_cache(maxsize=32)
 def _right_lines(truth: Reference) -> tuple[dict[sp.Expr, sp.Expr], ...]:
     """The numbers by which what moves is multiplied in each of the right equations and energies."""
-    exprs = (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi)
-    found = [{k: x for k, x in _sums(form).items() if x} for expr in exprs for form in _forms(expr)]
+    found = [
+        {k: x for k, x in _sums(form).items() if x and not _is_force(truth, k)}
+        for expr in _right_expressions(truth)
+        for form in _forms(expr)
+    ]
     return tuple(own for own in found if own and all(_is_finite(x) for x in own.values()))
 
 
@@ -161,7 +180,7 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
     """The sizes of all numbers by which motions are multiplied in the right equations and energies, and their ratios in
     each of them."""
     found: dict[sp.Expr, float] = {}
-    for expr in (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi):
+    for expr in _right_expressions(truth):
         for form in _forms(expr):
             own = _coefficients(form)
             found.update(own)
@@ -172,6 +191,20 @@ def coefficients(truth: Reference) -> tuple[tuple[float, sp.Expr], ...]:
         left = {p: v for p, v in truth.values.items() if p not in truth.prescribed}
         found |= {exact: value for value, exact in coefficients(truth_of(truth.derivation).with_values(left))}
     return tuple((abs(value), exact if value > 0 else -exact) for exact, value in found.items() if value)
+
+
+def _right_expressions(truth: Reference) -> Iterator[sp.Expr]:
+    """The right equations, energies, forces and constraints; √a = b also as a = b²."""
+    yield from (*truth.rows, *_solved(truth), truth.T, truth.V, *truth.Xi)
+    for row in rows_of(truth.model):
+        yield truth.expand(row.rate)
+        if row.position is None:
+            continue
+        position = truth.expand(row.position)
+        yield position
+        for root in sp.Add.make_args(position):
+            if root.is_Pow and root.args[1] == sp.S.Half:
+                yield cast("sp.Expr", root.args[0]) - (position - root) ** 2
 
 
 def _forms(expr: sp.Expr) -> Iterator[sp.Expr]:

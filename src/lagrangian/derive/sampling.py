@@ -146,7 +146,16 @@ class CompiledExpressions:
             dummy = sp.Symbol(f"number {exact}")
             self._numbers[dummy] = exact
             table[number] = dummy
-        return (cast("sp.Expr", expr.xreplace(table)) if table else expr), set(table.values())
+        for root in parts:  # the graph would evaluate √15 and sin 2 as doubles
+            known = isinstance(root, (sp.Pow, sp.Function)) and not isinstance(root, AppliedUndef)
+            whole, others = (root.args[0], root.args[1:]) if known and root.args else (None, ())
+            if isinstance(whole, sp.Integer) and all(isinstance(x, sp.Rational) and x.q > 1 for x in others):
+                dummy = table.get(whole, sp.Symbol(f"number {whole}"))
+                self._numbers[dummy] = whole
+                more: list[Any] = [table.get(x, x) for x in others]
+                table[root] = cast("Any", root).func(dummy, *more)
+        symbols = set[sp.Basic]().union(*(x.free_symbols for x in table.values()))
+        return (cast("sp.Expr", expr.xreplace(table)) if table else expr), symbols
 
     def slopes(self, symbols: Sequence[sp.Basic]) -> CompiledExpressions:
         """∂expression/∂symbol for one expression after another."""

@@ -1,0 +1,139 @@
+"""Right answers in numbers that are rounded, and the same with one digit more or less."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import mpmath
+import pytest
+import sympy as sp
+
+from lagrangian import loads
+from lagrangian.check.reference import truth_of
+from lagrangian.derivation import Derivation
+from lagrangian.derive.sampling import CompiledExpressions
+
+SLOPE = """
+name = "crate on a slope"
+[coordinates]
+x = "rack, up the slope"
+y = "crate, up the slope"
+[parameters]
+m1 = "25 kg"
+m2 = "140 kg"
+k = "50000 N/m"
+alpha = "12 deg"
+g = "9.81 m/s^2"
+[inputs]
+F = "N, on the rack"
+[[kinetic]]
+value = "m1*x'^2/2 + m2*y'^2/2"
+[[potential]]
+value = "(m1*x + m2*y)*g*sin(alpha)"
+[[spring]]
+k = "k"
+deflection = "x - y"
+[[force]]
+value = "F"
+deflection = "x"
+"""
+STRUT = """
+name = "rack and collar with a strut"
+[coordinates]
+x = { description = "rack, from the corner", unit = "m", positive = true }
+s = { description = "collar, up a guide", unit = "m", positive = true }
+[parameters]
+m1 = "3 kg"
+m2 = "2 kg"
+l = "0.83 m"
+beta = "25 deg"
+d = "4 N*s/m"
+g = "9.81 m/s^2"
+[inputs]
+F = "N, on the rack"
+[[frame]]
+name = "guide"
+angle = "beta"
+[points]
+A = ["x", "0"]
+B = { frame = "guide", offset = ["s", "0"] }
+[[particle]]
+mass = "m1"
+at = "A"
+[[particle]]
+mass = "m2"
+at = "B"
+[[gravity]]
+direction = [0, -1]
+[[damper]]
+b = "d"
+deflection = "s"
+[[force]]
+value = ["F", "0"]
+at = "A"
+[[constraint]]
+name = "strut"
+between = ["A", "B"]
+distance = "l"
+"""
+HELD = """x^2 + s^2 - 1.8126 x s = 0.6889
+3 x'' = F + lambda (2 x - 1.8126 s)
+2 s'' + 4 s' + 8.292 = lambda (2 s - 1.8126 x)"""
+ROWS = "25 x'' + 50000 x - 50000 y = F - 50.990\n140 y'' - 50000 x + 50000 y = -285.546"
+STATED = "m1 g sin(alpha) = 50.990, m2 g sin(alpha) = 285.546\n"
+
+
+@cache
+def slope() -> Derivation:
+    """A rack that pushes a crate up a slope of 12°, whose sine is a root of roots."""
+    return loads(SLOPE).derive()
+
+
+@cache
+def strut() -> Derivation:
+    """A rack and a collar on a guide that a strut joins."""
+    return loads(STRUT).derive()
+
+
+@pytest.mark.parametrize("head", ["", STATED])
+def test_a_rounded_number_may_stand_for_a_root_of_roots(head: str) -> None:
+    assert slope().check(head + ROWS).right
+
+
+@pytest.mark.parametrize("other", ["50.989", "50.991", "50.890", "51.990", "60.990"])
+@pytest.mark.parametrize("head", ["", STATED])
+def test_another_digit_is_wrong(head: str, other: str) -> None:
+    assert not slope().check(head + ROWS.replace("50.990", other)).right
+    assert not slope().check(head + ROWS.replace("285.546", "285.547")).right
+
+
+@pytest.mark.parametrize(("right", "less"), [("8.292", "8.29"), ("0.6889", "0.689"), ("1.8126 ", "1.812616 ")])
+def test_numbers_may_be_rounded_beside_multipliers(right: str, less: str) -> None:
+    assert strut().check(HELD).right
+    assert strut().check(HELD.replace(right, less)).right
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("8.292", "8.291"),
+        ("8.292", "8.293"),
+        ("8.292", "8.28"),
+        ("8.292", "8.192"),
+        ("8.292", "7.292"),
+        ("+ 8.292", "- 8.292"),
+        ("0.6889", "0.6888"),
+        ("1.8126 ", "1.8125 "),
+        ("1.8126 ", "1.8127 "),
+    ],
+)
+def test_another_digit_is_wrong_beside_multipliers(right: str, wrong: str) -> None:
+    assert not strut().check(HELD.replace(right, wrong)).right
+
+
+def test_roots_and_sines_of_whole_numbers_have_fifty_digits() -> None:
+    exprs = [sp.sqrt(15) - sp.sqrt(3), sp.sqrt(sp.sqrt(5) + 1), sp.sin(2) / 3, sp.Integer(2) ** sp.Rational(1, 3)]
+    states = truth_of(slope()).states
+    for expr, found in zip(exprs, CompiledExpressions(exprs).exactly(states, 0), strict=True):
+        with mpmath.workdps(50):
+            assert abs(found - mpmath.mpf(str(sp.N(expr, 60)))) < mpmath.mpf(10) ** -45
