@@ -35,6 +35,7 @@ from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.terms_alone import with_terms_alone
+from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
@@ -91,13 +92,18 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     if not verdict.right:
-        named = with_terms_alone(with_combined_rows(truth, written, verdict)) if explain else verdict
-        verdict = in_own_names(truth, written, named)
+        verdict = in_own_names(truth, written, _with_terms(truth, written, verdict) if explain else verdict)
     verdict = replace(verdict, notes=(*unjudged, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict
     note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")
     return replace(verdict, notes=(note, *verdict.notes))
+
+
+def _with_terms(truth: Reference, written: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict on a wrong answer with the line or the terms that are wrong in equations put together."""
+    balanced = with_wrong_balance(truth, written, verdict)
+    return with_terms_alone(with_combined_rows(truth, written, balanced))
 
 
 def _filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:

@@ -24,10 +24,10 @@ def with_terms_alone(verdict: Verdict) -> Verdict:
     )  # one that stands there twice is unclear
     if verdict.mistakes or verdict.hint == 0 or not every or not 0 < len(differing) <= MOST_TOLD:
         return verdict
-    return replace(verdict, mistakes=tuple(_told(f, d) for f, d in differing), sure=True)
+    return replace(verdict, mistakes=tuple(term_mistake(f, d) for f, d in differing), sure=True)
 
 
-def _told(finding: Finding, difference: TermDifference) -> Mistake:
+def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:
     """The mistake that a term which differs is."""
     line = finding.line
     side, d = on_side(line, difference)

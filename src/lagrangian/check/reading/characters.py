@@ -36,7 +36,7 @@ _SAME = {
     "\u2029": "\n",
 }
 LATEX = re.compile(r"\\[A-Za-z\[\\]|(?<![\w)\]'])\\\(|\\\((?=[^\n]{0,999}\\\))|\$|[_^]\{")
-"""What only LaTeX has; E\(A*x) is a division."""
+r"""What only LaTeX has; E\(A*x) is a division."""
 _TABLE = str.maketrans(_SAME)
 _NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2063\u2064\ufeff\u00ad\u200e\u200f\ufe00-\ufe0f]")
 _UMLAUT = re.compile("(?<=[A-Za-z])[aeiou]\u0308|[AOUaeiou]\u0308(?=[A-Za-zß])")
