@@ -24,7 +24,6 @@ from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
-from lagrangian.check.explain.combined_rows import with_combined_rows
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
 from lagrangian.check.explain.explained import explained
 from lagrangian.check.explain.in_own_names import in_own_names
@@ -34,7 +33,7 @@ from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
-from lagrangian.check.explain.terms_alone import with_terms_alone
+from lagrangian.check.explain.terms_alone import with_wrong_terms
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
@@ -92,8 +91,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     if not verdict.right:
-        named = with_terms_alone(with_combined_rows(truth, written, verdict)) if explain else verdict
-        verdict = in_own_names(truth, written, named)
+        verdict = in_own_names(truth, written, with_wrong_terms(truth, written, verdict) if explain else verdict)
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -45,7 +45,7 @@ def without_forces(
     A name is determined by a line in which it occurs linearly, and must occur in another statement that is judged.
     Returns None if there is none, or if a name remains.
     """
-    left = _unknown(truth, lines) - kept
+    left = unknown_in(truth, lines) - kept
     if not left or len(left) > MAX_FORCES:
         return None
     if any(d.has(*left) for line in lines for d in line.expr.atoms(sp.Derivative)):
@@ -58,11 +58,11 @@ def without_forces(
     while left:
         found = min(
             (
-                (len(_unknown(truth, [line]) - kept), k, name)
+                (len(unknown_in(truth, [line]) - kept), k, name)
                 for k, line in enumerate(out)
                 if line.kind == "equation"
                 for name in sorted(left, key=str)
-                if _slope(line.expr, name) is not None
+                if slope_of(line.expr, name) is not None
             ),
             default=None,
             key=lambda x: x[:2],
@@ -70,7 +70,7 @@ def without_forces(
         if found is None:
             return None
         _, k, name = found
-        slope = _slope(out[k].expr, name)
+        slope = slope_of(out[k].expr, name)
         assert slope is not None
         value = -cast("sp.Expr", out[k].expr.xreplace({name: sp.S.Zero})) / slope
         of_value = held[k] | {name}
@@ -85,7 +85,7 @@ def without_forces(
     return Eliminated(tuple(out), note, tuple(names), tuple(held))
 
 
-def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
+def unknown_in(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
     """The names in equations that the system does not have."""
     model = truth.model
     known: set[sp.Basic] = {time, *(p.symbol for p in model.parameters), *(c.symbol for c in model.coordinates)}
@@ -94,7 +94,7 @@ def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
     return {x for expr in told for x in bounded.letters(expr)} - known
 
 
-def _slope(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:
+def slope_of(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:
     """The factor of a name in an expression that is linear in it; None if it is not."""
     if not expr.has(name) or any(d.has(name) for d in expr.atoms(sp.Derivative)):
         return None

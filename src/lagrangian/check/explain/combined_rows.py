@@ -7,7 +7,7 @@ t lies outside it are one multiple of each other, 1 − f.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -61,7 +61,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
             findings = inserted(findings, above)
             continue
         note = finding.note if _stands_in(wrong.term, finding.line) else text("with what other lines say put in")
-        differences = (_difference(on, wrong, finding.coordinate),)
+        differences = (difference(on, wrong, finding.coordinate),)
         findings[k] = replace(finding, differences=differences, coordinate=None, note=note)
     return replace(verdict, findings=tuple(findings))
 
@@ -81,7 +81,7 @@ def _put_in_from(
         own = _own_terms(value) if terms(value) <= MOST_TERMS else []
         there = [t for t in own if _quotient(truth, wrong.term, t)]
         found += [
-            Finding(x, Status.WRONG, differences=(_difference(truth, replace(wrong, term=t), None),)) for t in there
+            Finding(x, Status.WRONG, differences=(difference(truth, replace(wrong, term=t), None),)) for t in there
         ]
     return found[0] if len(found) == 1 else None
 
@@ -106,7 +106,8 @@ class WrongTerm:
     factor: sp.Expr
 
 
-def _difference(truth: Reference, wrong: WrongTerm, coordinate: str | None) -> TermDifference:
+def difference(truth: Reference, wrong: WrongTerm, coordinate: str | None) -> TermDifference:
+    """What a wrong term has in place of the right one."""
     kind = {sp.S.Zero: "extra", sp.S.NegativeOne: "sign"}.get(wrong.factor, "coefficient")
     right = wrong.term if kind == "extra" else cast("sp.Expr", wrong.term * wrong.factor)
     moving = (c.name for c in truth.model.coordinates if wrong.term.has(c.acceleration))
@@ -129,14 +130,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
         return None
     outside = _outside(truth, values)
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
-    listed = list(_factors(truth))
-    found: list[tuple[int, WrongTerm]] = []
-    for term in own:
-        if (share := _share(wrong, across[term])) is None:
-            continue
-        near = (k for k, (_, x) in enumerate(listed) if np.allclose(1 - share, x, rtol=NEAR, atol=NEAR))
-        if (k := next(near, None)) is not None:
-            found.append((max(0, k + 1 - len(NUMBERS)), WrongTerm(term, listed[k][0])))
+    found = _in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
         share = _share(wrong, across[term] - right)
         if share is not None and np.allclose(share, 1, rtol=NEAR):
@@ -145,6 +139,40 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     if not found or (len(found) > 1 and found[0][0] == found[1][0]):
         return None
     return found[0][1]
+
+
+def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
+    """The term of a line that is wrong along the right motion, if all others are right there.
+
+    ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
+    that without accelerations is wrong: a moment or a force. By a number, it may be either.
+    """
+    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return None
+    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
+    if not np.isfinite(found).all():
+        return None
+    listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    best = [x for rank, x in listed if rank == listed[0][0]]
+    moving = [c.acceleration for c in truth.model.coordinates]
+    still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
+    if len(still) == 1 and any(x.term.has(*moving) for x in best):
+        return None if still[0].factor in (2, sp.S.Half) else still[0]
+    return best[0] if len(best) == 1 else None
+
+
+def _in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
+    """The terms that are wrong by a factor, if all others are right, each with how far-fetched the factor is."""
+    listed = list(_factors(truth))
+    found: list[tuple[int, WrongTerm]] = []
+    for term, values in across.items():
+        if (share := _share(wrong, values)) is None:
+            continue
+        near = (k for k, (_, x) in enumerate(listed) if np.allclose(1 - share, x, rtol=NEAR, atol=NEAR))
+        if (k := next(near, None)) is not None:
+            found.append((max(0, k + 1 - len(NUMBERS)), WrongTerm(term, listed[k][0])))
+    return found
 
 
 def _powers(term: sp.Expr, rate: sp.Expr) -> list[sp.Expr]:

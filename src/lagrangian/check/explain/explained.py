@@ -15,6 +15,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Verdict
 from lagrangian.page.formula import text
 
+LEFT_OVER = (" differs in other ways as well.", " differ as well.")
+"""What is said of one line, or of several, in which a mistake does not explain everything."""
+
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict, with the mistakes that explain the answer."""
@@ -26,10 +29,7 @@ def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Ver
         notes = (*notes, text(said))
     if named.told and named.left:
         lines = [x for line in named.left for x in (line.title, ", ")][:-1]
-        notes = (
-            *notes,
-            text(*lines, " differs in other ways as well." if len(named.left) == 1 else " differ as well."),
-        )
+        notes = (*notes, text(*lines, LEFT_OVER[0] if len(named.left) == 1 else LEFT_OVER[1]))
     findings = with_wrong_definitions(verdict.findings, named.blamed)
     told = with_bodies(truth, findings, named.told)
     told = replace(verdict, findings=findings, mistakes=told, alternatives=named.others)

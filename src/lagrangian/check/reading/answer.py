@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Literal, TypeAlias
 
 import sympy as sp
@@ -122,6 +122,8 @@ class Answer:
     marked_rows: Callable[[], tuple[MarkedRow, ...]] = field(default=tuple, repr=False, compare=False)
     read_marked: Callable[[tuple[tuple[int, int], ...]], Answer] | None = field(default=None, repr=False, compare=False)
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
+    read_without: Callable[[frozenset[int]], Answer] | None = field(default=None, repr=False, compare=False)
+    """The answer as it is read without some of its lines, by number; the others keep theirs."""
     commented: bool = field(default=False, repr=False, compare=False)
     """Whether comments hold equations of motion."""
     program: bool = field(default=False, repr=False, compare=False)
@@ -136,3 +138,8 @@ class Answer:
     def equations(self) -> tuple[AnswerLine, ...]:
         """The lines that state equations."""
         return tuple(line for line in self.lines if line.kind == "equation")
+
+
+def without_lines(text: str, numbers: Collection[int]) -> str:
+    """A text with some of its lines empty, by number."""
+    return "\n".join("" if k in numbers else x for k, x in enumerate(text.split("\n"), 1))

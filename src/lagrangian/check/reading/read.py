@@ -10,7 +10,7 @@ from functools import partial
 
 import sympy as sp
 
-from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow
+from lagrangian.check.reading.answer import Answer, AnswerLine, MarkedRow, without_lines
 from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.bullets import Bullets
 from lagrangian.check.reading.carried_out.stated import carried_out
@@ -271,13 +271,12 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
     notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)
-    said = frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"]))
     return Answer(
         made,
         "latex" if latex else "text",
         tuple(lines.names.unknown.values()),
         notes,
-        said,
+        frozenset(m["name"] for m in _EXPLAINED.finditer(given) if not lines.names.known(m["word"])),
         frozenset(lines.unread) | {key(m["name"]) for m in _CHOSEN.finditer(given)},
         remarks.said,
         tuple(partial(_answer, given, model, place, x, []) for x in others),
@@ -285,6 +284,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         bool(lines.lacking),
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
+        lambda numbers: _with_said_values(reading, [], without_lines(given, numbers), model, place),
         bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),

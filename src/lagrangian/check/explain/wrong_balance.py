@@ -1,0 +1,243 @@
+"""Finds the one wrong line among balances of single bodies with unknown forces: that without which the others hold.
+
+m z″ = m g − S₁ − S₂, J φ″ = (S₁ − S₂) a, …: k lines, linear in forces that the system has no names for. Along the right
+motion there are forces with which all right lines hold. If there are none for all k lines, but for all without one of
+them, then this line is wrong, and the forces of the others tell which of its terms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.constraints.eliminated import slope_of, unknown_in
+from lagrangian.check.explain.combined_rows import difference, term_to_blame
+from lagrangian.check.explain.definitions import inserted
+from lagrangian.check.explain.explained import LEFT_OVER
+from lagrangian.check.explain.terms_alone import term_mistake
+from lagrangian.check.lines import filled
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import small
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.errors import ParseError
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+from lagrangian.read.letters import key
+from lagrangian.records import dataclass
+
+NAME = "wrong_balance"
+"""The name of the mistake."""
+MOST_LINES, MOST_FORCES = 12, 6
+"""The most lines, and the most forces in them, that are compared."""
+NEAR = 1e-8
+"""The relative size of what is rounding."""
+WHY = text("Draw the body of this line alone, with all forces on it, and count each with its sign and its arm.")
+WHY_SOLVED = text("The lines from which this was solved are right: solve them once more, term by term.")
+ENERGIES = ("T", "V", "L")
+"""Lines that an answer by Newton's laws does not have."""
+
+ReadWithout: TypeAlias = Callable[[frozenset[int]], tuple[Sequence[AnsweredLine], Mapping[str, sp.Expr]]]
+"""The lines of an answer without some, by number, and the symbols of the names in them that nothing says."""
+
+
+@dataclass(frozen=True, eq=False)
+class Balances:
+    """Lines A u + b = 0 with forces u, and their values along the right motion: A (S, k, m), b (S, k)."""
+
+    lines: tuple[AnsweredLine, ...]
+    forces: tuple[sp.Basic, ...]
+    A: Array
+    b: Array
+
+    def solved(self, rows: Sequence[int]) -> Array | None:
+        """The forces (S, m) with which some of the lines hold; None if there are none."""
+        A, b = self.A[:, rows], self.b[:, rows]
+        u = -(np.linalg.pinv(A) @ b[:, :, None])[:, :, 0]
+        scale = (np.abs(A) * np.abs(u[:, None, :])).sum(axis=2) + np.abs(b)
+        left = np.abs((A @ u[:, :, None])[:, :, 0] + b)
+        return u if (left <= NEAR * np.maximum(scale, 1e-300)).all() else None
+
+    def compared(self, rows: Sequence[int]) -> bool:
+        """Whether each of some lines is compared with the rest: the others determine all forces, too."""
+        whole = self.rank(range(len(self.lines)))
+        return all(self.rank([i for i in rows if i != j]) == whole for j in rows)
+
+    def rank(self, rows: Sequence[int]) -> int:
+        """How many forces some of the lines determine, at most states."""
+        return int(np.median(np.linalg.matrix_rank(self.A[:, rows]))) if rows else 0
+
+
+def with_wrong_balance(
+    truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict, later: Sequence[AnsweredLine] = ()
+) -> Verdict:
+    """The verdict on an answer by Newton's laws in which one line alone is wrong and the others are right.
+
+    ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
+    """
+    if verdict.status is not Status.WRONG or truth.derivation.multipliers or truth.n < 2 or verdict.hint == 0:
+        return verdict
+    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(truth, lines)) is None:
+        return verdict
+    every = range(len(balances.lines))
+    k = _one_wrong(balances)
+    u = balances.solved([i for i in every if i != k])
+    if u is None or not balances.compared([i for i in every if i != k]):
+        return verdict
+    values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
+    false = [x for x in later if not _is_true(truth, x, values)]
+    if k is None and len(false) != 1:
+        return verdict
+    line = false[0] if k is None else balances.lines[k]
+    term = term_to_blame(truth, line.expr, values)
+    blamed = Finding(line, Status.WRONG, differences=() if term is None else (difference(truth, term, None),))
+    own = balances.lines
+    causes = [own] if k is not None else [(*own[:i], *own[i + 1 :], line) for i in every]
+    below = [x for x in lines if x.kind == "equation" and not x.expr.has(*balances.forces)]
+    below += [x for x in false if x is not line]
+    holds = np.any([_hold(truth, rows, balances.forces, below) for rows in causes], axis=0)
+    follow = [x for x, follows in zip(below, holds, strict=True) if follows]
+    right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
+    notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
+    findings = _marked(verdict.findings, right, blamed, follow)
+    mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
+    return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
+
+
+def with_forces_of_below(
+    truth: Reference, lines: Sequence[AnsweredLine], read: ReadWithout, verdict: Verdict
+) -> Verdict:
+    """The verdict on an answer with forces that it says itself, S₁ = m g − m z″ − S₂, above or below other balances.
+
+    Such a line is one of the balances if no other above it has the force; otherwise it was solved from these.
+    """
+    if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
+        return verdict
+    solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
+    if not solved or len({x.name for x in solved}) < len(solved):
+        return verdict
+    numbers = frozenset(x.number for x in solved)
+    if any(x.number in numbers and not any(x is y for y in solved) for x in lines):
+        return verdict
+    try:
+        again, unknown = read(numbers)
+    except ParseError:
+        return verdict
+    symbols = {key(str(name)): symbol for name, symbol in unknown.items()}
+    if any(key(str(x.name)) not in symbols for x in solved):
+        return verdict
+    said = [replace(x, kind="equation", expr=symbols[key(str(x.name))] - x.expr) for x in solved]
+    later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines)]
+    own = [*again, *(x for x in said if x not in later)]
+    return with_wrong_balance(truth, filled(truth, own), verdict, filled(truth, later))
+
+
+def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether a definition was solved from an equation of motion: it has accelerations, or stands below such."""
+    moving = line.expr.has(*(c.acceleration for c in truth.model.coordinates))
+    return moving or _stands_above(line, lines)
+
+
+def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether an equation above a definition has its name."""
+    own = key(str(line.name))
+    return any(x.kind == "equation" and x.number < line.number and own in x.names for x in lines)
+
+
+def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | None:
+    """The lines of an answer with forces of its own; None if these are not linear, or too many or too few."""
+    forces = sorted(unknown_in(truth, lines), key=str)
+    rows = tuple(x for x in lines if x.kind == "equation" and x.expr.has(*forces)) if forces else ()
+    if not 0 < len(forces) <= MOST_FORCES or not len(forces) + 1 < len(rows) <= MOST_LINES:
+        return None
+    slopes: list[sp.Expr] = []
+    for x in rows:
+        own = [slope_of(x.expr, f) if x.expr.has(f) else sp.S.Zero for f in forces]
+        if any(s is None or s.has(*forces) for s in own):
+            return None
+        slopes += [s for s in own if s is not None]
+    without = dict.fromkeys(forces, np.zeros(truth.states.size))
+    values = CompiledExpressions([*slopes, *(x.expr for x in rows)]).at(truth.states, truth.accelerations | without)
+    if not np.isfinite(values).all():
+        return None
+    A = values[: len(slopes)].reshape(len(rows), len(forces), -1).transpose(2, 0, 1)
+    return Balances(rows, tuple(forces), A, values[len(slopes) :].T)
+
+
+def _one_wrong(balances: Balances) -> int | None:
+    """The place of the line without which all others hold; None if there is none, or several."""
+    every = list(range(len(balances.lines)))
+    if balances.solved(every) is not None:
+        return None
+    found = [k for k in every if balances.solved([i for i in every if i != k]) is not None]
+    return found[0] if len(found) == 1 else None
+
+
+def _is_true(truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array]) -> bool:
+    """Whether a line holds along the right motion."""
+    compiled = CompiledExpressions([line.expr])
+    return small(compiled.at(truth.states, values)[0], float(np.abs(compiled.at(truth.states)[0]).max()))
+
+
+def _hold(
+    truth: Reference, rows: Sequence[AnsweredLine], forces: Sequence[sp.Basic], below: Sequence[AnsweredLine]
+) -> list[bool]:
+    """Whether each of some lines holds for the motion that the balances give, the wrong one as it is."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    wanted, none = [*accelerations, *forces], [False] * len(below)
+    exprs, k, size = [x.expr for x in (*rows, *below)], len(rows), truth.states.size
+    compiled, still = CompiledExpressions(exprs), dict.fromkeys(wanted, np.zeros(size))
+    A = compiled.slopes(wanted).at(truth.states, still).reshape(len(exprs), len(wanted), size).transpose(2, 0, 1)
+    b = compiled.at(truth.states, still).T
+    if not (np.isfinite(A).all() and np.isfinite(b).all()):
+        return none
+    if (np.linalg.matrix_rank(A[:, :k]) < len(wanted)).any():
+        return none
+    motion = -(np.linalg.pinv(A[:, :k]) @ b[:, :k, None])
+    scale = (np.abs(A) * np.abs(motion.transpose(0, 2, 1))).sum(axis=2) + np.abs(b)
+    holds = (np.abs((A @ motion)[:, :, 0] + b) <= 1e-6 * np.maximum(scale, 1e-300)).all(axis=0)
+    return [bool(x) for x in holds[k:]] if holds[:k].all() else none
+
+
+def _marked(
+    findings: Sequence[Finding], right: Sequence[AnsweredLine], blamed: Finding, follow: Sequence[AnsweredLine]
+) -> tuple[Finding, ...]:
+    """The findings with one line blamed, others right, and what follows from it marked so."""
+    note = text("right together with the others that have these forces")
+    said = {_at(x): Finding(x, Status.WRONG, follows=True) for x in follow}
+    held = {_at(f.line) for f in findings if f.status is not Status.WRONG and f.line.kind != "definition"}
+    said = {at: x for at, x in said.items() if at not in held}
+    said |= {_at(x): Finding(x, Status.RIGHT, note) for x in right} | {_at(blamed.line): blamed}
+    found = [f for f in findings if _at(f.line) not in said]
+    for new in sorted(said.values(), key=lambda f: f.line.number):
+        found = inserted(found, new)
+    return tuple(found)
+
+
+def _read(forces: Sequence[sp.Basic]) -> Text:
+    """The note on how forces were read."""
+    names = ", ".join(f"'{plain(x)}'" for x in forces)
+    return text(f"{names} {'was' if len(forces) == 1 else 'were'} read as unknown.")
+
+
+def _is_of(note: Text, forces: Sequence[sp.Basic]) -> bool:
+    """Whether a note is about forces that were read otherwise, or about mistakes that are told no more."""
+    said = str(note)
+    return said.endswith(LEFT_OVER) or any(f"'{plain(x)}'" in said for x in forces)
+
+
+def _at(line: AnsweredLine) -> tuple[int, str]:
+    return line.number, line.text
+
+
+def _mistake(blamed: Finding, why: Text) -> Mistake:
+    """What is said of the line that is wrong: its term or, if none was found, that it is the one."""
+    brief = text(f"Line {blamed.line.number} does not fit the other lines with these forces.")
+    if blamed.differences:
+        return replace(term_mistake(blamed, blamed.differences[0]), name=NAME, why=why, brief=brief)
+    what = text(f"Line {blamed.line.number} is wrong: the other lines with these forces are right together.")
+    return Mistake(NAME, what, why, 5, brief=brief)

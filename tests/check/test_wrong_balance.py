@@ -1,0 +1,113 @@
+"""One wrong line among balances of single bodies with forces of the answer's own: the right ones stay right.
+
+Oracle: a drum from which a reel unwinds, by Newton and Euler; each answer differs from the right one in one line.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+import lagrangian as lg
+
+DRUM = "J phi'' = tau + S r - c phi'"
+LOAD = "m z'' = m g - S"
+REEL = "I (z'' - r phi'')/a = S a"
+RIGHT = f"{DRUM}\n{LOAD}\n{REEL}"
+SOLVED = "S = I (z'' - r phi'')/a^2"
+
+
+@cache
+def drum() -> lg.Derivation:
+    """A drum on whose rope a reel hangs that unwinds."""
+    s = lg.System("drum and reel")
+    phi, z = s.coordinates("phi z")
+    J, m, I, r, a, c, g = s.parameters("J m I r a c g")
+    s.kinetic(J * phi.diff() ** 2 / 2 + m * z.diff() ** 2 / 2 + I * ((z.diff() - r * phi.diff()) / a) ** 2 / 2)
+    s.potential(-m * g * z)
+    s.damper(c, deflection=phi)
+    s.torque(s.input("tau"), on=phi)
+    return s.derive()
+
+
+def verdicts(answer: str) -> dict[int, bool]:
+    """Which lines of a wrong answer are right."""
+    verdict = drum().check(answer)
+    assert not verdict.right
+    return {f.line.number: f.status.right for f in verdict.findings}
+
+
+def said(answer: str) -> list[str]:
+    """What is said of a wrong answer."""
+    return [" ".join(str(m.what).split()) for m in drum().check(answer).mistakes]
+
+
+@pytest.mark.parametrize("answer", [RIGHT, f"{RIGHT}\n{SOLVED}", f"S = m g - m z''\n{DRUM}\n{REEL}"])
+def test_right_balances_are_right(answer: str) -> None:
+    assert drum().check(answer).right
+
+
+@pytest.mark.parametrize(
+    ("line", "wrong", "told"),
+    [
+        (1, "J phi'' = tau - S r - c phi'", "-S*r has the wrong sign"),
+        (1, "J phi'' = tau + S - c phi'", "S should be S*r"),
+        (1, "J phi'' = tau + S r - 2 c phi'", "-2*c*phi' should be -c*phi'"),
+        (2, "m z'' = m g + S", "S has the wrong sign"),
+        (2, "m z'' = -m g - S", "-g*m has the wrong sign"),
+        (2, "m z'' = m g - S - c z'", "-c*z' does not belong there"),
+        (3, "I (z'' - r phi'')/a = -S a", "-S*a has the wrong sign"),
+        (3, "I (z'' - r phi'')/a = S r", "S*r should be S*a"),
+    ],
+)
+def test_the_wrong_line_is_blamed_alone(line: int, wrong: str, told: str) -> None:
+    lines = RIGHT.split("\n")
+    lines[line - 1] = wrong
+    assert verdicts("\n".join(lines)) == {k: k != line for k in (1, 2, 3)}
+    (only,) = said("\n".join(lines))
+    assert f"line {line}" in only and told in only, only
+
+
+def test_a_force_that_is_solved_from_a_wrong_line_follows() -> None:
+    results = "J phi'' = tau - I r (z'' - r phi'')/a^2 - c phi'\nm z'' = m g + I (z'' - r phi'')/a^2"
+    answer = f"{DRUM}\n{LOAD}\nI (z'' - r phi'')/a = -S a\nS = -I (z'' - r phi'')/a^2\n{results}"
+    verdict = drum().check(answer)
+    assert [(f.line.number, f.status.right, f.follows) for f in verdict.findings] == [
+        (1, True, False),
+        (2, True, False),
+        (3, False, False),
+        (4, False, True),
+        (5, False, True),
+        (6, False, True),
+    ]
+    assert "-S*a has the wrong sign" in said(answer)[0]
+
+
+def test_a_force_that_is_solved_wrongly_is_blamed_and_no_balance() -> None:
+    answer = f"{RIGHT}\nS = -I (z'' - r phi'')/a^2\nm z'' = m g + I (z'' - r phi'')/a^2"
+    verdict = drum().check(answer)
+    assert [(f.line.number, f.status.right, f.follows) for f in verdict.findings] == [
+        (1, True, False),
+        (2, True, False),
+        (3, True, False),
+        (4, False, False),
+        (5, False, True),
+    ]
+
+
+def test_a_balance_solved_for_its_force_is_blamed() -> None:
+    assert verdicts(f"S = m g + m z''\n{DRUM}\n{REEL}") == {1: False, 2: True, 3: True}
+
+
+def test_two_wrong_balances_leave_none_that_is_called_right() -> None:
+    answer = f"J phi'' = tau - S r - c phi'\nm z'' = 2 m g - S\n{REEL}"
+    verdict = drum().check(answer)
+    assert not verdict.right
+    assert all(m.name != "wrong_balance" for m in verdict.mistakes)
+
+
+def test_a_factor_of_either_side_is_not_guessed() -> None:
+    answer = f"{DRUM}\n{LOAD}\nI (z'' - r phi'')/a = 2 S a"
+    assert verdicts(answer) == {1: True, 2: True, 3: False}
+    assert said(answer) == ["Line 3 is wrong: the other lines with these forces are right together."]
