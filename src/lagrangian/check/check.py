@@ -33,7 +33,7 @@ from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
-from lagrangian.check.explain.terms_alone import with_wrong_terms
+from lagrangian.check.explain.wrong_terms import with_wrong_terms
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines

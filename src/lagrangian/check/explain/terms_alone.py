@@ -2,27 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-from lagrangian.check.explain.combined_rows import with_combined_rows
 from lagrangian.check.explain.own_terms import LINES, WHY, WHY_ENERGY, WHY_FORCE
-from lagrangian.check.explain.wrong_balance import with_wrong_balance
-from lagrangian.check.reference import Reference
 from lagrangian.check.terms.sides import differs, on_side
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
+from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import text
 
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
 _WHY = {"equation": WHY, "Xi": WHY_FORCE}
-
-
-def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
-    """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
-    also in equations into which others were put."""
-    balanced = with_wrong_balance(truth, lines, verdict)
-    return with_terms_alone(with_combined_rows(truth, lines, balanced))
 
 
 def with_terms_alone(verdict: Verdict) -> Verdict:
