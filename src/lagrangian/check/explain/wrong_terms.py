@@ -1,4 +1,4 @@
-"""What is told of a wrong answer that no small mistake explains: the one line, or the one or two terms, that are wrong."""
+"""What is told of a wrong answer that no small mistake explains: the line, or the one or two terms, that are wrong."""
 
 from __future__ import annotations
 
