@@ -36,6 +36,9 @@ that may be; and of a whole number before zeros that may stand for other digits,
 LONGEST = 80
 """The largest number of operations of such a line."""
 
+MOST_SIDES, MOST = 12, 200
+"""The largest number of equations in the chain of such a line, and of such lines in an answer."""
+
 _NUMBER = re.compile(r"(?<![\w.,])(\d{1,30}+)(?:(?:[.,]|\{,\})(\d{1,30}+))?(?:[eE]([+-]?\d{1,2}+))?")
 
 _Values = Mapping[sp.Symbol, float]
@@ -67,9 +70,11 @@ def judged_with_amounts(
     stated = own | {p: float(x) for p, x in given.items() if x.is_number and x.is_real}
     kept: list[AnsweredLine] = []
     wrong: list[Finding] = []
+    left = MOST
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
         same = list(group)
-        said = [line for line in same if _says_amount(line, own)]
+        said = [line for line in same if _says_amount(line, own)] if len(same) <= min(MOST_SIDES, left) else []
+        left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
         if None in found:
             kept += [_as_said(line, said) for line in same]
