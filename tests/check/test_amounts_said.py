@@ -51,6 +51,7 @@ TRUE = [
     "6.622 = m g l/2",
     "m g l/2 = 1.5 * 9.81 * 0.45 = 6.622",
     "m g l/2 = 1.5 * 9.81 * 0.45 = 6.62175 = 6.622",
+    "m g l/2 = 1.5 * 0.45 g = 6.622",
     "1.5 * 9.81 * 0.45 = 6.622 = m g l/2",
     "k a^2 sin(alpha) = 32 * 0.4226 = 13.52",
     "k a^2 sin(alpha) = 13.5238",
@@ -92,6 +93,11 @@ def test_a_wrong_amount_is_told_by_its_number_and_is_no_equation(row: str, line:
     assert [str(f.note) for f in verdict.findings if f.status is Status.WRONG] == [told]
     assert "missing" not in verdict.to_text()
     assert told[:-1] not in swing().check(f"{line}\n{row}", hint=2).to_text()
+
+
+@pytest.mark.parametrize("line", ["m g l/2 = 1.5 * 0.55 g = 6.622", "m g l/2 = 1.5 * 0.45 g = 7.622"])
+def test_a_wrong_side_in_a_chain_of_amounts_is_wrong(line: str) -> None:
+    assert not swing().check(f"{line}\n{ROW}").right
 
 
 def test_a_true_amount_does_not_make_a_wrong_equation_right() -> None:

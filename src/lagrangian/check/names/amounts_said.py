@@ -77,7 +77,7 @@ def judged_with_amounts(
         left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
         if None in found:
-            kept += [_as_said(line, said) for line in same]
+            kept += [_as_said(line, [*said, *_links(truth, same, own)]) for line in same]
         elif found:
             wrong.append(Finding(said[0], Status.WRONG, found[-1]))
             kept += [line for line in same if not any(line is x for x in said) and not _is_number(line)]
@@ -107,6 +107,17 @@ def _says_amount(line: AnsweredLine, values: _Values) -> bool:
         return False
     number = _number_in(line.expr)
     return bool(number != 0 and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
+
+
+def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> list[AnsweredLine]:
+    """The true equations of letters with letters in the chain of such a line: m g l/2 = 1.5·0.45 g = 6.622."""
+    found: list[AnsweredLine] = []
+    for line in lines:
+        named = line.expr.free_symbols
+        if line.kind == "equation" and named and named <= values.keys() and not line.expr.atoms(AppliedUndef):
+            terms = [_amount(truth, x, values) for x in sp.Add.make_args(line.expr)]
+            found += [line] if abs(sum(terms)) <= EXACT * max(map(abs, terms)) else []
+    return found
 
 
 def _number_in(expr: sp.Expr) -> sp.Expr:
