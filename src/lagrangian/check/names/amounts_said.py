@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
+from typing import cast
 
 import numpy as np
 import sympy as sp
@@ -74,6 +75,7 @@ def judged_with_amounts(
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
         same = list(group)
         said = [line for line in same if _says_amount(line, own)] if len(same) <= min(MOST_SIDES, left) else []
+        said = [line for line in said if np.isfinite(_amount(truth, line.expr, own))]
         left -= len(said)
         found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
         if None in found:
@@ -145,7 +147,7 @@ def _untrue(
         near = (EXACT + loose if numbers else ROUNDED) * abs(x.meant)
         if digits is not None:
             near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
-        if abs(x.number - x.meant) > near and (above is None or abs(x.number - above) > near):
+        if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
             return _told(x, digits)
         above = x.number
     return None
@@ -192,9 +194,15 @@ def _told(stated: _Stated, digits: _Written | None) -> Text:
     """What letters amount to, with as many digits as the number that an answer gives: m g l/2 is 6.62, not 7.62."""
     sign = -1 if stated.letters.could_extract_minus_sign() else 1
     meant, number = sign * stated.meant, sign * stated.number
+    what = sign * stated.letters
+    roots = [x for x in what.atoms(sp.Pow) if x.is_number and x.is_positive and abs(x.args[1]) == sp.S.Half]
+    if roots:  # sin 12° is one of roots in roots
+        rounded = {x: sp.Rational(str(float(x))) for x in roots}
+        factor, rest = bounded.expand(cast("sp.Expr", what.xreplace(rounded))).as_coeff_Mul()
+        what = sp.Float(f"{float(factor):.4g}") * rest
     if digits is None:
-        return text(sign * stated.letters, f" is {meant:.6g}, not {number:.6g}.")
+        return text(what, f" is {meant:.6g}, not {number:.6g}.")
     places = max(0, round(-np.log10(digits.unit)))
     given = f"{number:.{places}f}"
     more = next((k for k in range(places, places + 9) if f"{meant:.{k}f}" != given), places)
-    return text(sign * stated.letters, f" is {meant:.{more}f}, not {given}.")
+    return text(what, f" is {meant:.{more}f}, not {given}.")
