@@ -14,6 +14,7 @@ import built_in
 import lagrangian as lg
 import size
 from effort import at_most
+from lagrangian.check.names import amounts_said
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
@@ -70,6 +71,8 @@ ANSWERS = {
     "rows of tables": "| a | b |\n|---|---|\n" + "| x1 | x2r |\n" * (N // 12),
     "strokes": "|" * N,
     "words behind a force": "x1'' = H\n" + "H to the (" * (N // 10),
+    "amounts in a chain": "x1'' = 0\n" + "m1 m2 = " + "1.5 = " * (N // 6) + "2",
+    "amounts in lines": "x1'' = 0\n" + "m1*m2 = 1.5*1.5 = 2.25\n" * (N // 23),
     "names with stars": "m* = 1\n" + "m* " * (N // 3),
     "stars behind indices": "m_a" * (N // 3) + "^*",
     "functions of coordinates": "".join(f"I_{k}(x1) = x1\n" for k in range(60)) + "dI_1(x1)/d" * (N // 10),
@@ -144,6 +147,7 @@ FORMS = {
     "_ENDS": (prose._ENDS, "1" + BLANKS + "+"),
     "_PROMPT": (sessions._PROMPT, "y" + BLANKS + "y"),
     "_DRAWN": (sketches._DRAWN, "w" + "-" * LONGEST),
+    "_NUMBER of an amount": (amounts_said._NUMBER, "a" + "1" * LONGEST),
     "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANKS + "yy"),
 }
 

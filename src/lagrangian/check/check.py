@@ -38,6 +38,7 @@ from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.lines import filled, without_forms, without_periods
+from lagrangian.check.names.amounts_said import judged_with_amounts
 from lagrangian.check.names.declared import Declared, declared, likeliest_speeds, speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
@@ -66,6 +67,11 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
+    return judged_with_amounts(truth, lines, lambda said: _declared(truth, said, hint, explain))
+
+
+def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
+    """The verdict on the lines of an answer with what it says about names."""
     said = declared(truth, lines)
     exact = said.unrounded(truth)
     if exact is said:

@@ -32,9 +32,6 @@ MAX_LINES = 12
 LONGEST = 80
 """The largest number of operations of an implicit definition."""
 
-ROUNDED = 1e-3
-"""The relative difference of a value that was rounded."""
-
 MAX_SPEEDS = 4
 """The largest number of speeds for which meanings are sought."""
 
@@ -65,7 +62,7 @@ class Declared:
 
 def declared(truth: Reference, lines: Sequence[AnsweredLine]) -> Declared:
     """Return the lines with implicit definitions and speeds written out, and what is assumed about parameters."""
-    found, table = _implicit(truth, [_without_values(truth, line) for line in lines])
+    found, table = _implicit(truth, lines)
     found = tuple(_put(line, table) for line in found)
     speeds = _stated_speeds(truth, found)
     if speeds:
@@ -76,19 +73,6 @@ def declared(truth: Reference, lines: Sequence[AnsweredLine]) -> Declared:
 def _are_equal(value: sp.Expr, number: float) -> bool:
     """Whether a value is a number but for the rounding of π in it."""
     return bool(value.is_number) and isclose(float(value), number, rel_tol=1e-12)
-
-
-def _without_values(truth: Reference, line: AnsweredLine) -> AnsweredLine:
-    """The line, or a definition if it only says what parameters of the system amount to: m l^2 = 0.64."""
-    values = truth.model.values
-    named = line.expr.free_symbols
-    if line.kind != "equation" or not named or not named <= values.keys() or line.expr.atoms(AppliedUndef):
-        return line
-    table = {p: sp.Rational(str(values[cast("sp.Symbol", p)])) for p in named}
-    terms = [abs(float(cast("sp.Expr", x.xreplace(table)))) for x in sp.Add.make_args(line.expr)]
-    left = abs(float(cast("sp.Expr", line.expr.xreplace(table))))
-    said = any(x.is_number for x in sp.Add.make_args(line.expr))
-    return replace(line, kind="definition", expr=sp.S.Zero) if said and left <= ROUNDED * max(terms) else line
 
 
 def _put(line: AnsweredLine, table: dict[sp.Basic, sp.Expr]) -> AnsweredLine:

@@ -1,0 +1,208 @@
+"""Lines that say what parameters amount to: m g l/2 = 1.5·9.81·0.45 = 6.622, in front of equations in numbers.
+
+Such a line says nothing of the motion. It is right if each of its numbers is what the letters are with the values of
+the system, or with those that the answer states, rounded to its last digit; otherwise it is told by its own number.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+from typing import cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.explain.definitions import inserted
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
+
+EXACT = 1e-9
+"""The relative difference of numbers that are not rounded."""
+
+ROUNDED = 1e-3
+"""The relative difference of a number whose digits are not in the text of its line."""
+
+FEWEST_OF_FACTORS, FEWEST, FEWEST_BEFORE_ZEROS = 100, 10, 1000
+"""The smallest size, in units of its last digit, of a factor that may be rounded, 0.866 of 2·9.81·0.866; of a number
+that may be; and of a whole number before zeros that may stand for other digits, 285500."""
+
+LONGEST = 80
+"""The largest number of operations of such a line."""
+
+MOST_SIDES, MOST = 12, 200
+"""The largest number of equations in the chain of such a line, and of such lines in an answer."""
+
+_NUMBER = re.compile(r"(?<![\w.,])(\d{1,30}+)(?:(?:[.,]|\{,\})(\d{1,30}+))?(?:[eE]([+-]?\d{1,2}+))?")
+
+_Values = Mapping[sp.Symbol, float]
+
+
+@dataclass(frozen=True)
+class _Written:
+    """A number in the text of a line: its size and the unit of its last digit."""
+
+    size: float
+    unit: float
+
+
+@dataclass(frozen=True)
+class _Stated:
+    """What letters amount to, ``meant``, and the number that a side of a line gives for it."""
+
+    letters: sp.Expr
+    meant: float
+    number: float
+
+
+def judged_with_amounts(
+    truth: Reference, lines: Sequence[AnsweredLine], judge: Callable[[Sequence[AnsweredLine]], Verdict]
+) -> Verdict:
+    """The verdict on an answer in which lines that say what parameters amount to are no equations of motion."""
+    own = truth.model.values
+    given = {p.symbol: x.expr for x in lines if x.kind == "given" for p in truth.model.parameters if p.name == x.name}
+    stated = own | {p: float(x) for p, x in given.items() if x.is_number and x.is_real}
+    kept: list[AnsweredLine] = []
+    wrong: list[Finding] = []
+    left = MOST
+    for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
+        same = list(group)
+        said = [line for line in same if _says_amount(line, own)] if len(same) <= min(MOST_SIDES, left) else []
+        said = [line for line in said if np.isfinite(_amount(truth, line.expr, own))]
+        left -= len(said)
+        found = [_untrue(truth, same, said, values) for values in (own, stated)] if said else []
+        if None in found:
+            kept += [_as_said(line, [*said, *_links(truth, same, own)]) for line in same]
+        elif found:
+            wrong.append(Finding(said[0], Status.WRONG, found[-1]))
+            kept += [line for line in same if not any(line is x for x in said) and not _is_number(line)]
+        else:
+            kept += same
+    verdict = judge(kept)
+    if not wrong:
+        return verdict
+    findings: Sequence[Finding] = verdict.findings
+    for finding in wrong:
+        findings = inserted(findings, finding)
+    motion = verdict.motion or verdict.right
+    return replace(verdict, status=Status.WRONG, findings=tuple(findings), motion=motion)
+
+
+def _as_said(line: AnsweredLine, said: Sequence[AnsweredLine]) -> AnsweredLine:
+    """A line of a true amount: nothing is left to judge of it."""
+    if any(line is x for x in said):
+        return replace(line, kind="definition", expr=sp.S.Zero)
+    return replace(line, expr=sp.S.Zero) if _is_number(line) else line
+
+
+def _says_amount(line: AnsweredLine, values: _Values) -> bool:
+    """Whether a line equates letters of which all values are known with a number."""
+    named = line.expr.free_symbols
+    if line.kind != "equation" or not named or not named <= values.keys() or line.expr.atoms(AppliedUndef):
+        return False
+    number = _number_in(line.expr)
+    return bool(number != 0 and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
+
+
+def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> list[AnsweredLine]:
+    """The true equations of letters with letters in the chain of such a line: m g l/2 = 1.5·0.45 g = 6.622."""
+    found: list[AnsweredLine] = []
+    for line in lines:
+        named = line.expr.free_symbols
+        if line.kind == "equation" and named and named <= values.keys() and not line.expr.atoms(AppliedUndef):
+            terms = [_amount(truth, x, values) for x in sp.Add.make_args(line.expr)]
+            found += [line] if abs(sum(terms)) <= EXACT * max(map(abs, terms)) else []
+    return found
+
+
+def _number_in(expr: sp.Expr) -> sp.Expr:
+    """The sum of the terms without letters."""
+    return sp.Add(*(x for x in sp.Add.make_args(expr) if x.is_number))
+
+
+def _is_number(line: AnsweredLine) -> bool:
+    """Whether a line equates two numbers, as the rest of m g l/2 = 1.5·9.81·0.45 = 6.622 does."""
+    return line.kind == "equation" and bool(line.expr.is_number and line.expr.is_real and line.expr.is_finite)
+
+
+def _untrue(
+    truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values
+) -> Text | None:
+    """What letters amount to, where the sides of a line say something else; None if these are right."""
+    numbers = list(_written(lines[0].text))
+    stated = list(_stated(truth, lines, said, values))
+    sizes = {abs(x.number) for x in stated}
+    factors = [n for n in numbers if not any(_same(n.size, x) for x in (*sizes, *map(abs, values.values())))]
+    loose = sum(n.unit / n.size for n in factors if n.size >= FEWEST_OF_FACTORS * n.unit) / 2
+    above: float | None = None
+    for x in stated:
+        digits = next((n for n in numbers if _same(n.size, abs(x.number))), None)
+        near = (EXACT + loose if numbers else ROUNDED) * abs(x.meant)
+        if digits is not None:
+            near = 0.5000001 * digits.unit if digits.size >= FEWEST * digits.unit else EXACT * abs(x.meant)
+        if not abs(x.number - x.meant) <= near and (above is None or not abs(x.number - above) <= near):
+            return _told(x, digits)
+        above = x.number
+    return None
+
+
+def _stated(
+    truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[AnsweredLine], values: _Values
+) -> Iterator[_Stated]:
+    """The numbers of the sides of a line, in order from the letters on."""
+    sides = [line for line in lines if any(line is x for x in said) or _is_number(line)]
+    turn = -1 if _is_number(sides[0]) else 1  # 1.5·9.81·0.45 = 6.622 = m g l/2
+    last: _Stated | None = None
+    for line in sides[::turn]:
+        expr = turn * line.expr
+        if _is_number(line):
+            if last is not None:
+                last = replace(last, number=last.number - float(expr))
+                yield last
+            continue
+        number = _number_in(expr)
+        last = _Stated(expr - number, _amount(truth, expr - number, values), -float(number))
+        yield last
+
+
+def _amount(truth: Reference, expr: sp.Expr, values: _Values) -> float:
+    put: dict[sp.Basic, Array] = {p: np.full(truth.states.size, float(v)) for p, v in values.items()}
+    return float(CompiledExpressions([expr]).at(truth.states, put)[0, 0])
+
+
+def _written(line: str) -> Iterator[_Written]:
+    """The numbers in the text of a line."""
+    for found in _NUMBER.finditer(line):
+        whole, fraction, power = found[1], found[2] or "", int(found[3] or 0)
+        zeros = len(whole) - len(whole.rstrip("0")) if not fraction else 0
+        size, unit = float(f"{whole}.{fraction or 0}e{power}"), 10.0 ** (power - len(fraction))
+        yield _Written(size, unit * 10**zeros if size >= FEWEST_BEFORE_ZEROS * unit * 10**zeros else unit)
+
+
+def _same(a: float, b: float) -> bool:
+    return abs(a - b) <= 1e-12 * abs(b)
+
+
+def _told(stated: _Stated, digits: _Written | None) -> Text:
+    """What letters amount to, with as many digits as the number that an answer gives: m g l/2 is 6.62, not 7.62."""
+    sign = -1 if stated.letters.could_extract_minus_sign() else 1
+    meant, number = sign * stated.meant, sign * stated.number
+    what = sign * stated.letters
+    roots = [x for x in what.atoms(sp.Pow) if x.is_number and x.is_positive and abs(x.args[1]) == sp.S.Half]
+    if roots:  # sin 12° is one of roots in roots
+        rounded = {x: sp.Rational(str(float(x))) for x in roots}
+        factor, rest = bounded.expand(cast("sp.Expr", what.xreplace(rounded))).as_coeff_Mul()
+        what = sp.Float(f"{float(factor):.4g}") * rest
+    if digits is None:
+        return text(what, f" is {meant:.6g}, not {number:.6g}.")
+    places = max(0, round(-np.log10(digits.unit)))
+    given = f"{number:.{places}f}"
+    more = next((k for k in range(places, places + 9) if f"{meant:.{k}f}" != given), places)
+    return text(what, f" is {meant:.{more}f}, not {given}.")

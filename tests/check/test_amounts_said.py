@@ -1,0 +1,114 @@
+"""Lines that say what parameters amount to, m g l = 14.7, say nothing of the motion: true ones, and wrong ones."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from lagrangian import loads
+from lagrangian.check import Status
+from lagrangian.derivation import Derivation
+
+SWING = """
+name = "bar with a spring"
+[coordinates]
+theta = "bar, from hanging straight down"
+[parameters]
+m = "1.5 kg"
+l = "0.9 m"
+a = "0.4 m"
+k = "200 N/m"
+alpha = "25 deg"
+g = "9.81 m/s^2"
+[inputs]
+M = "N*m, on the bar"
+[[kinetic]]
+value = "m*l^2*theta'^2/6"
+[[potential]]
+value = "-m*g*l/2*cos(theta) - k*a^2*sin(alpha)*theta"
+[[spring]]
+k = "k"
+deflection = "a*theta"
+[[force]]
+value = "M"
+deflection = "theta"
+"""
+ROW = "0.405 theta'' + 32 theta + 6.622 sin(theta) - 13.52 = M"
+LETTERS = "m l^2/3 theta'' + k a^2 theta + m g l/2 sin(theta) - k a^2 sin(alpha) = M"
+
+
+@cache
+def swing() -> Derivation:
+    """A bar that gravity, a spring and a constant torque turn."""
+    return loads(SWING).derive()
+
+
+TRUE = [
+    "m g l/2 = 6.622",
+    "m g l/2 = 6.62",
+    "m g l/2 = 6.6",
+    "6.622 = m g l/2",
+    "m g l/2 = 1.5 * 9.81 * 0.45 = 6.622",
+    "m g l/2 = 1.5 * 9.81 * 0.45 = 6.62175 = 6.622",
+    "m g l/2 = 1.5 * 0.45 g = 6.622",
+    "1.5 * 9.81 * 0.45 = 6.622 = m g l/2",
+    "k a^2 sin(alpha) = 32 * 0.4226 = 13.52",
+    "k a^2 sin(alpha) = 13.5238",
+    "k a^2 = 32, k a = 80",
+    "sin(alpha) = 0.423",
+    "k a^2 - 32 = 0",
+    "$m g l/2 = 6{,}622$",
+]
+
+
+@pytest.mark.parametrize("line", TRUE)
+@pytest.mark.parametrize("row", [ROW, LETTERS])
+def test_a_true_amount_is_right_beside_the_equation(row: str, line: str) -> None:
+    assert swing().check(f"{line}\n{row}").right
+
+
+WRONG = [
+    ("m g l/2 = 7.622", "g*l*m/2 is 6.622, not 7.622."),
+    ("m g l/2 = 6.722", "g*l*m/2 is 6.622, not 6.722."),
+    ("m g l/2 = 6.632", "g*l*m/2 is 6.622, not 6.632."),
+    ("m g l/2 = 6.623", "g*l*m/2 is 6.622, not 6.623."),
+    ("m g l/2 = 6.621", "g*l*m/2 is 6.622, not 6.621."),
+    ("m g l/2 = 6.63", "g*l*m/2 is 6.62, not 6.63."),
+    ("m g l/2 = 66.22", "g*l*m/2 is 6.62, not 66.22."),
+    ("m g l/2 = -6.622", "g*l*m/2 is 6.622, not -6.622."),
+    ("m g l/2 = 1.5 * 9.81 * 0.45 = 7.622", "g*l*m/2 is 6.622, not 7.622."),
+    ("m g l/2 = 1.5 * 9.81 * 0.54 = 7.946", "g*l*m/2 is 6.62175, not 7.9461."),
+    ("k a^2 sin(12 deg) = 6.654", "0.2079*a^2*k is 6.653, not 6.654."),
+    ("k a^2 = 33", "a^2*k is 32, not 33."),
+    ("k a = 80, k a^2 = 34", "a^2*k is 32, not 34."),
+    ("k a^2 sin(alpha) = 32 * 0.4236 = 13.56", "a^2*k*sin(alpha) is 13.5238, not 13.5552."),
+]
+
+
+@pytest.mark.parametrize(("line", "told"), WRONG)
+@pytest.mark.parametrize("row", [ROW, LETTERS])
+def test_a_wrong_amount_is_told_by_its_number_and_is_no_equation(row: str, line: str, told: str) -> None:
+    verdict = swing().check(f"{line}\n{row}")
+    assert not verdict.right and verdict.motion and not verdict.mistakes
+    assert [str(f.note) for f in verdict.findings if f.status is Status.WRONG] == [told]
+    assert "missing" not in verdict.to_text()
+    assert told[:-1] not in swing().check(f"{line}\n{row}", hint=2).to_text()
+
+
+@pytest.mark.parametrize("line", ["m g l/2 = 1.5 * 0.55 g = 6.622", "m g l/2 = 1.5 * 0.45 g = 7.622"])
+def test_a_wrong_side_in_a_chain_of_amounts_is_wrong(line: str) -> None:
+    assert not swing().check(f"{line}\n{ROW}").right
+
+
+def test_a_true_amount_does_not_make_a_wrong_equation_right() -> None:
+    for wrong in (ROW.replace("6.622", "7.622"), ROW.replace("6.622", "6.623"), ROW.replace("13.52", "13.53")):
+        verdict = swing().check(f"m g l/2 = 6.622\n{wrong}")
+        assert not verdict.right and not verdict.motion
+    assert not swing().check("m g l/2 = 6.622").right
+
+
+def test_amounts_may_be_those_of_values_that_are_stated() -> None:
+    row = LETTERS.replace("k a^2 sin(alpha)", "k a^2/2")
+    assert swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 16\n{row}").right
+    assert not swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 17\n{row}").right
