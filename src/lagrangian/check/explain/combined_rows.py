@@ -167,13 +167,12 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
 
 
 def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
-    """The term of a right equation, or those with the same parameters, that a line lacks along the right motion."""
-    alike: dict[tuple[int, frozenset[sp.Basic]], list[sp.Expr]] = {}
-    fixed = {p.symbol for p in truth.model.parameters}
-    for k, row in enumerate(truth.rows):
-        for t in sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ():
-            alike.setdefault((k, frozenset(bounded.letters(t) & fixed)), []).append(cast("sp.Expr", t))
-    listed = {t for group in alike.values() for t in (*group, _together(group))}
+    """The term of a right equation, or all those with one parameter, that a line lacks along the right motion."""
+    listed: set[sp.Expr] = set()
+    for row in truth.rows:
+        own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
+        groups = [[cast("sp.Expr", t) for t in own if t.has(p.symbol)] for p in truth.model.parameters]
+        listed.update(t for group in groups if group for t in (*group, _together(group)))
     right = sorted(listed, key=sp.default_sort_key)
     if not 0 < len(right) <= MOST_TERMS:
         return None
