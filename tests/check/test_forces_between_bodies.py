@@ -77,6 +77,25 @@ def test_a_force_that_leaves_nothing_but_the_constraint_is_judged() -> None:
     assert not sys.derive().check(f"m r'' = -S\n{together}").right  # S would be 0
 
 
+def test_a_force_in_the_equation_of_one_coordinate_alone_is_none_of_a_constraint_between_two() -> None:
+    """The friction S of the floor on a rolling cart is no force P of the rod between cart and collar."""
+    sys = System("cart, rod and collar")
+    x, y = sys.coordinates("x y")
+    m, J, R, M, l, k, g = sys.parameters("m J R M l k g")
+    sys.kinetic((m + J / R**2) * x.diff() ** 2 / 2 + M * y.diff() ** 2 / 2)
+    sys.spring(k, deflection=x)
+    sys.potential(M * g * y)
+    sys.constraint(x**2 + y**2 - l**2, name="rod")
+    right = "J x''/R = S R\nm x'' = -k x - S + P x/l\nM y'' = -M g + P y/l\nx^2 + y^2 = l^2"
+    assert sys.derive().check(right).right
+    results = "(m + J/R^2) x'' + k x = -P x/l\nM y'' + M g = P y/l"
+    verdict = sys.derive().check(right.replace("+ P x", "- P x").replace("\nx^2", f"\n{results}\nx^2"))
+    assert not verdict.right
+    said = " ".join(str(m.what) for m in verdict.mistakes)
+    assert "multiplier P" in said and "wrong sign" in said and "S" not in said, said
+    assert all(f.status.right for f in verdict.findings if f.line.number == 1)
+
+
 TWINS = {"phi = x/R": "phi = 2 x/R", "1/2 J": "J", "1/2 k x^2": "k x^2", "= F": "= -F"}
 
 

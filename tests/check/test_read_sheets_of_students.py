@@ -97,6 +97,12 @@ def test_derivatives_of_a_quantity_of_ones_own_are_judged() -> None:
     assert not right(f"{sheet}{CART}\n{POLE}")
 
 
+def test_derivatives_by_spelled_rates_are_judged() -> None:
+    stated = "R = 1/2 b xd^2\n{}\ndR/dthd = 0\n" + f"{CART}\n{POLE}"
+    assert right(stated.format("dR/dxd = b xd"))
+    assert not right(stated.format("dR/dxd = 2 b xd"))
+
+
 @pytest.mark.parametrize(
     ("sign", "spoken", "other"), [("- m g", "minus m g", "plus m g"), ("- m g", "\nminus m g", "\nplus m g")]
 )

@@ -73,6 +73,15 @@ def test_an_energy_that_nothing_goes_on_with_is_wrong() -> None:
     assert not hanging().check(f"V = 1/2 k x^2 + 1/2 c (y - x)^2\n{ROWS}").right
 
 
+def test_a_part_of_a_wrong_energy_is_not_the_whole() -> None:
+    whole = "V = 1/2 k x^2 + 1/2 c y^2 - M g x - m g y"
+    found = hanging().check(f"Gravity: V = -M g x - m g y.\n{whole}\n{ROWS}")
+    assert [(f.line.number, f.status.right) for f in found.findings] == [(2, False), (4, True), (5, True)]
+    assert all("missing" not in str(m.what) for m in found.mistakes)
+    right = whole.replace("c y^2", "c (y - x)^2")
+    assert not hanging().check(f"V = -M g x\n{right}\n{ROWS}").right
+
+
 def test_what_is_stated_once_is_not_multiplied_out_to_see_whether_a_line_goes_on(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

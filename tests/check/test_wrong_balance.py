@@ -54,6 +54,8 @@ def test_right_balances_are_right(answer: str) -> None:
         (1, "J phi'' = tau - S r - c phi'", "-S*r has the wrong sign"),
         (1, "J phi'' = tau + S - c phi'", "S should be S*r"),
         (1, "J phi'' = tau + S r - 2 c phi'", "-2*c*phi' should be -c*phi'"),
+        (1, "J phi'' = tau + S r", "the term -c*phi' is missing"),
+        (2, "m z'' = -S", "the term g*m is missing"),
         (2, "m z'' = m g + S", "S has the wrong sign"),
         (2, "m z'' = -m g - S", "-g*m has the wrong sign"),
         (2, "m z'' = m g - S - c z'", "-c*z' does not belong there"),
@@ -111,3 +113,24 @@ def test_a_factor_of_either_side_is_not_guessed() -> None:
     answer = f"{DRUM}\n{LOAD}\nI (z'' - r phi'')/a = 2 S a"
     assert verdicts(answer) == {1: True, 2: True, 3: False}
     assert said(answer) == ["Line 3 is wrong: the other lines with these forces are right together."]
+
+
+@cache
+def sprung() -> lg.Derivation:
+    """The same with a spring between the rim of the drum and the reel."""
+    s = lg.System("drum, spring and reel")
+    phi, z = s.coordinates("phi z")
+    J, m, I, r, a, k, g = s.parameters("J m I r a k g")
+    s.kinetic(J * phi.diff() ** 2 / 2 + m * z.diff() ** 2 / 2 + I * ((z.diff() - r * phi.diff()) / a) ** 2 / 2)
+    s.potential(-m * g * z)
+    s.spring(k, deflection=r * phi - z)
+    return s.derive()
+
+
+def test_a_missing_force_of_several_terms_is_told_as_one() -> None:
+    right = "J phi'' = S r - k r (r phi - z)\nm z'' = m g - S + k (r phi - z)\nI (z'' - r phi'')/a = S a"
+    assert sprung().check(right).right
+    verdict = sprung().check(right.replace(" + k (r phi - z)", ""))
+    assert {f.line.number: f.status.right for f in verdict.findings} == {1: True, 2: False, 3: True}
+    (only,) = (" ".join(str(m.what).split()) for m in verdict.mistakes)
+    assert "line 2" in only and "is missing" in only and "phi" in only and "z" in only, only

@@ -57,7 +57,8 @@ def without_first_parts(
 ) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """The lines, without a Ξ that another one below goes on with, Q = F, then Q = F − b v; an energy where it says so.
 
-    It was what one element adds, and is not the whole, unless it is right. With notes that say so.
+    It was what one element adds, and is not the whole, unless it is right; so is an energy that a wrong one below goes
+    on with. With notes that say so.
     """
     lines = list(_with_forces_above(lines))
     often = Counter((line.kind, line.name) for line in lines if line.kind in ("Xi", "T", "V", "L"))
@@ -66,12 +67,16 @@ def without_first_parts(
         ("Xi", c.name): x for c, x in zip(truth.model.coordinates, truth.Xi, strict=True)
     }
     right |= {("T", None): truth.T, ("V", None): truth.V, ("L", None): truth.L}
+
+    def is_right(line: AnsweredLine) -> bool:
+        return zero_everywhere(truth, truth.expand(line.expr) - right.get((line.kind, line.name), line.expr))
+
     whole: dict[int, AnsweredLine] = {}
     for k, (line, own) in enumerate(stated):
         of = line.kind, line.name
         after = [other for other, more in stated[k + 1 :] if (other.kind, other.name) == of and own < more]
-        after = [x for x in after if x.kind == "Xi" or _names_itself(x)]
-        if after and not zero_everywhere(truth, truth.expand(line.expr) - right.get(of, line.expr)):
+        after = [x for x in after if x.kind == "Xi" or _names_itself(x) or not is_right(x)]
+        if after and not is_right(line):
             whole[id(line)] = after[-1]
     notes = [f"'{x.text}' was not judged: {y.title} goes on with it." for x in lines if (y := whole.get(id(x)))]
     return tuple(x for x in lines if id(x) not in whole), tuple(map(text, dict.fromkeys(notes)))

@@ -100,7 +100,7 @@ def _quotient(truth: Reference, one: sp.Expr, other: sp.Expr) -> bool:
 
 @dataclass(frozen=True)
 class WrongTerm:
-    """A term that is wrong, and by what it would have to be multiplied."""
+    """A term that is wrong, and by what it would have to be multiplied: ∞ if it is missing."""
 
     term: sp.Expr
     factor: sp.Expr
@@ -108,6 +108,8 @@ class WrongTerm:
 
 def difference(truth: Reference, wrong: WrongTerm, coordinate: str | None) -> TermDifference:
     """What a wrong term has in place of the right one."""
+    if wrong.factor == sp.oo:
+        return TermDifference("missing", wrong.term, sp.S.Zero, coordinate)
     kind = {sp.S.Zero: "extra", sp.S.NegativeOne: "sign"}.get(wrong.factor, "coefficient")
     right = wrong.term if kind == "extra" else cast("sp.Expr", wrong.term * wrong.factor)
     moving = (c.name for c in truth.model.coordinates if wrong.term.has(c.acceleration))
@@ -154,12 +156,36 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     if not np.isfinite(found).all():
         return None
     listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    if not listed:
+        return _missing(truth, found[0], values)
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
     if len(still) == 1 and any(x.term.has(*moving) for x in best):
         return None if still[0].factor in (2, sp.S.Half) else still[0]
     return best[0] if len(best) == 1 else None
+
+
+def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
+    """The term of a right equation, or all those with one parameter, that a line lacks along the right motion."""
+    listed: set[sp.Expr] = set()
+    for row in truth.rows:
+        own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
+        groups = [[cast("sp.Expr", t) for t in own if t.has(p.symbol)] for p in truth.model.parameters]
+        listed.update(t for group in groups if group for t in (*group, _together(group)))
+    right = sorted(listed, key=sp.default_sort_key)
+    if not 0 < len(right) <= MOST_TERMS:
+        return None
+    found = CompiledExpressions(right).at(truth.states, values).reshape(len(right), *wrong.shape)
+    shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
+    signed = [(t, share.mean()) for t, share in shares if share is not None and np.allclose(abs(share), 1, rtol=NEAR)]
+    lacking = {cast("sp.Expr", -t if sign > 0 else t) for t, sign in signed}
+    return WrongTerm(lacking.pop(), sp.oo) if len(lacking) == 1 else None
+
+
+def _together(group: Sequence[sp.Expr]) -> sp.Expr:
+    """Several terms as one product, k (x − y); the one alone, if it is."""
+    return cast("sp.Expr", sp.factor_terms(sp.Add(*group))) if len(group) > 1 else group[0]
 
 
 def _in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:

@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import combinations, islice
 
+import sympy as sp
+
 from lagrangian.check.constraints.constrained import expanded, unknown_names
 from lagrangian.check.constraints.eliminated import without_forces
 from lagrangian.check.reference import Reference
@@ -35,8 +37,11 @@ def without_other_forces(
     judge: Callable[[Sequence[AnsweredLine]], Verdict],
 ) -> WithoutOthers:
     """The wrong answer without all but as many unknown forces as the system has multipliers, those of which most lines
-    are right; as it is if there are not more."""
-    found = WithoutOthers(tuple(lines), verdict)
+    are right; as it is if there are not more.
+
+    Of several such choices, that counts whose forces stand in the equations of all coordinates of the constraints.
+    """
+    found, fits = WithoutOthers(tuple(lines), verdict), -1
     equations = [line for line in lines if line.kind == "equation"]
     unknown = unknown_names(expanded(truth), equations) if verdict.status is Status.WRONG else []
     own = {m.symbol for m in truth.derivation.multipliers.values()}
@@ -45,10 +50,22 @@ def without_other_forces(
     for kept in islice(combinations(unknown, len(own)), MOST):
         read = without_forces(truth, lines, {*kept, *own})
         other = judge(read.lines) if read is not None else None
-        if read is None or other is None or other.status is not Status.WRONG or _rights(other) < _rights(found.verdict):
+        if read is None or other is None or other.status is not Status.WRONG:
             continue
+        standing = sum(_may_be_of_constraint(truth, equations, x) for x in kept)
+        if (_rights(other), standing) < (_rights(found.verdict), fits):
+            continue
+        fits = standing
         found = WithoutOthers(read.lines, replace(other, notes=(*other.notes, read.note)))
     return found
+
+
+def _may_be_of_constraint(truth: Reference, equations: Sequence[AnsweredLine], force: sp.Basic) -> bool:
+    """Whether a force stands in equations of as many coordinates as a multiplier of the system does."""
+    moving = [c.acceleration for c in truth.model.coordinates]
+    mine = [x for x in moving if any(line.expr.has(force) and line.expr.has(x) for line in equations)]
+    held = [sum(row.has(m.symbol) for row in truth.rows) for m in truth.derivation.multipliers.values()]
+    return len(mine) >= min(held, default=0)
 
 
 def _rights(verdict: Verdict) -> int:

@@ -102,6 +102,9 @@ def with_wrong_balance(
     holds = np.any([_hold(truth, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
+    roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    if verdict.mistakes and roots == {_at(line)}:
+        return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)

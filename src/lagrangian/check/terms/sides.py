@@ -44,7 +44,9 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
     here, there = (sum(_names(x) == names for x in _terms(side)) for side in sides)
     if there and not here:
         return flipped
-    if (here and not there) or not _SIGN.search(sides[1].strip().lstrip("-+−")):
+    right = sides[1].strip()
+    signed = len(_terms(sides[0])) == 1 and right.startswith(("-", "−"))
+    if (here and not there) or not (signed or _SIGN.search(right.lstrip("-+−"))):
         return "", difference
     if len(_terms(sides[0])) > 1:
         return LEFT, difference

@@ -8,11 +8,12 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 
+from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.prose.words import Words, function_of
 from lagrangian.quantities.source import Source
 from lagrangian.quantities.units import lookup
-from lagrangian.read.letters import undotted
+from lagrangian.read.letters import key, undotted
 
 _LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
 _MARK = r"[\u0307\u0308\u20db\u20dc]"
@@ -116,11 +117,20 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
 
 
 def _is_partial(match: re.Match[str], words: Words) -> bool:
-    """Whether an energy, or another quantity of the answer's own, is differentiated by what moves: dR/dx', df/dx."""
+    """Whether an energy, or another quantity of the answer's own, is differentiated by what moves: dR/dx', dR/dxd."""
     if match["round"] or match["what"] in _ENERGIES:
         return True
     quotient = any(words.is_name(f"d{match[x]}") for x in ("what", "by"))
-    return not quotient and words.is_own(match["what"]) and words.names.changes(match["by"])
+    moves = words.names.changes(match["by"]) or _is_rate(match["by"], words)
+    return not quotient and moves and words.is_own(match["what"])
+
+
+def _is_rate(name: str, words: Words) -> bool:
+    """Whether a name is the spelled rate of what moves, perhaps in shortened letters: xd, thd for theta'."""
+    stems = [stem for _, stem in spelled_rates(name)]
+    coordinates = [key(c.name) for c in words.names.model.coordinates]
+    shortened = any(c.startswith(key(stem)) for c in coordinates for stem in stems if len(stem) > 1)
+    return shortened or any(map(words.names.changes, stems))
 
 
 def _is_times_rate(of: str, words: Words) -> bool:
