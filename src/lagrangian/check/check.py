@@ -320,11 +320,6 @@ def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdi
     return replace(found, findings=tuple(findings), mistakes=told, alternatives=others)
 
 
-def _count_right(verdict: Verdict) -> int:
-    """How many energies and equations are right."""
-    return sum(f.status.right for f in verdict.findings if f.line.kind in ("T", "V", "L", "equation"))
-
-
 def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer in coordinates in which the constraints hold, if its mistakes are found so.
 
@@ -347,7 +342,7 @@ def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> 
     if any(not unjudged.get(key, True) for key in wrong):
         return None
     found = _in_these(own.truth, own.lines, own.change, (), verdict)
-    if found is None or not (found.mistakes or _count_right(found) > _count_right(verdict)):
+    if found is None or not (found.mistakes or found.count_right > verdict.count_right):
         return None
     judged = {id(f.line): f for f in found.findings}
     there = {key: judged[id(x)] for key, x in moved.items() if id(x) in judged}

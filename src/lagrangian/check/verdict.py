@@ -230,6 +230,11 @@ class Verdict:
         return self.notes if self.right or self.hint >= 3 else tuple(filter(_names_only, self.notes))
 
     @property
+    def count_right(self) -> int:
+        """How many energies and equations are right."""
+        return sum(f.status.right for f in self.findings if f.line.kind in ("T", "V", "L", "equation"))
+
+    @property
     def first_wrong(self) -> Finding | None:
         """The first line that is wrong and follows from none; if none is, the first that says nothing."""
         left = [f for f in self.findings if not f.status.right]
