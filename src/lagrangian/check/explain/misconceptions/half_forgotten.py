@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import sympy as sp
 
@@ -25,7 +26,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"The ½ of ½Jω² of {body.title} is missing.")
             yield Variant(what=what, T=rotation, element=body)
         mass = s.expand(body.mass)
-        if mass.is_Symbol and bounded.expand(rotation).coeff(mass).could_extract_minus_sign():
+        inertia: Any = bounded.expand(rotation).coeff(mass) if mass.is_Symbol else sp.S.Zero
+        if inertia.could_extract_minus_sign():
             continue  # J about the pivot, less what ½mv² has: nobody writes either
         what = text(f"The ½ of ½mv² of {body.title} is missing.")
         yield Variant(what=what, T=translation, element=body)
