@@ -69,6 +69,6 @@ def test_coordinates_that_break_the_constraint_are_the_mistake() -> None:
         " + l^2 (m - n/sin(beta)^2) sin(theta) cos(theta) theta'^2 + n g l cos(theta) = -F l sin(theta)"
     )
     assert not verdict.right
-    assert str(verdict.mistakes[0].what).endswith("constraint 'strut' does not hold.")
+    assert str(verdict.mistakes[0].what).endswith("do not satisfy constraint 'strut'.")
     roots = [f.line.text for f in verdict.findings if not f.status.right and not f.follows]
     assert roots == ["s = l sin(theta)/sin(beta)", x]

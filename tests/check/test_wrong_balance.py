@@ -112,7 +112,7 @@ def test_two_wrong_balances_leave_none_that_is_called_right() -> None:
 def test_a_factor_of_either_side_is_not_guessed() -> None:
     answer = f"{DRUM}\n{LOAD}\nI (z'' - r phi'')/a = 2 S a"
     assert verdicts(answer) == {1: True, 2: True, 3: False}
-    assert said(answer) == ["Line 3 is wrong: the other lines with these forces are right together."]
+    assert said(answer) == ["Line 3 does not agree with the other lines that have these forces, and those are right."]
 
 
 @cache

@@ -112,7 +112,7 @@ def without_periods(
     """The lines without a T = 2 π √(L/g) that is no kinetic energy: it has π and no rate. With notes that say so."""
     moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
     periods = [x for x in lines if x.kind == "T" and x.expr.has(sp.pi) and not x.expr.has(*moving, sp.Derivative)]
-    told = tuple(text(f"'{x.text}' was not judged: it is a period, and no kinetic energy.") for x in periods)
+    told = tuple(text(f"'{x.text}' was not judged: T is a period there, and not the kinetic energy.") for x in periods)
     return tuple(x for x in lines if not any(x is y for y in periods)), told
 
 

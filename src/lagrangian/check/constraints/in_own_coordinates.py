@@ -9,7 +9,6 @@ import sympy as sp
 
 from lagrangian.check.constraints.without_constraints import breaking_constraints, without_constraints
 from lagrangian.check.coordinates.chart import system_coordinates, with_own_quantities
-from lagrangian.check.explain.constraint_slips import WHY
 from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.reference import Reference
@@ -17,6 +16,8 @@ from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import text
+
+WHY_PLACE = text("Choose a position that the sketch shows, and compare it with what the formulas give.")
 
 
 def right_in_own_coordinates(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict | None:
@@ -51,9 +52,10 @@ def off_constraints(truth: Reference, lines: Sequence[AnsweredLine], verdict: Ve
     said = [x for x in lines if x.kind == "definition" and x.name in {c.name for c in truth.model.coordinates}]
     titles = {row.element.title for row in rows_of(truth.model)}
     element = next(iter(titles)) if len(titles) == 1 else None
-    what = text("With ", *own.change.words.parts[1:], f", {element or 'a constraint'} does not hold.")
-    brief = text(f"With your coordinates, {element or 'a constraint'} does not hold.")
-    mistake = Mistake("constraint_in_own_coordinates", what, WHY[0], 1, element, None, brief)
+    held = f" do not satisfy {element or 'a constraint'}."
+    what = text("Your formulas ", *own.change.words.parts[1:], held)
+    brief = text("Your formulas for the coordinates", held)
+    mistake = Mistake("constraint_in_own_coordinates", what, WHY_PLACE, 1, element, None, brief)
     judged = judged_lines(own.truth, with_own_quantities(own.truth, own.lines, system_coordinates(own.truth)))
     fit = {(f.line.number, f.line.text) for f in judged.findings if f.status.right}
     findings = [replace(f, follows=f.follows or (f.line.number, f.line.text) in fit) for f in verdict.findings]

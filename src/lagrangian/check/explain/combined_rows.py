@@ -60,7 +60,11 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
             findings[k] = replace(finding, differences=(), follows=True)
             findings = inserted(findings, above)
             continue
-        note = finding.note if _stands_in(wrong.term, finding.line) else text("with what other lines say put in")
+        note = (
+            finding.note
+            if _stands_in(wrong.term, finding.line)
+            else text("after substituting what other lines say of its names")
+        )
         differences = (difference(on, wrong, finding.coordinate),)
         findings[k] = replace(finding, differences=differences, coordinate=None, note=note)
     return replace(verdict, findings=tuple(findings))

@@ -159,7 +159,8 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
     if best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
         is_not = f" does not hold for {title}"
     else:
-        is_not = f" is not {title}" if best.order == 0 else f" is not the {of[1]}derivative of {title}"
+        which = "" if best.row.position is None else of[1]  # of a constraint on velocities, the first one
+        is_not = f" is not {title}" if best.order == 0 else f" is not the {which}derivative of {title}"
     what = text(_begin(line), f"{is_not}: ", *said)
     brief = text(_begin(line), f"{is_not}.")
     why = WHY_SENSE if opposed else WHY[best.order]

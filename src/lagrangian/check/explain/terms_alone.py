@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lagrangian.check.explain.own_terms import LINES, WHY, WHY_ENERGY, WHY_FORCE
+from lagrangian.check.explain.own_terms import LINES
 from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import text
 
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
-_WHY = {"equation": WHY, "Xi": WHY_FORCE}
+WHY = text("Compare this term with its neighbours: its sign, its factors, its powers and its unit.")
 
 
 def with_terms_alone(verdict: Verdict) -> Verdict:
@@ -19,9 +19,8 @@ def with_terms_alone(verdict: Verdict) -> Verdict:
     roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows and not f.clash]
     differing = [(f, d) for f in roots for d in f.differences]
     forces = [f.line.name for f in verdict.findings if f.line.kind == "Xi"]
-    every = all(
-        f.differences and forces.count(f.line.name) < 2 for f in roots
-    )  # one that stands there twice is unclear
+    unclear = any(forces.count(f.line.name) > 1 for f in roots)  # one that is stated twice
+    every = not unclear and all(f.differences for f in roots)
     if verdict.mistakes or verdict.hint == 0 or not every or not 0 < len(differing) <= MOST_TOLD:
         return verdict
     return replace(verdict, mistakes=tuple(term_mistake(f, d) for f, d in differing), sure=True)
@@ -36,5 +35,4 @@ def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:
     element = origins[0].element if len({o.element for o in origins}) == 1 else None
     where = f"In {line.title}{f', {side}' if side else ''}, "
     brief = text(f"A term in {line.title} is not right{f': one that comes from {element}' if element else ''}.")
-    why = _WHY.get(line.kind, WHY_ENERGY)
-    return Mistake("term_alone", text(where, *differs(d), "."), why, step, element, finding.coordinate, brief)
+    return Mistake("term_alone", text(where, *differs(d), "."), WHY, step, element, finding.coordinate, brief)

@@ -36,7 +36,7 @@ MOST_LINES, MOST_FORCES = 12, 6
 """The most lines, and the most forces in them, that are compared."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
-WHY = text("Draw the body of this line alone, with all forces on it, and count each with its sign and its arm.")
+WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
 WHY_SOLVED = text("The lines from which this was solved are right: solve them once more, term by term.")
 ENERGIES = ("T", "V", "L")
 """Lines that an answer by Newton's laws does not have."""
@@ -210,7 +210,7 @@ def _marked(
     findings: Sequence[Finding], right: Sequence[AnsweredLine], blamed: Finding, follow: Sequence[AnsweredLine]
 ) -> tuple[Finding, ...]:
     """The findings with one line blamed, others right, and what follows from it marked so."""
-    note = text("right together with the others that have these forces")
+    note = text("right with the forces that the other lines give")
     said = {_at(x): Finding(x, Status.WRONG, follows=True) for x in follow}
     held = {_at(f.line) for f in findings if f.status is not Status.WRONG and f.line.kind != "definition"}
     said = {at: x for at, x in said.items() if at not in held}
@@ -224,7 +224,7 @@ def _marked(
 def _read(forces: Sequence[sp.Basic]) -> Text:
     """The note on how forces were read."""
     names = ", ".join(f"'{plain(x)}'" for x in forces)
-    return text(f"{names} {'was' if len(forces) == 1 else 'were'} read as unknown.")
+    return text(f"{names} {'was' if len(forces) == 1 else 'were'} taken as unknown forces and eliminated.")
 
 
 def _is_of(note: Text, forces: Sequence[sp.Basic]) -> bool:
@@ -239,8 +239,10 @@ def _at(line: AnsweredLine) -> tuple[int, str]:
 
 def _mistake(blamed: Finding, why: Text) -> Mistake:
     """What is said of the line that is wrong: its term or, if none was found, that it is the one."""
-    brief = text(f"Line {blamed.line.number} does not fit the other lines with these forces.")
+    brief = text(f"Line {blamed.line.number} does not agree with the other lines that have these forces.")
     if blamed.differences:
         return replace(term_mistake(blamed, blamed.differences[0]), name=NAME, why=why, brief=brief)
-    what = text(f"Line {blamed.line.number} is wrong: the other lines with these forces are right together.")
+    what = text(
+        f"Line {blamed.line.number} does not agree with the other lines that have these forces, and those are right."
+    )
     return Mistake(NAME, what, why, 5, brief=brief)
