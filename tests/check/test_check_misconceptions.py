@@ -5,6 +5,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+import sympy as sp
 
 import built_in
 import lagrangian as lg
@@ -161,6 +162,17 @@ def test_no_reason_is_a_correction() -> None:
         assert GIVEN_AWAY.search(words) is None, reason
 
 
+def on_a_turntable() -> lg.Derivation:
+    """A mass on a spring on a table that turns at a given rate, in coordinates that turn with it."""
+    system = lg.System("turntable")
+    x, y = system.coordinates("x y")
+    m, k, speed = system.parameters("m k Omega")
+    c, s = sp.cos(speed * system.t), sp.sin(speed * system.t)
+    system.particle(m, at=system.point("P", (x * c - y * s, x * s + y * c)))
+    system.spring(k, deflection=x)
+    return system.derive()
+
+
 @pytest.mark.slow
 def test_every_misconception_can_be_made_in_some_example() -> None:
     made: Counter[str] = Counter()
@@ -175,8 +187,8 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
         "planar-quadrotor",
         "magnetic-levitation",
     ]
-    for name in chosen:
-        ingredients = Ingredients(derived(name))
+    for derivation in (*map(derived, chosen), on_a_turntable()):
+        ingredients = Ingredients(derivation)
         for module in MISCONCEPTIONS:
             for variant in module.wrong(ingredients):
                 made[module.__name__.rsplit(".", 1)[1]] += 1

@@ -11,7 +11,6 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import without_forces
-from lagrangian.check.constraints.in_own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.constraints.inputs_beside import judged_with_inputs
 from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
@@ -25,7 +24,6 @@ from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
-from lagrangian.check.explain.explained import explained
 from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
@@ -34,6 +32,7 @@ from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
+from lagrangian.check.explained import explained
 from lagrangian.check.general import untrue_in_general
 from lagrangian.check.hardness import hard_to_check
 from lagrangian.check.judged import judged_lines
@@ -43,6 +42,7 @@ from lagrangian.check.names.declared import Declared, declared, likeliest_speeds
 from lagrangian.check.names.own_forces import with_own_forces
 from lagrangian.check.names.spelling import Spelling, in_numbers, names_values, spelled, values_of
 from lagrangian.check.numbers_beside import numbers_alone, with_numbers_beside
+from lagrangian.check.own_coordinates import off_constraints, right_in_own_coordinates
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts

@@ -264,3 +264,10 @@ def _names_only(note: Text) -> bool:
     formulas = [x for x in note.parts if isinstance(x, sp.Expr)]
     unsigned = [-x if x.could_extract_minus_sign() else x for x in formulas]
     return all(isinstance(x, (sp.Symbol, sp.Number, sp.Derivative, AppliedUndef)) for x in unsigned)
+
+
+def inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
+    """The findings with one more, before those of lines below it and of what is judged in the same line."""
+    lines = [(f.line.number, f.line.kind != "definition") for f in findings]
+    place = next((k for k, x in enumerate(lines) if x > (new.line.number, False)), len(findings))
+    return [*findings[:place], new, *findings[place:]]

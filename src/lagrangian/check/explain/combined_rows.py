@@ -15,10 +15,9 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict, inserted
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key

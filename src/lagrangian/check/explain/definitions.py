@@ -11,7 +11,7 @@ from lagrangian.check.explain.columns_said import columns, right_columns
 from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, inserted
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
@@ -73,10 +73,3 @@ def _right(truth: Reference, line: AnsweredLine, turned: bool) -> list[Sayable]:
         return found
     placed = [q for q in right_quantities(truth, line, but=True) if q.kind in PLACED]
     return [replace(q, words=(*q.words, ", from another place")) for q in placed]
-
-
-def inserted(findings: Sequence[Finding], new: Finding) -> list[Finding]:
-    """The findings with one more, before those of lines below it and of what is judged in the same line."""
-    lines = [(f.line.number, f.line.kind != "definition") for f in findings]
-    place = next((k for k, x in enumerate(lines) if x > (new.line.number, False)), len(findings))
-    return [*findings[:place], new, *findings[place:]]

@@ -9,6 +9,8 @@ from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.page.formula import text
 
+LEFT_OVER = (" differs in other ways as well.", " differ as well.")
+"""How notes end on lines that the mistakes leave open."""
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
 WHY = text("Compare this term with its neighbours: its sign, its factors, its powers and its unit.")

@@ -16,13 +16,11 @@ import sympy as sp
 
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.combined_rows import difference, term_to_blame
-from lagrangian.check.explain.definitions import inserted
-from lagrangian.check.explain.explained import LEFT_OVER
-from lagrangian.check.explain.terms_alone import term_mistake
+from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import small
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ParseError
 from lagrangian.page.formula import Text, text

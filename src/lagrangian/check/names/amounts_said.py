@@ -17,9 +17,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass

@@ -9,14 +9,12 @@ from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.reasoned import with_bodies
+from lagrangian.check.explain.terms_alone import LEFT_OVER
 from lagrangian.check.judged import Judged
 from lagrangian.check.names.spelling import Spelling, not_there
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Verdict
 from lagrangian.page.formula import text
-
-LEFT_OVER = (" differs in other ways as well.", " differ as well.")
-"""What is said of one line, or of several, in which a mistake does not explain everything."""
 
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:

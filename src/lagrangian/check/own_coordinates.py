@@ -9,11 +9,10 @@ import sympy as sp
 
 from lagrangian.check.constraints.without_constraints import breaking_constraints, without_constraints
 from lagrangian.check.coordinates.chart import system_coordinates, with_own_quantities
-from lagrangian.check.explain.definitions import inserted
 from lagrangian.check.judged import judged_lines
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import text
 
