@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-import sympy as sp
-
 from lagrangian.check.constraints.without_constraints import breaking_constraints, without_constraints
 from lagrangian.check.coordinates.chart import system_coordinates, with_own_quantities
 from lagrangian.check.judged import judged_lines
+from lagrangian.check.names.needless import accelerates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
@@ -27,7 +26,7 @@ def right_in_own_coordinates(truth: Reference, lines: Sequence[AnsweredLine], hi
         return None
     named = {c.name: c.symbol for c in truth.model.coordinates}
     said = [named[x.name] - x.expr for x in lines if x.kind == "definition" and x.name in named]
-    placed = [x.expr for x in lines if x.kind in ("equation", "identity") and not _accelerates(x)]
+    placed = [x.expr for x in lines if x.kind in ("equation", "identity") and not accelerates(x.expr)]
     new = any(c.name not in named for c in own.truth.model.coordinates)
     if not new or not all(zero_everywhere(own.truth, own.change.put(expr)) for expr in (*said, *placed)):
         return None
@@ -63,10 +62,6 @@ def off_constraints(truth: Reference, lines: Sequence[AnsweredLine], verdict: Ve
     for line in {(x.number, x.text): x for x in said}.values():
         findings = inserted(findings, Finding(line, Status.WRONG))
     return replace(verdict, findings=tuple(findings), mistakes=(mistake,), alternatives=(), sure=True)
-
-
-def _accelerates(line: AnsweredLine) -> bool:
-    return any(d.derivative_count > 1 for d in line.expr.atoms(sp.Derivative))
 
 
 def _unjudged(lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:

@@ -230,6 +230,11 @@ class Verdict:
         return self.notes if self.right or self.hint >= 3 else tuple(filter(_names_only, self.notes))
 
     @property
+    def right_lines(self) -> int:
+        """How many lines are right, of whatever kind."""
+        return sum(f.status.right for f in self.findings)
+
+    @property
     def count_right(self) -> int:
         """How many energies and equations are right."""
         return sum(f.status.right for f in self.findings if f.line.kind in ("T", "V", "L", "equation"))

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import combinations
+from operator import attrgetter
 from typing import Any, Protocol, TypeAlias, cast
 
 import numpy as np
@@ -124,11 +125,11 @@ def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int
             return found
         together += [_of_lines(found, lines)] if len(put) == len(lines) else []
     if not tried:
-        return max([first, *together], key=_rights)
+        return max([first, *together], key=attrgetter("right_lines"))
     if opposite := next((found for found in tried if found.right), None):
         said = text("The motion would be right if the friction had the opposite sign.")
         return replace(opposite, status=Status.WRONG, notes=(said,))
-    return max(tried, key=lambda found: sum(finding.status.right for finding in found.findings))
+    return max(tried, key=attrgetter("right_lines"))
 
 
 def _of_lines(verdict: Verdict, lines: Sequence[AnsweredLine]) -> Verdict:
@@ -148,7 +149,7 @@ def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verd
     if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
         return first
     second = verdict_at_states(other, lines, hint, given=True)  # the numbers of an answer may be values of parameters
-    return second if second.right or (truth.values and _rights(second) >= _rights(first)) else first
+    return second if second.right or (truth.values and second.right_lines >= first.right_lines) else first
 
 
 def _with_held(truth: Compared, lines: list[AnsweredLine]) -> list[AnsweredLine]:
@@ -157,11 +158,6 @@ def _with_held(truth: Compared, lines: list[AnsweredLine]) -> list[AnsweredLine]
     places = list(_places(truth, twice, [], given=False)) if twice and truth.model.constraints else []
     true = {id(line) for j, line in enumerate(twice) if places and consistent(places, [j])}
     return [replace(line, kind="equation", name=None) if id(line) in true else line for line in lines]
-
-
-def _rights(verdict: Verdict) -> int:
-    """How many lines are right."""
-    return sum(finding.status.right for finding in verdict.findings)
 
 
 def _as_read(truth: Reference, read: SizeReading) -> bool:

@@ -29,15 +29,10 @@ def judged_with_inputs(
     best = judge(lines)
     for put, note in () if best.right else _named(truth, lines):
         found = judge(put)
-        if _rights(found) > _rights(best):
+        if found.right_lines > best.right_lines:
             best = replace(found, notes=(note, *found.notes))
     told = [text(f"'{x.text}' was not judged: it is about one value of an input.") for x in given]
     return replace(best, notes=(*told, *best.notes))
-
-
-def _rights(verdict: Verdict) -> int:
-    """How many lines are right."""
-    return sum(finding.status.right for finding in verdict.findings)
 
 
 def _named(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[tuple[list[AnsweredLine], Text]]:

@@ -32,17 +32,12 @@ def check_in_any_angle(truth: Reference, lines: Sequence[AnsweredLine], hint: in
         verdict = replace(verdict, notes=(note, *verdict.notes))
         onto = put if verdict.right else tuple(starmap(partial(_where_held, truth), zip(lines, put, strict=True)))
         held = check_constrained(truth, onto, hint) if onto != put else verdict
-        if _count(held) > _count(verdict):
+        if held.right_lines > verdict.right_lines:
             verdict = replace(held, notes=(note, *held.notes))
         if verdict.right:
             return verdict
         proposed = verdict if proposed is None else proposed
     return check_constrained(truth, lines, hint) if proposed is None else proposed
-
-
-def _count(verdict: Verdict) -> int:
-    """How many lines are right."""
-    return sum(finding.status.right for finding in verdict.findings)
 
 
 def _where_held(truth: Reference, was: AnsweredLine, now: AnsweredLine) -> AnsweredLine:

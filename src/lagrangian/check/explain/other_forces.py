@@ -53,7 +53,7 @@ def without_other_forces(
         if read is None or other is None or other.status is not Status.WRONG:
             continue
         standing = sum(_may_be_of_constraint(truth, equations, x) for x in kept)
-        if (_rights(other), standing) < (_rights(found.verdict), fits):
+        if (other.right_lines, standing) < (found.verdict.right_lines, fits):
             continue
         fits = standing
         found = WithoutOthers(read.lines, replace(other, notes=(*other.notes, read.note)))
@@ -66,8 +66,3 @@ def _may_be_of_constraint(truth: Reference, equations: Sequence[AnsweredLine], f
     mine = [x for x in moving if any(line.expr.has(force) and line.expr.has(x) for line in equations)]
     held = [sum(row.has(m.symbol) for row in truth.rows) for m in truth.derivation.multipliers.values()]
     return len(mine) >= min(held, default=0)
-
-
-def _rights(verdict: Verdict) -> int:
-    """How many lines are right."""
-    return sum(f.status.right for f in verdict.findings)
