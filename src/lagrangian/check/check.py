@@ -47,6 +47,7 @@ from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
+from lagrangian.check.virtual_work import judged_with_work
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Text, text
 
@@ -67,7 +68,8 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
-    return judged_with_amounts(truth, lines, lambda said: _declared(truth, said, hint, explain))
+    work = partial(judged_with_work, truth, judge=lambda said: _declared(truth, said, hint, explain))
+    return judged_with_amounts(truth, lines, work)
 
 
 def _declared(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:

@@ -139,6 +139,8 @@ def judge(
         note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     right = undamped[0] if undamped and undamped[0] is not None else right
+    if line.kind == "Xi" and i is not None and not any(x.kind in ("V", "L") for x in lines):
+        right = whole_force(truth, i) if holds_potential(truth, i, line.expr) else right
     follows = bool(stated_for) and _follows(truth, line, stated_for[0], given(truth, lines[:k]))
     follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
     if not compared:
@@ -272,6 +274,17 @@ def _of_coordinate(kind: str, by: By, L: sp.Expr, force: Callable[[Any], sp.Expr
         return momentum
     rate = bounded.diff(momentum, time)
     return rate if kind == "p-rate" else rate - own.slope(name, 0, slope)
+
+
+def whole_force(truth: Reference, i: int) -> sp.Expr:
+    """Ξ_i − ∂V/∂ξ_i: all forces on a coordinate."""
+    return truth.Xi[i] - bounded.diff(truth.V, truth.model.coordinates[i].symbol)
+
+
+def holds_potential(truth: Reference, i: int, force: sp.Expr) -> bool:
+    """Whether a force on a coordinate has letters that only those with a potential have there."""
+    storing = bounded.letters(whole_force(truth, i) - truth.Xi[i]) - bounded.letters(truth.Xi[i])
+    return bool(storing & {p.symbol for p in truth.model.parameters} & bounded.letters(force))
 
 
 def _forces(truth: Reference, Xi: Sequence[sp.Expr]) -> Callable[[Any], sp.Expr]:

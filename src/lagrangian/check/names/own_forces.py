@@ -14,6 +14,7 @@ from lagrangian.check.reading import generalized_force, of_coordinate
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import whole_force
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key
@@ -74,17 +75,13 @@ def _hold_all_forces(truth: Reference, read: Sequence[AnsweredLine], lines: Sequ
     equal = any(x.kind == "statement" and x.expr.has(generalized_force(str(y.name))) for x in read for y in mine)
     if not equal and any(x.kind == "V" and x.number < min(y.number for y in mine) for x in lines):
         return False
-    return all(zero_everywhere(truth, x.expr - _whole_force(truth, places[str(x.name)])) for x in mine)
+    return all(zero_everywhere(truth, x.expr - whole_force(truth, places[str(x.name)])) for x in mine)
 
 
 def _names_lagrangian(expr: sp.Expr) -> bool:
     """Whether an expression has the placeholder of L, or one of its derivatives."""
     lagrangian = ENERGIES["L"].func.__name__
     return any(lagrangian in x.func.__name__ for x in expr.atoms(AppliedUndef))
-
-
-def _whole_force(truth: Reference, i: int) -> sp.Expr:
-    return truth.Xi[i] - bounded.diff(truth.V, truth.model.coordinates[i].symbol)
 
 
 def without_own_names(

@@ -1,0 +1,135 @@
+"""Lines of virtual work, δW = F δx − b ẋ δx: a wrong one is judged as the generalized forces that it states."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.lines import filled
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import holds_potential, whole_force
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.derive.sampling import CompiledExpressions
+from lagrangian.read.letters import key
+
+MOST, MOST_TERMS = 4, 24
+"""The most lines of virtual work of an answer, and the most terms of a force, that are judged."""
+
+ALIKE = 0.5
+"""The share of factors that a wrong term has in common with the right one in whose place it stands."""
+
+_DISPLACED = re.compile("\u27e8delta (.{1,40})\u27e9")
+_OF_WORK = re.compile(r"[WA](?:_?\w{0,8})")
+
+
+def judged_with_work(
+    truth: Reference, lines: Sequence[AnsweredLine], judge: Callable[[Sequence[AnsweredLine]], Verdict]
+) -> Verdict:
+    """The verdict on an answer in which a wrong virtual work states wrong generalized forces.
+
+    A line may be about some of the forces, and the forces with a potential may be among them.
+    """
+    verdict = judge(lines)
+    works = [k for k, line in enumerate(lines) if _is_work(line)]
+    if not works or len(works) > MOST or verdict.status is Status.OTHER_COORDINATES:
+        return verdict
+    written = filled(truth, lines)
+    if len(written) != len(lines):
+        return verdict
+    apart = any(line.kind in ("V", "L") for line in lines)
+    wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
+    return judge([x for k, line in enumerate(lines) for x in wrong.get(k, [line])]) if wrong else verdict
+
+
+def _is_work(line: AnsweredLine) -> bool:
+    """Whether a line states δW."""
+    return line.kind == "statement" and any(_OF_WORK.fullmatch(name) for name in _displacements(line.expr).values())
+
+
+def _displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
+    """The virtual displacements and works in an expression, with their names."""
+    found = {x: _DISPLACED.fullmatch(x.func.__name__) for x in expr.atoms(AppliedUndef)}
+    return {x: m[1] for x, m in found.items() if m is not None}
+
+
+def _wrong_forces(truth: Reference, line: AnsweredLine, *, apart: bool) -> Iterator[AnsweredLine]:
+    """The wrong generalized forces that a line of virtual work states; none for one that is not understood.
+
+    ``apart``: the answer states a V. If it does not, wrong forces with a potential are told beside the right ones.
+    """
+    moved = _displacements(line.expr)
+    works = [x for x, name in moved.items() if _OF_WORK.fullmatch(name)]
+    places = {key(c.name): i for i, c in enumerate(truth.model.coordinates)}
+    if len(works) != 1 or any(key(name) not in places for x, name in moved.items() if x not in works):
+        return
+    value = bounded.expand(line.expr)
+    sign = cast("sp.Expr", value.coeff(works[0]))
+    stated = {places[key(name)]: -sign * value.coeff(x) for x, name in moved.items() if x not in works}
+    whole = sp.Add(*[x * value.coeff(x) for x in moved])
+    if sign not in (1, -1) or bounded.expand(value - whole) != 0:
+        return
+    for i, force in stated.items():
+        if not _known(truth, force) or (wrong := _wrong_part(truth, i, force)) is None:
+            continue
+        whole = truth.Xi[i] if apart or not holds_potential(truth, i, force) else whole_force(truth, i)
+        yield replace(line, kind="Xi", name=truth.model.coordinates[i].name, expr=whole + wrong)
+
+
+def _known(truth: Reference, force: sp.Expr) -> bool:
+    """Whether a force is in the names of the system, and no part of the motion."""
+    accelerations = {c.acceleration for c in truth.model.coordinates}
+    letters = {p.symbol for p in truth.model.parameters} | {u.symbol for u in truth.model.inputs}
+    own = bounded.letters(force)
+    return own <= truth.names and bool(own & letters) and not force.has(*accelerations)
+
+
+def _wrong_part(truth: Reference, i: int, force: sp.Expr) -> sp.Expr | None:
+    """What a stated part of the forces on a coordinate is too much, with a wrong term in place of a right one; None if
+    nothing is wrong in it."""
+    acting = sp.Add.make_args(bounded.expand(truth.Xi[i]))
+    storing = sp.Add.make_args(bounded.expand(whole_force(truth, i) - truth.Xi[i]))
+    units = [x for x in (*acting, *storing) if x != 0]
+    if len(units) > MOST_TERMS or ((values := _factors(truth, force, units)) is not None and set(values) <= {0, 1}):
+        return None
+    if values is not None:
+        return sp.Add(*[(c - 1) * x for c, x in zip(values, units, strict=True) if c not in (0, 1)])
+    own = sp.Add.make_args(bounded.expand(force))
+    absent = [x for x in units if x not in own]
+    found: sp.Expr = sp.S.Zero
+    for term in own:
+        if term in units:
+            continue
+        like, right = max(((_likeness(x, term), x) for x in absent), key=lambda pair: pair[0], default=(0.0, None))
+        if right is not None and like >= ALIKE:
+            absent.remove(right)
+            found += term - right
+        elif truth.derivation.multipliers:
+            return None  # a coordinate that a constraint gives may be put in
+        else:
+            found += term
+    return None if zero_everywhere(truth, found) else found
+
+
+def _likeness(term: sp.Expr, other: sp.Expr) -> float:
+    """The share of factors that two terms have in common."""
+    a, b = ({x for x in sp.Mul.make_args(y) if not x.is_number} for y in (term, other))
+    return len(a & b) / max(1, len(a), len(b))
+
+
+def _factors(truth: Reference, force: sp.Expr, units: Sequence[sp.Expr]) -> list[sp.Expr] | None:
+    """The numbers with which terms add up to a force; None if no numbers do so."""
+    values = CompiledExpressions([force, *units]).at(truth.states)
+    if not np.isfinite(values).all() or not units or values.shape[1] < len(units):
+        return None
+    found = np.linalg.lstsq(values[1:].T, values[0], rcond=None)[0]
+    numbers: list[sp.Expr] = [sp.Rational(round(12 * float(x)), 12) for x in found]
+    rest = force - sp.Add(*[c * x for c, x in zip(numbers, units, strict=True)])
+    return numbers if zero_everywhere(truth, rest) else None

@@ -1,0 +1,84 @@
+"""Lines of virtual work, δW = F δx − b ẋ δx, are judged: a wrong one is a wrong Ξ."""
+
+import pytest
+
+from built_in import derivation
+from lagrangian import System
+
+ROWS = """(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) = F - b x'
+m l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0
+"""
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        "δW = F δx - b x' δx",
+        "δW = (F - b x') δx + 0 δtheta",
+        "friction: δW = -b x' δx",
+        "δW = (F - b x') δx + m g l sin(theta) δtheta",
+        "δW_F = F δx",
+        r"\[ \delta W = F\,\delta x - b\dot x\,\delta x \]",
+    ],
+)
+def test_a_virtual_work_of_some_forces_or_of_all_is_right(work: str) -> None:
+    assert derivation("cart-pole").check(f"{work}\n{ROWS}" if "\\" not in work else work + _latex()).right
+
+
+@pytest.mark.parametrize(
+    ("work", "told"),
+    [
+        ("δW = F δx + b x' δx", "Damper 'b' has the wrong sign."),
+        ("δW = -F δx - b x' δx", "Force 'F' has the wrong sign."),
+        ("δW = F δx - m x' δx", "In the term -m*x', m stands in place of b."),
+        ("friction: δW = b x' δx", "Damper 'b' has the wrong sign."),
+        (
+            "δW = F δx - b x' δx - m g l sin(theta) δtheta",
+            "In line 1 (Ξ of theta), -g*l*m*sin(theta) has the wrong sign.",
+        ),
+    ],
+)
+def test_a_wrong_virtual_work_is_told_above_right_equations(work: str, told: str) -> None:
+    verdict = derivation("cart-pole").check(f"{work}\n{ROWS}")
+    assert not verdict.right
+    assert verdict.motion
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [1]
+    assert [str(m.what) for m in verdict.mistakes] == [told]
+
+
+def test_what_follows_from_a_wrong_virtual_work_is_told_by_it() -> None:
+    wrong = ROWS.replace("- b x'", "+ b x'")
+    verdict = derivation("cart-pole").check("δW = F δx + b x' δx\n" + wrong)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(1, False), (2, True)]
+
+
+def test_a_force_with_a_potential_is_compared_with_all_forces_where_no_V_is_stated() -> None:
+    text = "T = 1/2 (M + m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\nQ_theta = m g l cos(theta)\n"
+    verdict = derivation("cart-pole").check(text + "Q_x = F - b x'\n" + ROWS.replace("g l sin", "g l cos"))
+    wrong = next(f for f in verdict.findings if f.line.number == 2)
+    assert [str(d.term) for d in wrong.differences] == ["g*l*m*sin(theta(t))"]
+
+
+def test_beside_a_constraint_only_a_term_beside_its_right_one_is_told() -> None:
+    s = System("rope on a drum")
+    phi, x = s.coordinates("phi x")
+    J, m, R, c, b, g = s.parameters("J m R c b g")
+    tau = s.input("tau")
+    s.kinetic(J * phi.diff() ** 2 / 2 + m * x.diff() ** 2 / 2)
+    s.potential(-m * g * x)
+    s.torque(tau, on=phi)
+    s.damper(b=c, deflection=phi)
+    s.damper(b=b, deflection=x)
+    s.constraint(x - R * phi)
+    rows = "x = R phi\n(J + m R^2) phi'' = tau - c phi' - b R^2 phi' + m g R\n"
+    check = s.derive().check
+    assert check(rows).right
+    assert check("δW = (tau - c phi' - b R^2 phi') δphi\n" + rows).right
+    assert not check("δW = (tau - phi') δphi\n" + rows).right
+
+
+def _latex() -> str:
+    return (
+        r"\[ (M + m)\ddot x + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta = F - b\dot x \]"
+        r"\[ ml\ddot x\cos\theta + (J + ml^2)\ddot\theta - mgl\sin\theta = 0 \]"
+    )
