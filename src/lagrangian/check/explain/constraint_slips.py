@@ -75,7 +75,7 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
     found: list[WrongConstraint] = []
     for f in findings:
         expr = f.line.expr
-        if f.line.kind != "equation" or f.status is not Status.WRONG:
+        if f.line.kind not in ("equation", "definition") or f.status is not Status.WRONG:
             continue
         if not bounded.letters(expr) <= truth.names or not expr.has(*places):
             continue
@@ -175,13 +175,32 @@ def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterat
         exprs = [row.rate, bounded.diff(row.rate, time)]
         if (place := integrated(truth, row)) is not None:
             exprs = [place, *exprs]
-        for order, one in enumerate(exprs, 3 - len(exprs)):
+        ordered = [*enumerate(exprs, 3 - len(exprs))]
+        if place is not None and (squared := _squared(truth, place)) is not None:
+            rate = bounded.diff(squared, time)
+            ordered = [*enumerate((squared, rate, bounded.diff(rate, time))), *ordered]
+        for order, one in ordered:
             whole = bounded.expand(truth.expand(one))
             right = ring.fold(ring.of(whole))
             if not lengths <= _alike(truth, whole) or max(len(right), len(written)) > MOST_TERMS:
                 continue
             if _highest(truth, expr) == _highest(truth, whole):
                 yield from _scaled(ring, row, order, right, written)
+
+
+def _squared(truth: Reference, place: sp.Expr) -> sp.Expr | None:
+    """A distance √A − l = 0 without its root, A − l² = 0; None for a constraint with none, or with several."""
+    moving = truth.derivation.coordinates
+    roots = [x for x in place.atoms(sp.Pow) if x.exp == sp.S.Half and x.has(*moving)]
+    if len(roots) != 1:
+        return None
+    root = sp.Dummy()
+    flat = cast("sp.Expr", place.xreplace({roots[0]: root}))
+    factor = bounded.diff(flat, root)
+    rest = bounded.expand(flat - factor * root)
+    if factor == 0 or factor.has(root, *moving) or rest.has(root, *moving):
+        return None
+    return bounded.expand(factor**2 * roots[0].base - rest**2)
 
 
 def _alike(truth: Reference, expr: sp.Expr) -> set[Any]:
