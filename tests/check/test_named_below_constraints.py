@@ -100,3 +100,29 @@ def test_the_number_of_a_term_of_the_second_derivative_is_named(strut: lg.Deriva
         "Line 3 is not the second derivative of constraint 'strut': in the term -cos(beta)*u'*x', the factor 2 "
         "is missing."
     )
+
+
+def test_a_wrong_relation_of_virtual_displacements_is_the_mistake(strut: lg.Derivation) -> None:
+    """What is reduced with it follows; another sign that is right stays right."""
+    lines = """virtual displacements: (x - u cos(beta)) dx + (u - x cos(beta)) du = 0
+so du = dx (x - u cos(beta))/(u - x cos(beta))
+(F - m x'') (u - x cos(beta)) - (M u'' + M g sin(beta)) (x - u cos(beta)) = 0"""
+    verdict = strut.check(lines)
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what) == (
+        "Line 2 does not hold for the virtual displacements that constraint 'strut' allows: "
+        "what multiplies δx has the wrong sign beside what multiplies δu."
+    )
+    assert [(f.status.right, f.follows) for f in verdict.findings] == [(True, False), (False, False), (False, True)]
+    right = lines.replace("du = dx", "du = -dx").replace("- (M u''", "+ (M u''")
+    assert strut.check(right).right
+    other = strut.check(lines.replace("(F - m x'')", "(F - 2 m x'')"))
+    assert [f.line.number for f in other.findings if not f.status.right and not f.follows] == [2, 3]
+
+
+def test_a_wrong_term_of_virtual_displacements_is_named(strut: lg.Derivation) -> None:
+    lines = """(x - u cos(beta)) δx + (u + x cos(beta)) δu = 0
+(F - m x'') (u + x cos(beta)) + (M u'' + M g sin(beta)) (x - u cos(beta)) = 0"""
+    verdict = strut.check(lines)
+    assert "x*cos(beta)*u' has the wrong sign" in str(verdict.mistakes[0].what), verdict.mistakes[0].what
+    assert [(f.status.right, f.follows) for f in verdict.findings] == [(False, False), (False, True)]

@@ -18,12 +18,13 @@ from lagrangian import bounded
 from lagrangian.check.constraints.counted_together import integrated
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, minus, product, scaled
 from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.check.explain.virtual_displacements import MOVES
 from lagrangian.check.reference import Reference
 from lagrangian.check.terms.sides import on_side
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference
 from lagrangian.model import time
 from lagrangian.model.rows import Row, rows_of
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Variation, text
 from lagrangian.records import dataclass
 
 MOST_TERMS = 24
@@ -151,12 +152,15 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         return None
     if best is None or best.same < max(1, len(best.right) // 2):
         return None
-    opposed = _opposed(ring, best, line)
+    opposed = _opposed(ring, best, line) or _opposed_rates(truth, ring, best)
     said = opposed or _said(ring, best, line)
     if said is None:
         return None
     title, of = best.row.element.title, NAMES[best.order]
-    if best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
+    if line.name == MOVES:
+        is_not = f" does not hold for the virtual displacements that {title} allows"
+        said = _of_displacements(truth, said)
+    elif best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
         is_not = f" does not hold for {title}"
     else:
         which = "" if best.row.position is None else of[1]  # of a constraint on velocities, the first one
@@ -165,6 +169,14 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
     brief = text(_begin(line), f"{is_not}.")
     why = WHY_SENSE if opposed else WHY[best.order]
     return Mistake(of[0], what, why, 1, title, None, brief), best.order
+
+
+def _of_displacements(truth: Reference, said: Sequence[Any]) -> tuple[Any, ...]:
+    """Words with δξ for ξ̇, or with a remark where a rate stands in a longer term."""
+    rates = {c.rate: Variation(c.symbol) for c in truth.model.coordinates}
+    put = [rates.get(x, x) if isinstance(x, sp.Expr) else x for x in said]
+    longer = any(isinstance(x, sp.Expr) and x.has(*rates) for x in put)
+    return ("with rates in place of displacements, " if longer else "", *put)
 
 
 def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterator[_Compared]:
@@ -246,6 +258,22 @@ def _opposed(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, 
     first, second = found.written.values()
     are, must = ("the same sign", "opposite ones") if first * second > 0 else ("opposite signs", "the same one")
     return ("the terms ", terms[0], " and ", terms[1], f" have {are} and must have {must}.")
+
+
+def _opposed_rates(truth: Reference, ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
+    """All that multiplies one rate, in place of −, in a relation of two rates with several terms each."""
+    if found.order != 1 or found.written.keys() != found.right.keys() or len(found.right) < 3:
+        return None
+    rates = [c.rate for c in truth.model.coordinates]
+    groups = [[m for m in found.right if ring.product(m).has(x)] for x in rates]
+    held = [(x, g) for x, g in zip(rates, groups, strict=True) if g]
+    if len(held) != 2 or sum(len(g) for _, g in held) != len(found.right):
+        return None
+    signs = [{found.written[m] / found.right[m] for m in g} for _, g in held]
+    if sorted(map(tuple, signs)) != [(-1,), (1,)]:
+        return None
+    (one, _), (other, _) = held
+    return ("what multiplies ", one, " has the wrong sign beside what multiplies ", other, ".")
 
 
 def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:

@@ -12,7 +12,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.constraints.exchanged_factors import with_exchanged
 from lagrangian.check.constraints.multipliers import with_own_multipliers
-from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences
+from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences, with_reduced
 from lagrangian.check.explain.consequences import SMALL
 from lagrangian.check.explain.constraint_mistakes import beside_constraints, taken_as_fits
 from lagrangian.check.explain.constraint_slips import WrongConstraint, wrong_constraints
@@ -58,6 +58,7 @@ def named_beside_multipliers(
     read = with_exchanged(truth, read, lines)
     judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
+    judged = with_reduced(truth, wrong, judged)
     judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
