@@ -87,7 +87,12 @@ def named_beside_multipliers(
     findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
     findings = with_wrong_definitions(findings, named.blamed)
     return replace(
-        verdict, findings=findings, mistakes=told, alternatives=named.others, notes=() if odd else read.notes, sure=named.sure
+        verdict,
+        findings=findings,
+        mistakes=told,
+        alternatives=named.others,
+        notes=() if odd else read.notes,
+        sure=named.sure,
     )
 
 
