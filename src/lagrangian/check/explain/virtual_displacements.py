@@ -1,4 +1,4 @@
-"""What an answer says of virtual displacements, δs = −δx (x − s cos β)/(s − x cos β), judged as it would be of rates."""
+"""What an answer says of virtual displacements, δs = −δx (x − s cos β)/(s − x cos β), judged as one of rates."""
 
 from __future__ import annotations
 
