@@ -217,3 +217,18 @@ def test_a_coordinate_in_place_of_another_is_not_it_where_the_answer_relates_the
     wrong = [f.line.text for f in verdict.findings if not f.status.right]
     assert len(wrong) == 1
     assert wrong[0].startswith("V")
+
+
+def test_a_moment_of_inertia_about_the_centre_beside_a_fixed_hinge_lacks_the_translation() -> None:
+    """J = m l²/12 is right about the centre: what is missing is ½mv², and nothing was left out of a velocity."""
+    s = System("hung rod")
+    theta = s.coordinates("theta")
+    m, el = s.parameters("m l")
+    place = s.point("C", (el * sin(theta) / 2, -el * cos(theta) / 2))
+    s.rigid_body(m, inertia=m * el**2 / 12, at=place, frame=s.frame(theta), name="rod")
+    s.gravity()
+    d = s.derive()
+    answer = "J = m l^2/12\nT = 1/2 J theta'^2\nV = -m g l/2 cos(theta)\nJ theta'' + m g l/2 sin(theta) = 0"
+    verdict = d.check(answer)
+    assert str(verdict.mistakes[0].what) == "½mv² of rigid body 'rod' is missing."
+    assert d.check(answer.replace("l^2/12", "l^2/3")).right

@@ -318,3 +318,47 @@ def test_a_slip_in_l_below_energies_that_are_right_is_made_there(above: str) -> 
     written = "L = (m*l^2 + M*R^2)*(theta'^2 + Omega^2*sin(theta)^2)/2 - (m*l - M*R)*g*sin(theta)"
     said = first(turning(), f"{above}\n{written}")
     assert said.startswith("Not above, where it is right, but in line 3") == bool(above), said
+
+
+@cache
+def unbalanced() -> lg.Derivation:
+    """A mass on a spring with an unbalance that turns at a given rate, and a door that it shakes."""
+    s = lg.System("unbalanced")
+    y, u = s.coordinates("y u")
+    m, n, k, e, c, w = s.parameters("m n k e c Omega")
+    s.kinetic(m * (y.diff() ** 2 + u.diff() ** 2) / 2)
+    s.particle(n, at=s.point("P", (e * sp.sin(w * time), y + c * u - e * sp.cos(w * time))), name="unbalance")
+    s.spring(k=k, deflection=y, name="bed")
+    s.spring(k=k, deflection=u, name="door")
+    return s.derive()
+
+
+UNBALANCED = """T = m/2 (y'^2 + u'^2) + n/2 (y' + c u' + e Omega sin(Omega t))^2
+V = k/2 (y^2 + u^2)
+d/dt(dT/dy') = (m + n) y'' + n c u'' + n e Omega^2 cos(Omega t)
+(m + n) y'' + n c u'' + n e Omega^2 cos(Omega t) + k y = 0
+(m + n c^2) u'' + n c y'' + n c e Omega^2 cos(Omega t) + k u = 0"""
+
+
+def test_a_derivative_by_time_names_its_wrong_term() -> None:
+    """The inner derivative, and the sign of the derivative of a sine or cosine of time."""
+    assert unbalanced().check(UNBALANCED).right
+    wrong = UNBALANCED.replace("u'' + n e Omega^2", "u'' + n e Omega")
+    (mistake,) = unbalanced().check(wrong).mistakes
+    assert str(mistake.what).startswith("In d/dt(∂T*/∂y'): in the term") and "Omega is missing" in str(mistake.what)
+    assert "What stands in a sine or cosine is differentiated" in str(mistake.why)
+    (mistake,) = unbalanced().check(UNBALANCED.replace("u'' + n e Omega^2", "u'' - n e Omega^2")).mistakes
+    assert str(mistake.what).startswith("In d/dt(∂T*/∂y'), the term") and "wrong sign" in str(mistake.what)
+    assert "minus the sine" in str(mistake.why)
+
+
+def test_what_time_alone_adds_to_an_energy_is_no_part_of_a_mistake() -> None:
+    """The component e Ω cos Ωt of the unbalance changes no equation: the mistake is that c u′ is left out."""
+    wrong = "T = m/2 (y'^2 + u'^2) + n/2 (y' + e Omega sin(Omega t))^2\nV = k/2 (y^2 + u^2)"
+    (mistake,) = unbalanced().check(wrong).mistakes
+    assert "c is left out" in str(mistake.what)
+    parts = wrong.replace("T = m/2 (y'^2 + u'^2) + n", "T1 = m/2 (y'^2 + u'^2)\nT_unbalance = n")
+    (mistake,) = (
+        unbalanced().check(f"{parts}\n(m + n) y'' + n e Omega^2 cos(Omega t) + k y = 0\nm u'' + k u = 0").mistakes
+    )
+    assert "sin(Omega*t)**2" not in str(mistake.what) and "c is left out" in str(mistake.what)

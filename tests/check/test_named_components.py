@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
+import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, System
+from lagrangian.model import time
 
 T = "T = 1/2 m (r'^2 + r^2 theta'^2)"
 
@@ -101,3 +103,18 @@ def test_where_one_of_them_has_the_angle_the_axes_are_fixed() -> None:
     wrong = COMPONENTS.format(x="s' - h psi'", y="s psi' cos(psi)")
     verdict = table().check(wrong)
     assert not verdict.right and "along axes turned" not in verdict.to_text()
+
+
+def test_a_part_along_axes_that_turn_in_space_is_told_as_one() -> None:
+    """Ω x left out of v_y along axes that turn about z is one part, not one along each of two fixed axes."""
+    s = System("whirled")
+    x, y, z = s.coordinates("x y z")
+    m, k, w = s.parameters("m k Omega")
+    c, n = sp.cos(w * time), sp.sin(w * time)
+    s.particle(m, at=s.point("P", (x * c - y * n, x * n + y * c, z)), name="bead")
+    s.spring(k=k, deflection=z, name="bed")
+    d = s.derive()
+    right = "T = m/2 ((x' - Omega y)^2 + (y' + Omega x)^2 + z'^2)"
+    assert not [f for f in d.check(right).findings if not f.status.right]
+    (mistake,) = d.check(right.replace("y' + Omega x", "y'")).mistakes
+    assert str(mistake.what) == "In the velocity of particle 'bead' along axes that turn, Omega*x is left out."

@@ -31,6 +31,7 @@ from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
+from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
 from lagrangian.check.explained import explained
 from lagrangian.check.general import untrue_in_general
@@ -138,7 +139,8 @@ def _checked(
 def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
     """The verdict on an answer for a system with constraints."""
     read = unfolded(truth, without_own_angles(truth, written))
-    verdict = read.judged(lambda said: check_in_any_angle(truth, said, hint))
+    judge = partial(check_in_any_angle, truth, hint=hint)
+    verdict = read.judged(judge)
     verdict = energies_on_rows(truth, read.lines, verdict, hint)
     if not verdict.right:
         verdict = on_branch(truth, read.lines, hint) or right_in_own_coordinates(truth, read.lines, hint) or verdict
@@ -146,7 +148,7 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
         return verdict
     if (off := off_constraints(truth, read.lines, verdict)) is not None:
         return off
-    own = without_other_forces(truth, read.lines, verdict, lambda x: check_in_any_angle(truth, x, hint))
+    own = without_other_forces(truth, *with_virtual_displacements(truth, read.lines, verdict, judge), judge)
     named = named_beside_multipliers(truth, own.lines, own.verdict, lambda x: judged_lines(truth, x).findings)
     named = with_rows_put_in(truth, own.lines, named)
     return _free(truth, own.lines, named) or with_special_case(truth, named)

@@ -44,7 +44,8 @@ class ReadMultipliers:
 
     ``sources[j]`` is which of the given lines became line j. ``mistakes`` say where the multipliers had stood wrong,
     ``slips`` in which of the given lines and which multiplier of the answer. ``own`` are the names of these, ``pushes``
-    their factors in the given lines. ``clashing``: two lines, one of which is wrong, though nothing says which.
+    their factors in the given lines, ``scales`` what each is of a multiplier of the system. ``clashing``: two lines,
+    one of which is wrong, though nothing says which.
     """
 
     lines: tuple[AnsweredLine, ...]
@@ -55,6 +56,7 @@ class ReadMultipliers:
     own: tuple[Any, ...]
     pushes: Mapping[tuple[int, Any], Pushing] = field(default_factory=dict[tuple[int, Any], Pushing])
     clashing: tuple[int, ...] = ()
+    scales: Mapping[Any, sp.Expr] = field(default_factory=dict[Any, sp.Expr])
 
     @property
     def wrong(self) -> frozenset[int]:
@@ -278,7 +280,8 @@ def _read(
             mistakes.append(of_multiplier(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
     sources = [j for j, line in enumerate(lines) if line.kind != "equation" or id(line) in read]
     kept = tuple(read.get(id(lines[j]), lines[j]) for j in sources)
-    return ReadMultipliers(kept, tuple(told), tuple(mistakes), tuple(slips), tuple(sources), tuple(best), pushes)
+    found = kept, tuple(told), tuple(mistakes), tuple(slips), tuple(sources), tuple(best), pushes
+    return ReadMultipliers(*found, scales={s: c for s, (_, c) in best.items()})
 
 
 def _pushing(row: int, factor: sp.Expr, written: sp.Expr, right: sp.Expr) -> Pushing:

@@ -12,6 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.changes.ring import Monomial, SumRing, TooLong, minus
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.model import time
 from lagrangian.page.formula import Left
 
 MOST_LACKING = 2
@@ -56,8 +57,8 @@ def _pair(ring: SumRing, pieces: dict[Monomial, tuple[Fraction, Fraction]]) -> t
 
 
 def rescales(apart: Sequence[str | Left]) -> bool:
-    """Whether a term is told to be another one, so that what is written and one more term would not show it."""
-    return bool(apart) and not str(apart[-1]).startswith((" is missing", " does not"))
+    """Whether a term is told to be another one or too much: what is written and one more term would not show it."""
+    return bool(apart) and not str(apart[-1]).startswith(" is missing")
 
 
 def beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
@@ -81,3 +82,24 @@ def folded(s: Ingredients, expr: sp.Expr) -> sp.Expr:
     except TooLong:
         return expr
     return found if bounded.operations(found) <= bounded.operations(expr) else expr
+
+
+def moving_part(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
+    """An energy or a square without squares of what time alone gives, which change no equation, (e Ω sin Ωt)² beside
+    (ẏ + e Ω cos Ωt)²; as it is if what is written has them, or if it has none."""
+    moving = [*s.q, *s.v]
+    idle = [x for x in sp.Add.make_args(bounded.expand(right)) if x.has(time) and not x.has(*moving)]
+    if not idle or any(x.has(time) and not x.has(*moving) for x in _bare(written)):
+        return right
+    factors = list(sp.Mul.make_args(right))
+    sums = [k for k, f in enumerate(factors) if isinstance(f, sp.Add)]
+    if len(sums) != 1:
+        return right
+    factors[sums[0]] = sp.Add(*[x for x in factors[sums[0]].args if x.has(*moving) or not x.has(time)])
+    return cast("sp.Expr", sp.Mul(*factors))
+
+
+def _bare(written: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The terms of a sum, and of one in a product, as they are written."""
+    parts = [x for f in sp.Mul.make_args(written) for x in sp.Add.make_args(f) if isinstance(f, sp.Add)]
+    return tuple(parts) if parts else sp.Add.make_args(written)

@@ -17,7 +17,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import harmless, right_value, spanned
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
-from lagrangian.derive.sampling import SETS, CompiledExpressions
+from lagrangian.derive.sampling import PLACES, SETS, CompiledExpressions
 from lagrangian.model import time
 
 
@@ -51,6 +51,34 @@ def where_held(truth: Reference, wrong: Sequence[WrongConstraint]) -> OnConstrai
     rate = bounded.diff(value, time)
     c = next(c for c in coordinates if c.symbol == q)
     return OnConstraints(truth, {q: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)})
+
+
+def with_reduced(truth: Reference, wrong: Sequence[WrongConstraint], findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, of which equations without a multiplier follow that eliminate it by the answer's own constraint:
+    Σ W_i δξ_i = 0 with its δξ, below a wrong relation of displacements, rates or positions."""
+    roots = [x for x in wrong if not x.follows and x.order in (0, 1)]
+    forces = [m.symbol for m in truth.derivation.multipliers.values()]
+    coordinates = truth.model.coordinates
+    if len(roots) != 1 or len(forces) != 1:
+        return list(findings)
+    g, number = roots[0].expr, roots[0].finding.line.number
+    slopes = [bounded.diff(g, c.rate if roots[0].order else c.symbol) for c in coordinates]
+    free = [cast("sp.Expr", row.xreplace(dict.fromkeys(forces, sp.S.Zero))) for row in truth.rows]
+    pairs = [(i, j) for i in range(truth.n) for j in range(i) if slopes[i] != 0 and slopes[j] != 0]
+    rows = [slopes[j] * free[i] - slopes[i] * free[j] for i, j in pairs]
+    rows += [row for row, a in zip(free, slopes, strict=True) if a == 0]
+    moved = [c.acceleration for c in coordinates]
+    found: list[Finding] = []
+    for f in findings:
+        open_ = f.line.kind == "equation" and f.status is Status.WRONG and not f.follows and f.line.number > number
+        if open_ and rows and f.line.expr.has(*moved) and {*f.line.expr.free_symbols} <= truth.names:
+            values = CompiledExpressions([f.line.expr, *rows]).at(truth.states)
+            parts = np.split(values, SETS * PLACES, axis=1)
+            follows = bool(np.isfinite(values).all()) and all(spanned(x[:1], x[1:]) for x in parts)
+            found.append(replace(f, follows=follows, differences=() if follows else f.differences))
+        else:
+            found.append(f)
+    return found
 
 
 def _is_right_there(truth: Reference, own: OnConstraints, line: AnsweredLine) -> bool:

@@ -40,11 +40,12 @@ MOST_ALIGNED = 12
 """The most correspondences of the equations of an answer with the right ones that are tried."""
 MOST_PARTS, MOST_FOR_THREE = 120, 16
 """The most quantities of bodies that are tried, and the most of which three are tried together."""
+WHOLE = "translation_forgotten"
 NOT_OF_BODIES = (
     "half_forgotten",
     "mass_swapped",
     "child_mass_forgotten",
-    "translation_forgotten",
+    WHOLE,
     "rotation_forgotten",
 )
 """Mistakes that are not made in the speed, the position or the inertia of a body."""
@@ -74,14 +75,16 @@ def blamed_also(blamed: Blamed | None, said: Sequence[SaidWrongly], line: Answer
 def agrees(explanation: Explanation, said: Sequence[SaidWrongly]) -> bool:
     """Whether an explanation may be what the definitions have wrong: it quotes no other letters than these.
 
-    A number, a whole part that is left out, or masses that are exchanged would not show in them.
+    A number, a whole part that is left out, or masses that are exchanged would not show in them; that ½mv² is missing
+    beside the moment of inertia about the centre of mass would.
     """
+    central = all(p.elsewhere and p.words.of.kind == "axis" for p in said)
     known = frozenset[Any]().union(*(p.letters for p in said))
     for t in explanation.told:
         change, wrong = t.mistake.change, t.mistake.wrong
         if wrong is not None:
             quoted = {x for part in wrong.variant.what.parts if isinstance(part, sp.Symbol) for x in letters_in(part)}
-            if wrong.name in NOT_OF_BODIES or not quoted <= known:
+            if (wrong.name in NOT_OF_BODIES and not (central and wrong.name == WHOLE)) or not quoted <= known:
                 return False
         if change is not None:
             exprs = (change.right, change.written)

@@ -9,6 +9,7 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.constraints.multipliers import ReadMultipliers
 from lagrangian.check.explain.constraint_slips import SLOPE, WrongConstraint
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake
@@ -55,7 +56,7 @@ def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine
     said = [f.coordinate for f in judged if f.line.kind == "equation"]
     if len(rows) != len(said) or not all(name in coordinates for name in said):
         return False
-    pairs: list[tuple[sp.Expr, sp.Expr]] = []
+    pairs: list[tuple[list[sp.Expr], sp.Expr]] = []
     symbols: set[Any] = set()
     for expr, (i, c) in zip(rows, (coordinates[name] for name in said if name is not None), strict=True):
         names: set[Any] = {x for x in bounded.letters(expr) if x not in truth.names}
@@ -63,10 +64,27 @@ def _follow(truth: Reference, own: WrongConstraint, lines: Sequence[AnsweredLine
         mine, right = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
         if len(symbols) > 1 or mine == 0 or right == 0:
             return False
-        factor = sum((expr.diff(s) for s in names), sp.S.Zero) * right / mine
+        factor = cast("sp.Expr", sum((expr.diff(s) for s in names), sp.S.Zero))
         moved = (c.symbol, c.rate, c.acceleration)[own.order]
-        pairs.append((cast("sp.Expr", factor), bounded.diff(own.expr, moved)))
-    if len(symbols) != 1 or len(pairs) < 2 or sum(bounded.size(x) for p in pairs for x in p) > LONGEST:
+        scaled = cast("sp.Expr", factor * right / mine)  # or as it stands, where the inertia is wrong
+        pairs.append(([scaled, factor, -factor], bounded.diff(own.expr, moved)))
+    if len(symbols) != 1 or len(pairs) < 2 or sum(bounded.size(x) for fs, x in pairs for x in (fs[0], x)) > LONGEST:
         return False
-    a, b = next(((w, x) for w, x in pairs if w != 0 and x != 0), (sp.S.Zero, sp.S.Zero))
-    return a != 0 and all(bounded.cancel(w * b - x * a) == 0 for w, x in pairs)
+    firsts, b = next(((fs, x) for fs, x in pairs if fs[0] != 0 and x != 0), ([], sp.S.Zero))
+    return any(all(any(bounded.cancel(w * b - x * a) == 0 for w in fs) for fs, x in pairs) for a in firsts)
+
+
+def taken_as_fits(truth: Reference, read: ReadMultipliers) -> tuple[int, ...]:
+    """The given lines with multipliers that were read so as to fit an equation: times what no constraint holds still.
+
+    λ is a number times the system's multiplier, also of a distance √A = l that is written A = l².
+    """
+    moving = truth.derivation.coordinates
+    factors = {m.symbol for m in truth.derivation.multipliers.values()}
+    slopes = [bounded.diff(row, x) for row in truth.rows for x in factors]
+    roots = {x.base for f in slopes for x in f.atoms(sp.Pow) if abs(x.exp) == sp.S.Half and x.has(*moving)}
+    natural = [sp.S.One, *(base**e for base in roots for e in (sp.S.Half, -sp.S.Half))]
+    odd = [
+        s for s, c in read.scales.items() if c.has(*moving) and all(bounded.cancel(c * r).has(*moving) for r in natural)
+    ]
+    return tuple(j for (j, s) in read.pushes if s in odd)

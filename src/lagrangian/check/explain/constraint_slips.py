@@ -18,12 +18,13 @@ from lagrangian import bounded
 from lagrangian.check.constraints.counted_together import integrated
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, minus, product, scaled
 from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.check.explain.virtual_displacements import MOVES
 from lagrangian.check.reference import Reference
 from lagrangian.check.terms.sides import on_side
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference
 from lagrangian.model import time
 from lagrangian.model.rows import Row, rows_of
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Variation, text
 from lagrangian.records import dataclass
 
 MOST_TERMS = 24
@@ -75,7 +76,7 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
     found: list[WrongConstraint] = []
     for f in findings:
         expr = f.line.expr
-        if f.line.kind != "equation" or f.status is not Status.WRONG:
+        if f.line.kind not in ("equation", "definition") or f.status is not Status.WRONG:
             continue
         if not bounded.letters(expr) <= truth.names or not expr.has(*places):
             continue
@@ -151,12 +152,15 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         return None
     if best is None or best.same < max(1, len(best.right) // 2):
         return None
-    opposed = _opposed(ring, best, line)
+    opposed = _opposed(ring, best, line) or _opposed_rates(truth, ring, best)
     said = opposed or _said(ring, best, line)
     if said is None:
         return None
     title, of = best.row.element.title, NAMES[best.order]
-    if best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
+    if line.name == MOVES:
+        is_not = f" does not hold for the virtual displacements that {title} allows"
+        said = _of_displacements(truth, said)
+    elif best.row.position is None and best.order < 2:  # ẋ = R φ̇, and x = R φ if both are counted from the same place
         is_not = f" does not hold for {title}"
     else:
         which = "" if best.row.position is None else of[1]  # of a constraint on velocities, the first one
@@ -167,6 +171,14 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
     return Mistake(of[0], what, why, 1, title, None, brief), best.order
 
 
+def _of_displacements(truth: Reference, said: Sequence[Any]) -> tuple[Any, ...]:
+    """Words with δξ for ξ̇, or with a remark where a rate stands in a longer term."""
+    rates = {c.rate: Variation(c.symbol) for c in truth.model.coordinates}
+    put = [rates.get(x, x) if isinstance(x, sp.Expr) else x for x in said]
+    longer = any(isinstance(x, sp.Expr) and x.has(*rates) for x in put)
+    return ("with rates in place of displacements, " if longer else "", *put)
+
+
 def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterator[_Compared]:
     """A line beside every constraint and its derivatives, each in the scale in which most terms agree."""
     model = truth.model
@@ -175,13 +187,32 @@ def _all(truth: Reference, ring: SumRing, written: Sum, expr: sp.Expr) -> Iterat
         exprs = [row.rate, bounded.diff(row.rate, time)]
         if (place := integrated(truth, row)) is not None:
             exprs = [place, *exprs]
-        for order, one in enumerate(exprs, 3 - len(exprs)):
+        ordered = [*enumerate(exprs, 3 - len(exprs))]
+        if place is not None and (squared := _squared(truth, place)) is not None:
+            rate = bounded.diff(squared, time)
+            ordered = [*enumerate((squared, rate, bounded.diff(rate, time))), *ordered]
+        for order, one in ordered:
             whole = bounded.expand(truth.expand(one))
             right = ring.fold(ring.of(whole))
             if not lengths <= _alike(truth, whole) or max(len(right), len(written)) > MOST_TERMS:
                 continue
             if _highest(truth, expr) == _highest(truth, whole):
                 yield from _scaled(ring, row, order, right, written)
+
+
+def _squared(truth: Reference, place: sp.Expr) -> sp.Expr | None:
+    """A distance √A − l = 0 without its root, A − l² = 0; None for a constraint with none, or with several."""
+    moving = truth.derivation.coordinates
+    roots = [x for x in place.atoms(sp.Pow) if x.exp == sp.S.Half and x.has(*moving)]
+    if len(roots) != 1:
+        return None
+    root = sp.Dummy()
+    flat = cast("sp.Expr", place.xreplace({roots[0]: root}))
+    factor = bounded.diff(flat, root)
+    rest = bounded.expand(flat - factor * root)
+    if factor == 0 or factor.has(root, *moving) or rest.has(root, *moving):
+        return None
+    return bounded.expand(factor**2 * roots[0].base - rest**2)
 
 
 def _alike(truth: Reference, expr: sp.Expr) -> set[Any]:
@@ -227,6 +258,22 @@ def _opposed(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, 
     first, second = found.written.values()
     are, must = ("the same sign", "opposite ones") if first * second > 0 else ("opposite signs", "the same one")
     return ("the terms ", terms[0], " and ", terms[1], f" have {are} and must have {must}.")
+
+
+def _opposed_rates(truth: Reference, ring: SumRing, found: _Compared) -> tuple[Any, ...] | None:
+    """All that multiplies one rate, in place of −, in a relation of two rates with several terms each."""
+    if found.order != 1 or found.written.keys() != found.right.keys() or len(found.right) < 3:
+        return None
+    rates = [c.rate for c in truth.model.coordinates]
+    groups = [[m for m in found.right if ring.product(m).has(x)] for x in rates]
+    held = [(x, g) for x, g in zip(rates, groups, strict=True) if g]
+    if len(held) != 2 or sum(len(g) for _, g in held) != len(found.right):
+        return None
+    signs = [{found.written[m] / found.right[m] for m in g} for _, g in held]
+    if sorted(map(tuple, signs)) != [(-1,), (1,)]:
+        return None
+    (one, _), (other, _) = held
+    return ("what multiplies ", one, " has the wrong sign beside what multiplies ", other, ".")
 
 
 def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:

@@ -81,7 +81,7 @@ def of_line(
     found = singles(pool, [change], values)
     if found and found[0].cost <= EXOTIC:
         return found, []
-    if line.kind == "T" and (level := _up_to_a_constant(pool, values)):
+    if line.kind == "T" and (level := _up_to_a_constant(pool, values) or _up_to_time(pool, line.expr - right)):
         return level, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
     found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
@@ -102,6 +102,17 @@ def _up_to_a_constant(pool: Pool, values: Array) -> list[Explanation]:
         return []
     change: Array = pool.kept(("level", "T"), lambda: without_constant(pool.T))
     return [e for e in singles(pool, [change], level) if e.cost <= EXOTIC]
+
+
+def _up_to_time(pool: Pool, rest: sp.Expr) -> list[Explanation]:
+    """The same but for what time alone gives, as ½ m a² Ω² sin² Ωt of a component in which no coordinate stands."""
+    moving = without_time(pool.truth, rest)
+    if moving is rest or moving == 0:
+        return []
+    values = CompiledExpressions([moving]).at(pool.truth.states)[0]
+    if not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+        return []
+    return [e for e in singles(pool, [pool.T], values) if e.cost <= EXOTIC]
 
 
 def of_forces(pool: Pool, wrong: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[Explanation]:

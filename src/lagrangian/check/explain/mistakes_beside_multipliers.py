@@ -12,16 +12,16 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.constraints.exchanged_factors import with_exchanged
 from lagrangian.check.constraints.multipliers import with_own_multipliers
-from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences
+from lagrangian.check.explain.below_wrong_constraints import where_held, with_consequences, with_reduced
 from lagrangian.check.explain.consequences import SMALL
-from lagrangian.check.explain.constraint_mistakes import beside_constraints
+from lagrangian.check.explain.constraint_mistakes import beside_constraints, taken_as_fits
 from lagrangian.check.explain.constraint_slips import WrongConstraint, wrong_constraints
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.explain.put_in_terms import with_terms_put_in
 from lagrangian.check.held import held
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
 Lines: TypeAlias = Sequence[AnsweredLine]
@@ -37,6 +37,7 @@ def named_beside_multipliers(
     """
     if verdict.status is not Status.WRONG:
         return verdict
+    verdict = replace(verdict, findings=_with_left_sides(lines, verdict.findings))
     wrong = wrong_constraints(truth, verdict.findings)
     keys = keys_of([f.line for f in verdict.findings])
     aside = {k: x for k, f in zip(keys, verdict.findings, strict=True) for x in wrong if x.finding is f}
@@ -57,6 +58,7 @@ def named_beside_multipliers(
     read = with_exchanged(truth, read, lines)
     judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
+    judged = with_reduced(truth, wrong, judged)
     judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
@@ -67,8 +69,9 @@ def named_beside_multipliers(
         return verdict
     origin = {k: kept[j][0] for k, j in zip(keys_of(read.lines), read.sources, strict=True)}
     better = {origin[k]: f for k, f in zip(keys_of([f.line for f in judged]), judged, strict=True)}
-    amiss = {kept[j][0] for j in read.wrong}
     follow = bool(wrong) and not any(x is y for x in read.mistakes for y in told)  # a wrong constraint explains them
+    odd = taken_as_fits(truth, read) if follow and read.mistakes else ()
+    amiss = {kept[j][0] for j in {*read.wrong, *odd}}
     better |= {
         k: replace(better[k], status=Status.WRONG, note=None, follows=follow and wrong[0].finding.line.number < k[0])
         for k in amiss
@@ -84,8 +87,24 @@ def named_beside_multipliers(
     findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
     findings = with_wrong_definitions(findings, named.blamed)
     return replace(
-        verdict, findings=findings, mistakes=told, alternatives=named.others, notes=read.notes, sure=named.sure
+        verdict,
+        findings=findings,
+        mistakes=told,
+        alternatives=named.others,
+        notes=() if odd else read.notes,
+        sure=named.sure,
     )
+
+
+def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
+    """The findings with the definitions f = … that are the left side of a wrong equation f = 0 of positions below."""
+    found = list(findings)
+    judged = [f.line for f in findings if f.line.kind == "equation" and f.status is Status.WRONG]
+    roots = [bounded.expand(x.expr) for x in judged if not x.expr.has(sp.Derivative)]
+    for line in lines if roots else ():
+        if line.kind == "definition" and bounded.expand(line.expr) in {*roots, *(-x for x in roots)}:
+            found = inserted(found, Finding(line, Status.WRONG))
+    return tuple(found)
 
 
 def _are_above(wrong: Sequence[WrongConstraint], slipped: Sequence[int], findings: Findings) -> bool:

@@ -128,7 +128,8 @@ def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
     if less == 1 and abs(more) != 1:
         return "foreign_factor", text("In the term ", term, " there is the factor ", more, " too much.")
     if more == 1:
-        if not any(f.as_base_exp()[0] in held for f in sp.Mul.make_args(less)):
+        undivided = less.is_number and sp.fraction(term)[1] % less != 0  # ½ m for 2 m is divided by 2, m for 2 m is not
+        if not undivided and not any(f.as_base_exp()[0] in held for f in sp.Mul.make_args(less)):
             return "divided_by", text("In the term ", term, " there is the divisor ", less, " too much.")
         return "factor_missing", text("In the term ", term, ", the factor ", less, " is missing.")
     if more.is_Symbol and less.is_Symbol:

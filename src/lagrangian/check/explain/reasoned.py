@@ -16,7 +16,7 @@ from lagrangian.check.explain.search import singles
 from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.spoken import in_words
 from lagrangian.check.explain.term_said import with_reason
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
@@ -39,12 +39,14 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     mistake = said.mistake
     if mistake.name not in REASONED or mistake.element is None or said.words.of.kind in SHOWN:
         return mistake
-    values = CompiledExpressions([said.T, said.V]).at(pool.truth.states)
-    values[1] = without_constant(values[1])
-    if not np.isfinite(values).all() or not 1e-12 < np.abs(values).max() < LARGEST:
+    of_T = list(dict.fromkeys([said.T, without_time(pool.truth, said.T)]))  # what time alone gives changes no equation
+    every = CompiledExpressions([*of_T, said.V]).at(pool.truth.states)
+    every[-1] = without_constant(every[-1])
+    if not np.isfinite(every).all() or not 1e-12 < np.abs(every).max() < LARGEST:
         return mistake
     V: Array = pool.kept("V but constants", lambda: without_constant(pool.V))
-    told = [t for e in singles(pool, [pool.T, V], values) for t in e.told if t.cost <= MOST_LIKELY]
+    found = [e for k in range(len(of_T)) for e in singles(pool, [pool.T, V], every[[k, -1]])]
+    told = [t for e in found for t in e.told if t.cost <= MOST_LIKELY]
     reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
     own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
     if not own:

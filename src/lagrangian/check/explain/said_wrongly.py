@@ -11,7 +11,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.explain.apart import beside, folded, rescales, told_apart
+from lagrangian.check.explain.apart import beside, folded, moving_part, rescales, told_apart
 from lagrangian.check.explain.dampers_said import damper_share
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
@@ -245,6 +245,7 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
             told(share.of, [share.right], [share.written], (share.right,), (share.written,)), apart=share.ending
         )
     of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
+    right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
     right = folded(s, right)
     apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else ()
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right

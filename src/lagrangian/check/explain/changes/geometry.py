@@ -119,7 +119,7 @@ class GeometryChanges:
         if V:
             yield made(kind, cost, site, {"T": T, "V": V}, right, written)
             yield made(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
-        if T:
+        if T and (any(x != 0 for x in velocity) or self.s.rotation(b) == 0):  # otherwise its ½mv² is missing
             rates = [self.s.rate(x) if isinstance(x, sp.Expr) and self.s.moves(x) else x for x in (right, written)]
             yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, *rates)
 

@@ -81,7 +81,10 @@ def along_turning_axes(position: Sequence[sp.Expr], velocity: Sequence[sp.Expr],
     """The components of a velocity along axes that turn as prescribed, if the position names one such angle."""
     turns = {cast("sp.Expr", f.args[0]) for x in position for f in x.atoms(sp.sin, sp.cos) if f.has(time)}
     angles = [a for a in turns if not a.has(*q)]
-    if len(angles) != 1 or len(velocity) != 2:
+    c, s = (sp.cos(angles[0]), sp.sin(angles[0])) if len(angles) == 1 else (sp.S.One, sp.S.Zero)
+    plane = [k for k, x in enumerate(velocity) if x.has(c, s)]
+    if len(angles) != 1 or len(plane) != 2:
         return []
-    (x, y), c, s = velocity, sp.cos(angles[0]), sp.sin(angles[0])
-    return [bounded.expand(e) for e in (c * x + s * y, c * y - s * x)]
+    x, y = (velocity[k] for k in plane)
+    turned = dict(zip(plane, (c * x + s * y, c * y - s * x), strict=True))
+    return [bounded.expand(turned.get(k, x)) for k, x in enumerate(velocity)]

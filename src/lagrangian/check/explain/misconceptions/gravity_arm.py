@@ -24,8 +24,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"The height of {body.title} is taken {word} as far out as its centre of mass.")
             if not s.angles(own):
                 continue  # on an incline there is no arm: then the weight counts twice or half
-            doubt = 0 if any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own))) else 1
-            if s.moves(own):  # a middle that has a letter of its own is not taken for an end
+            numbered = any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own)))
+            doubt = int(numbered != (times == 1))
+            if s.moves(own):  # a middle with a letter a of its own is not taken for an end, rather a/2 for a
                 yield Variant(what=what, V=times * mg * own, element=gravity, doubt=doubt)
             if mg * own != V:
                 yield Variant(what=what, V=times * V, element=gravity, doubt=doubt)

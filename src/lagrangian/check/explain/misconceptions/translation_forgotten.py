@@ -10,7 +10,7 @@ from lagrangian.page.formula import text
 STEP = 2
 WHY = text(
     "J is about the centre of mass; if the centre of mass itself moves, the kinetic energy of that motion counts as "
-    "well."
+    "well. (Or take J about a fixed axis, which contains both.)"
 )
 
 
