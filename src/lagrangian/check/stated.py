@@ -143,6 +143,7 @@ def judge(
         right = whole_force(truth, i) if holds_potential(truth, i, line.expr) else right
     follows = bool(stated_for) and _follows(truth, line, stated_for[0], given(truth, lines[:k]))
     follows = follows or (line.kind == "L" and _follows_from_parts(truth, line, given(truth, lines[:k])))
+    follows = follows or _stands_above(truth, line, lines[:k])
     if not compared:
         return Finding(line, Status.WRONG, None, coordinate, (), follows)
     mine, own = truth.form(line.expr), truth.form(right)
@@ -371,6 +372,12 @@ def _follows_from_parts(truth: Reference, line: AnsweredLine, above: StatedQuant
     if above.T is None and above.V is None:
         return False
     return zero_everywhere(truth, line.expr - replace(above, L=None).lagrangian(truth))
+
+
+def _stands_above(truth: Reference, line: AnsweredLine, above: Sequence[AnsweredLine]) -> bool:
+    """Whether a line above says the same of the same quantity."""
+    same = (x for x in above if (x.kind, x.name) == (line.kind, line.name) and x.number < line.number)
+    return any(zero_everywhere(truth, line.expr - x.expr) for x in same)
 
 
 def spanned(P: Array, W: Array) -> bool:

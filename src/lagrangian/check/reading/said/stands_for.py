@@ -261,19 +261,33 @@ _DISPLACED = re.compile(
 """A virtual displacement written as a differential, dx or d(xm)."""
 
 
+_WORK_OF_DIFFERENTIALS = re.compile(r"(?<![\w\\/∂])d(?=W[ \t]{0,8}=[ \t]{0,8}(?P<sum>[^\n=]{1,400}))")
+"""The d of a virtual work dW = F dx."""
+
+
 def with_variations(
     written: TracedText, taken: Callable[[str], bool], moves: Callable[[str], bool] | None = None
 ) -> TracedText:
     """Return an answer in plain text in which the sign of virtual displacements is δ: delta W = F delta x, and dx, dφ
-    where the answer speaks of these; dẋ is the product of a damper. ``moves``: whether a name changes with time."""
-    if moves is not None and _VIRTUAL.search(written.text) is not None:
+    where the answer speaks of these or has a dW = F dx; dẋ is the product of a damper. ``moves``: whether a name
+    changes with time."""
+    if moves is not None:
 
-        def displaced(match: re.Match[str]) -> str:
+        def is_own(match: re.Match[str]) -> bool:
             name = match["inside"] or match["bare"]
             own = undotted(name)[1] == 0 and (moves(name) or (match["inside"] is not None and not taken(name)))
-            return f"δ{name}" if own and not taken(f"d{name}") else match.group()
+            return own and not taken(f"d{name}")
 
-        written = written.sub(_DISPLACED, displaced)
+        def displaced(match: re.Match[str]) -> str:
+            return f"δ{match['inside'] or match['bare']}" if is_own(match) else match.group()
+
+        works = [
+            x for x in _WORK_OF_DIFFERENTIALS.finditer(written.text) if any(map(is_own, _DISPLACED.finditer(x["sum"])))
+        ]
+        if works and not taken("dW"):
+            written = written.edited([(*x.span(), "δ") for x in works])
+        if works or _VIRTUAL.search(written.text) is not None:
+            written = written.sub(_DISPLACED, displaced)
     if taken("delta") or _VIRTUAL_WORK.search(written.text) is None:
         return written
     return written.edited([(*match.span(), "δ") for match in _VARIATION.finditer(written.text)])
