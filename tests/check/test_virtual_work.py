@@ -52,6 +52,29 @@ def test_what_follows_from_a_wrong_virtual_work_is_told_by_it() -> None:
     assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(1, False), (2, True)]
 
 
+@pytest.mark.parametrize("work", ["δW = F δx - b x' δx", "dW = F dx - b x' dx", "dW = (F - b*x')*dx"])
+def test_the_virtual_work_of_all_forces_states_every_generalized_force(work: str) -> None:
+    verdict = derivation("cart-pole").check(f"{work}\n{ROWS}")
+    told = [(f.line.number, f.line.name, f.status.right) for f in verdict.findings if f.line.kind == "Xi"]
+    assert told == [(1, "x", True), (1, "theta", True)]
+
+
+def test_a_force_that_is_counted_for_another_coordinate_is_told_in_differentials() -> None:
+    rows = ROWS.replace("sin(theta) = 0", "sin(theta) = F l cos(theta)")
+    verdict = derivation("cart-pole").check("dW = F dx - b x' dx + F l cos(theta) dtheta\n" + rows)
+    told = [(f.line.number, f.line.name, f.follows) for f in verdict.findings if not f.status.right]
+    assert told == [(1, "theta", False), (3, None, True)]
+    assert "where it does no work" in str(verdict.mistakes[0].what)
+
+
+def test_an_energy_that_is_stated_again_follows_from_the_first_time() -> None:
+    text = """T = 1/2 M x'^2 + 1/2 m ((x' - l cos(theta) theta')^2 + (l sin(theta) theta')^2) + 1/2 J theta'^2
+    V = m g l cos(theta)
+    T = 1/2 (M + m) x'^2 - m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2"""
+    verdict = derivation("cart-pole").check(text)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(1, False), (3, True)]
+
+
 def test_a_force_with_a_potential_is_compared_with_all_forces_where_no_V_is_stated() -> None:
     text = "T = 1/2 (M + m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\nQ_theta = m g l cos(theta)\n"
     verdict = derivation("cart-pole").check(text + "Q_x = F - b x'\n" + ROWS.replace("g l sin", "g l cos"))

@@ -283,8 +283,8 @@ def whole_force(truth: Reference, i: int) -> sp.Expr:
 
 
 def holds_potential(truth: Reference, i: int, force: sp.Expr) -> bool:
-    """Whether a force on a coordinate has letters that only those with a potential have there."""
-    storing = bounded.letters(whole_force(truth, i) - truth.Xi[i]) - bounded.letters(truth.Xi[i])
+    """Whether a force on a coordinate has letters that only those with a potential have there: g or k, no length."""
+    storing = bounded.letters(whole_force(truth, i) - truth.Xi[i]) - bounded.letters(truth.Xi[i] + truth.T)
     return bool(storing & {p.symbol for p in truth.model.parameters} & bounded.letters(force))
 
 

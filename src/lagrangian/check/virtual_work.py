@@ -1,9 +1,9 @@
-"""Lines of virtual work, δW = F δx − b ẋ δx: a wrong one is judged as the generalized forces that it states."""
+"""Lines of virtual work, δW = F δx − b ẋ δx: the generalized forces that they state are judged."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -33,20 +33,21 @@ _OF_WORK = re.compile(r"[WA](?:_?\w{0,8})")
 def judged_with_work(
     truth: Reference, lines: Sequence[AnsweredLine], judge: Callable[[Sequence[AnsweredLine]], Verdict]
 ) -> Verdict:
-    """The verdict on an answer in which a wrong virtual work states wrong generalized forces.
+    """The verdict on an answer in which a virtual work states generalized forces.
 
     A line may be about some of the forces, and the forces with a potential may be among them.
     """
-    verdict = judge(lines)
     works = [k for k, line in enumerate(lines) if _is_work(line)]
-    if not works or len(works) > MOST or verdict.status is Status.OTHER_COORDINATES:
-        return verdict
-    written = filled(truth, lines)
+    written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
+        return judge(lines)
+    right = {k: found for k in works if (found := _right_forces(truth, written[k]))}
+    verdict = judge([x for k, line in enumerate(lines) for x in right.get(k, [line])])
+    if verdict.status is Status.OTHER_COORDINATES or len(right) == len(works):
         return verdict
     apart = any(line.kind in ("V", "L") for line in lines)
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
-    return judge([x for k, line in enumerate(lines) for x in wrong.get(k, [line])]) if wrong else verdict
+    return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
 
 
 def _is_work(line: AnsweredLine) -> bool:
@@ -60,27 +61,51 @@ def _displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
     return {x: m[1] for x, m in found.items() if m is not None}
 
 
-def _wrong_forces(truth: Reference, line: AnsweredLine, *, apart: bool) -> Iterator[AnsweredLine]:
-    """The wrong generalized forces that a line of virtual work states; none for one that is not understood.
-
-    ``apart``: the answer states a V. If it does not, wrong forces with a potential are told beside the right ones.
-    """
+def _stated_forces(truth: Reference, line: AnsweredLine) -> dict[int, sp.Expr]:
+    """The factor of the virtual displacement of each coordinate in a virtual work; none if it is in others."""
     moved = _displacements(line.expr)
     works = [x for x, name in moved.items() if _OF_WORK.fullmatch(name)]
     places = {key(c.name): i for i, c in enumerate(truth.model.coordinates)}
     if len(works) != 1 or any(key(name) not in places for x, name in moved.items() if x not in works):
-        return
+        return {}
     value = bounded.expand(line.expr)
     sign = cast("sp.Expr", value.coeff(works[0]))
-    stated = {places[key(name)]: -sign * value.coeff(x) for x, name in moved.items() if x not in works}
     whole = sp.Add(*[x * value.coeff(x) for x in moved])
     if sign not in (1, -1) or bounded.expand(value - whole) != 0:
-        return
+        return {}
+    return {places[key(name)]: -sign * value.coeff(x) for x, name in moved.items() if x not in works}
+
+
+def _right_forces(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
+    """The generalized forces that a virtual work states, if it is that of all forces and every one of them is right."""
+    stated = _stated_forces(truth, line)
+    exact = list(_exact(truth, line, stated)) if all(_known(truth, x) for x in stated.values()) else []
+    return exact if stated and len(exact) == truth.n else []
+
+
+def _exact(truth: Reference, line: AnsweredLine, stated: Mapping[int, sp.Expr]) -> Iterator[AnsweredLine]:
+    """The generalized forces that are right; one on a coordinate without a virtual displacement is 0."""
+    for i, c in enumerate(truth.model.coordinates):
+        if zero_everywhere(truth, stated.get(i, sp.S.Zero) - truth.Xi[i]):
+            yield replace(line, kind="Xi", name=c.name, expr=truth.Xi[i])
+
+
+def _wrong_forces(truth: Reference, line: AnsweredLine, *, apart: bool) -> Iterator[AnsweredLine]:
+    """The wrong generalized forces that a line of virtual work states, behind the right ones; none for one that is not
+    understood, or in which nothing is wrong.
+
+    ``apart``: the answer states a V. If it does not, wrong forces with a potential are told beside the right ones.
+    """
+    found: list[AnsweredLine] = []
+    stated = _stated_forces(truth, line)
     for i, force in stated.items():
         if not _known(truth, force) or (wrong := _wrong_part(truth, i, force)) is None:
             continue
         whole = truth.Xi[i] if apart or not holds_potential(truth, i, force) else whole_force(truth, i)
-        yield replace(line, kind="Xi", name=truth.model.coordinates[i].name, expr=whole + wrong)
+        found.append(replace(line, kind="Xi", name=truth.model.coordinates[i].name, expr=whole + wrong))
+    if found:
+        yield from _exact(truth, line, stated)
+        yield from found
 
 
 def _known(truth: Reference, force: sp.Expr) -> bool:
