@@ -13,10 +13,12 @@ import numpy as np
 from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
-from lagrangian.check.stated import index_of, right_value
-from lagrangian.check.verdict import DERIVED, Finding, Status
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import StatedQuantity, dissipation, given, index_of, right_value
+from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
+from lagrangian.page.formula import text
 
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
@@ -36,6 +38,30 @@ def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> li
         if np.isfinite(P).all() and any(_has(truth, f, P, i, r) for i, r in above):
             follow.add(id(f))
     return [replace(f, follows=True) if id(f) in follow else f for f in findings]
+
+
+def with_right_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with derivatives as right that are those of the right T*, V or D, beside a wrong one of these."""
+    own = given(truth, [f.line for f in findings])
+    wrong = {f.line.kind for f in findings if f.status is Status.WRONG} & {"T", "V", "D"}
+    return [_right_derivative(truth, f, own) if f.line.kind[:1] in wrong else f for f in findings]
+
+
+def _right_derivative(truth: Reference, finding: Finding, own: StatedQuantity) -> Finding:
+    line = finding.line
+    i = index_of(truth, line.name)
+    if line.kind not in OWN_DERIVATIVES or finding.status is not Status.WRONG or i is None:
+        return finding
+    c = truth.model.coordinates[i]
+    energy, stated, right = line.kind[0], {"T": own.T, "V": own.V, "D": own.D}, {"T": truth.T, "V": truth.V}
+    rest = (stated[energy] or 0) - (right[energy] if energy in right else dissipation(truth))
+    by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
+    rest = bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
+    if not any(zero_everywhere(truth, line.expr + sign * rest) for sign in (1, -1)):
+        return finding
+    letter = "T*" if energy == "T" else energy
+    note = text(f"the derivative of the right {letter}, not of yours")
+    return replace(finding, status=Status.RIGHT, note=note)
 
 
 def _is_open(finding: Finding) -> bool:
