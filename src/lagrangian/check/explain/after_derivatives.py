@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.align import alignments
@@ -53,11 +54,17 @@ def _right_derivative(truth: Reference, finding: Finding, own: StatedQuantity) -
     if line.kind not in OWN_DERIVATIVES or finding.status is not Status.WRONG or i is None:
         return finding
     c = truth.model.coordinates[i]
-    energy, stated, right = line.kind[0], {"T": own.T, "V": own.V, "D": own.D}, {"T": truth.T, "V": truth.V}
-    rest = (stated[energy] or 0) - (right[energy] if energy in right else dissipation(truth))
+    energy = line.kind[0]
+    mine, right = {
+        "T": (own.T, truth.T),
+        "V": (own.V, truth.V),
+        "D": (own.D, dissipation(truth)),
+    }[energy]
+    rest = (sp.S.Zero if mine is None else mine) - right
     by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
     rest = bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
-    if not any(zero_everywhere(truth, line.expr + sign * rest) for sign in (1, -1)):
+    stated = -line.expr if line.kind in ("T-p", "T-slope") else line.expr  # what it has too much beside its own energy
+    if not zero_everywhere(truth, stated + rest):
         return finding
     letter = "T*" if energy == "T" else energy
     note = text(f"the derivative of the right {letter}, not of yours")
