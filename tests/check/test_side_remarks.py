@@ -129,3 +129,33 @@ def test_a_product_without_a_sign_is_no_condition() -> None:
     derived = s.derive()
     assert derived.check("J phi'' = -k phi\nCheck: at rest with phi = 0").right
     assert not derived.check("Disc about its axle:   phi'' = k phi\n\nJ phi'' = -k phi").right
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "If theta is held at zero the first one gives (M + m) x'' + b x' = F.",
+        "Special case theta = 0, theta' = 0: (M + m) x'' + b x' = F",
+        "At rest with F = 0: theta = 0",
+    ],
+)
+def test_a_remark_beside_a_wrong_equation_is_not_wrong(remark: str) -> None:
+    wrong = POLE.replace("m l^2", "m l")
+    assert wrong != POLE
+    verdict = derivation("cart-pole").check(f"{CART}\n{wrong}\n{remark}")
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [2]
+    assert "squared" in str(verdict.mistakes[0].what)
+    alone = derivation("cart-pole").check(f"{wrong}\n{remark}")
+    assert not alone.right
+
+
+def test_an_equation_with_a_force_that_another_line_solves_for_is_about_every_motion() -> None:
+    s = System("weight on a table")
+    y = s.coordinates("y")
+    m, g, k = s.parameters("m g k")
+    s.particle(m, at=s.point("P", (0, y)))
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=y)
+    answer = "m y'' = N - m g - k y\nN = m y'' + m g + k y\nm y'' + m g = -k y"
+    assert s.derive().check(answer).right
+    assert not s.derive().check(answer.replace("= N - m g - k y", "= N")).right

@@ -4,6 +4,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
 from lagrangian.model import time
 
 
@@ -260,3 +261,33 @@ F = -J phi''/R - c (phi' + th')/R
     assert not belt.check(rows).right
     verdict = belt.check(rows + first.format("+"))
     assert not verdict.right and not verdict.motion, verdict.to_text()
+
+
+def test_derivatives_of_the_right_energy_beside_a_wrong_one_are_right() -> None:
+    rows = "T = {} m L^2 theta'^2\n∂T/∂theta' = m L^2 theta'\nd/dt ∂T/∂theta' = m L^2 theta''\n"
+    rows += "m L^2 theta'' + b theta' + m g L sin(theta) = 0"
+    pendulum = derivation("pendulum")
+    verdict = pendulum.check(rows.format("1/2"))
+    assert verdict.right, verdict.to_text()
+    verdict = pendulum.check(rows.format(""))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [1], verdict.to_text()
+    verdict = pendulum.check(rows.format("").replace("∂theta' = m L^2 theta'\n", "∂theta' = 3 m L^2 theta'\n"))
+    assert [f.line.number for f in verdict.findings if not f.status.right][:2] == [1, 2], verdict.to_text()
+
+
+def test_an_arm_that_is_called_R_is_no_dissipation_beside_a_wrong_equation() -> None:
+    s = lg.System("bob")
+    theta = s.coordinates("theta")
+    m, e, ell, g, c = s.parameters("m e l g c")
+    s.kinetic(m * (e + ell * sp.cos(theta)) ** 2 * theta.diff() ** 2 / 2)
+    s.potential(m * g * ell * sp.sin(theta))
+    s.damper(c, deflection=theta)
+    rows = "R = e + l*cos(theta)\nA = m*R^2\n{} - m*l*R*sin(theta)*theta'^2 + c*theta' + m*g*l*cos(theta) = 0"
+    derived = s.derive()
+    assert derived.check(rows.format("A*theta''")).right
+    verdict = derived.check(rows.format("A*R*theta''"))
+    assert all(f.line.kind != "D" for f in verdict.findings), verdict.to_text()
+    assert not any("amper" in str(m.what) for m in verdict.mistakes), verdict.to_text()
+    rows = "R = 1/2 c theta^2\n(m*(e + l*cos(theta))^2) theta'' - m*l*(e + l*cos(theta))*sin(theta)*theta'^2"
+    wrong = derived.check(rows + " + c*theta + m*g*l*cos(theta) = 0")
+    assert wrong.findings[0].line.kind == "D" and not wrong.findings[0].status.right, wrong.to_text()

@@ -16,9 +16,9 @@ from lagrangian.read.letters import key, undotted
 def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> frozenset[str]:
     """Return the letters of energies that statements, given by their sides, give a value that is no energy.
 
-    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them; and those that
-    an equation with accelerations uses alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power
-    if rates stand in its value: P = F x' - b theta'^2.
+    These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, and a D of
+    positions if any line does; and those that an equation with accelerations uses alone, or whose rate the answer
+    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value: P = F x' - b theta'^2.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -35,6 +35,11 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if own and (moving[k] or any(key(x) in rates for x in listed)):
             found.add("P")
         if moving[k]:
+            continue
+        meant = [found for x in listed for found in names.scope.meanings(x)[0]]
+        if kind == "D" and len(meant) == len(listed) and any(c.name in meant for c in model.coordinates):
+            held = (str(x) for s in statements if s is not sides for side in s for x, _ in names_in(side))
+            found |= {key(str(named[0]))} if str(named[0]) in held else set()  # R = e + l cos(theta) is an arm
             continue
         other = only_name(sides[1]) if len(sides) == 2 else None
         renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
