@@ -328,3 +328,15 @@ def test_an_equation_of_matrices_in_a_comment_is_carried_out(program: str) -> No
         assert right not in program or not judge.check(program.replace(right, wrong)).right
     turned = "% q = [theta; x]\n" + program
     assert not judge.check(turned).right
+
+
+@pytest.mark.parametrize("shown", ['print(sp.expand(left), "=", Q)', 'print(f"{sp.expand(left)} = {Q}")'])
+def test_two_sides_that_are_printed_with_an_equals_sign_are_an_equation(shown: str) -> None:
+    program = SYMPY.partition("def lagrange")[0]
+    program += (
+        "for q, Q in zip([x, th], [F - b*x.diff(t), 0*m]):\n    left = L.diff(q.diff(t)).diff(t) - L.diff(q)\n    "
+    )
+    cart = derivation("cart-pole")
+    assert cart.check(program + shown).right
+    assert not cart.check(program.replace("F - b", "F + b") + shown).right
+    assert not cart.check(program.replace("F - b*x.diff(t)", "0*m") + shown).right

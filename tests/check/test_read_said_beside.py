@@ -281,3 +281,18 @@ def test_labels_behind_commas_are_left_out() -> None:
     energy = "T = 1/2 M v^2 + 1/2 m (u^2 + w^2) + 1/2 J theta'^2"
     assert right(f"{said.format('')}\n{energy}\n{CART}\n{POLE}")
     assert not right(f"{said.format('2 ')}\n{energy}\n{CART}\n{POLE}")
+
+
+def test_a_common_word_between_a_formula_and_words_is_no_product() -> None:
+    said = "I use the distance s = 2*x as second coordinate instead of x, so x = s/2, x' = s'/2, x'' = s''/2."
+    rows = f"{CART}\n{POLE}".replace("x''", "s''/2").replace("x'", "s'/2").replace("m l x", "m l x")
+    assert right(f"{said}\n{rows}")
+    assert not right(f"{said}\n{rows.replace('b s', 'b 2 s')}")
+    assert not right(f"{said.replace('s = 2*x', 's = 3*x')}\n{rows}")
+
+
+def test_a_name_gets_a_value_behind_a_sentence() -> None:
+    said = "Newton for the cart, the pole about the joint. s = sin(theta), c = cos(theta)."
+    rows = f"{CART}\n{POLE}".replace("cos theta", "c").replace("sin theta", "s")
+    assert right(f"{said}\n{rows}")
+    assert not right(f"{said.replace('sin', 'tan')}\n{rows}")

@@ -24,6 +24,7 @@ REMARKS = [
     "Without friction (F = b = 0) and theta = 0: (M + m) x' = const",
     "Remark: without the pole (m = J = 0) the cart obeys M x'' = F - b x'.",
     "At the greatest speed x' = w, x'' = theta'' = 0 we get b w = F",
+    "(check: l -> 0 gives theta = 0 and then\n(M + m) x'' + b x' = F . OK, one dof)",
     "\n## Plausibility\n\n- `theta = 0`: `(M + m)*x'' + b*x' = F`\n- `M = 0`, `m = 0`: `J*theta'' = 0`",
 ]
 
@@ -159,3 +160,21 @@ def test_an_equation_with_a_force_that_another_line_solves_for_is_about_every_mo
     answer = "m y'' = N - m g - k y\nN = m y'' + m g + k y\nm y'' + m g = -k y"
     assert s.derive().check(answer).right
     assert not s.derive().check(answer.replace("= N - m g - k y", "= N")).right
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I first had {}, because I counted x to the left.",
+        "- At first I had {} (wrong sign)",
+        "Originally I wrote {}, but the bob hangs below.",
+        "Zuerst hatte ich {}, weil ich θ anders zählte.",
+        "(we had first {}, then we corrected it because of the sign)",
+    ],
+)
+def test_a_sentence_that_takes_back_what_stood_there_is_not_judged(said: str) -> None:
+    verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n\n{said.format(WRONG_POLE)}")
+    assert verdict.right and any("taken back" in str(note) for note in verdict.notes)
+    assert not right(f"{CART}\n{WRONG_POLE}\n\n{said.format(POLE)}")
+    assert not right(f"{CART}\n{POLE}\nFirst I wrote T = m x'^2. Then V = - m g l cos theta")

@@ -34,6 +34,7 @@ from lagrangian.check.reading.programs.marks import is_program, told_comments, w
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
+from lagrangian.check.reading.prose.spoken_words import spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.renamed import renamed, restored
@@ -393,4 +394,5 @@ def _words(lines: Lines, text: str) -> Words:
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]
     lines.names.scope.taken = frozenset(key(name) for name in own)
-    return Words(lines.names, own, alone, used, primed, led_names(text))
+    spoken = spoken_words(text, Words(lines.names, own, alone, used, primed))
+    return Words(lines.names, own, alone, used, primed, led_names(text), spoken)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -25,6 +25,8 @@ from lagrangian.check.reading.carried_out.values import (
     State,
     Value,
     called_name,
+    equated,
+    is_sided,
     listed,
     matrix,
     number,
@@ -100,8 +102,7 @@ class Interpreter(Evaluator):
         call = s.value if isinstance(s.value, ast.Call) else None
         called = "" if call is None else called_name(call.func)
         if call is not None and (called in SHOWN or called in SOLVING):
-            for x in call.args:
-                value = self.value(x, names)
+            for value in self._printed(call, names):
                 self.used = before if isinstance(value, Outside) else self.used
                 if self._is_check(value, before, names):
                     continue
@@ -113,6 +114,19 @@ class Interpreter(Evaluator):
         if not isinstance(s.value, ast.Constant):
             of = s.value.id if isinstance(s.value, ast.Name) else ""
             self.stated += [Shown(s.lineno, None, v, True, of) for v in self.flat(value)]
+
+    def _printed(self, call: ast.Call, names: dict[str, Value]) -> Iterator[Value]:
+        """The values that a call shows; print(left, "=", right) shows an equation."""
+        parts = [y for x in call.args for y in (x.values if isinstance(x, ast.JoinedStr) else [x])]
+        args = [x.value if isinstance(x, ast.FormattedValue) else x for x in parts]
+        equals = [isinstance(x, ast.Constant) and str(x.value).strip() in ("=", "==") for x in args]
+        k = 0
+        while k < len(args):
+            sides = [self.value(args[k], names)]
+            if equals[k : k + 3] == [False, True, False]:
+                sides.append(self.value(args[k + 2], names))
+            yield from [equated(*sides)] if len(sides) > 1 and all(map(is_sided, sides)) else sides
+            k += 2 * len(sides) - 1
 
     def _is_check(self, value: Value, before: set[str], names: dict[str, Value]) -> bool:
         """Whether a value that is shown is 0 everywhere: a check, which uses nothing but what a method formed."""

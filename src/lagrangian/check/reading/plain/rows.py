@@ -65,6 +65,9 @@ LONGEST_LABEL = 140
 LONGEST_FORMULA = 400
 """The most characters of a formula with a word behind it that says what a name in it means."""
 
+FEWEST_WORDS = 2
+"""The fewest words that make a sentence of what has no equals sign."""
+_LONG_WORD = re.compile(r"[^\W\d_]{3,}")
 _LISTING = {"{": "}", "[": "]"}
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _STARRED = re.compile(r"(?<!\w)T\^\*(?=\s*[=:])")
@@ -109,7 +112,7 @@ _COLUMN = r"(?P<column>(?<=[\w)\]'’′²³\u0307\u0308])(?:[ ]{3,}|[ ]?\t[ \t]
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = (
     r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
-    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
+    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|(?:OK|ok|Ok|QED)\b|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
     r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )
 _ENDS = re.compile(r"[;,]")
@@ -233,7 +236,8 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
             if _states(text, match.start()) and not _labelled(text, match.start(), labelled):
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
-            if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
+            first = text.rfind("\n", 0, match.start()) + 1
+            if "=" in text[first : match.start()] or _defines_behind(text, first, match):
                 letters[match.start("stop")] = ";"
         elif match["column"]:
             if depth <= 0 and _beside(text, match.start(), match.end()):
@@ -244,6 +248,12 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
             at = match.start()
             letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
     return "".join(letters)
+
+
+def _defines_behind(text: str, first: int, stop: re.Match[str]) -> bool:
+    """Whether a sentence ends at a point, and a name gets a value behind it: the force N in y. s = sin(alpha)."""
+    spoken = len(_LONG_WORD.findall(text, first, stop.start())) >= FEWEST_WORDS
+    return spoken and _NAME_NEXT.match(text, stop.end()) is not None
 
 
 def _labelled(text: str, at: int, labelled: Callable[[str], bool]) -> bool:

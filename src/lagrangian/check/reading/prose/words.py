@@ -96,7 +96,8 @@ class Words:
 
     ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
     with primes or next to an operator, which are names; ``primed`` are those that never stand without primes, and
-    ``led`` those whose rates stand alone on a left side.
+    ``led`` those whose rates stand alone on a left side. ``spoken`` are common words that stand in front of words, and
+    are no products.
     """
 
     def __init__(
@@ -107,6 +108,7 @@ class Words:
         used: Iterable[str] = (),
         primed: Iterable[str] = (),
         led: frozenset[str] = frozenset(),
+        spoken: frozenset[str] = frozenset(),
     ) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
@@ -114,7 +116,7 @@ class Words:
         self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
         self._primed = frozenset(primed)
-        self._led = led
+        self._led, self._spoken = led, spoken
         self._split: dict[str, str] = {}
         self._products: dict[str, bool] = {}
         self.flipped = False
@@ -185,7 +187,7 @@ class Words:
         """Whether a word can be split into names of the system; short forms of these that stand nowhere else are none:
         the is no th·e of θ and e."""
         if word not in self._products:
-            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS
+            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS and word not in self._spoken
             split = self._splits(word, called=False, extra=False) if few else ()
             self._products[word] = any(not any(map(self._is_new_short_form, parts)) for parts in split) or any(
                 function_of(x) is not None
@@ -220,6 +222,8 @@ class Words:
         names both readings if there are two.
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
+            return [word]
+        if word in self._spoken:
             return [word]
         if word[-1].isdigit() and self._is_force(word):
             return [word]  # lam1 is no l a m1
