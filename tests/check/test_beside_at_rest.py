@@ -79,13 +79,13 @@ FLIES = "m l^2 theta'' + m g l sin(theta) = l F\nJ psi'' = d P - c F\n\n"
     ],
 )
 def test_what_inputs_hold_a_position(line: str, right: bool) -> None:
-    assert helicopter().check(FLIES + line).right is right
+    assert helicopter().check(FLIES + line, hint=0).right is right
 
 
 def test_what_inputs_hold_does_not_stand_for_an_equation_of_motion() -> None:
     rows = FLIES.replace("m l^2 theta'' + ", "")
-    assert not helicopter().check(rows + "At rest: F = m g sin(theta)").right
-    assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d").right
+    assert not helicopter().check(rows + "At rest: F = m g sin(theta)", hint=0).right
+    assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d", hint=0).right
 
 
 @pytest.mark.sampled(4)
@@ -128,4 +128,4 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
     ],
 )
 def test_rest_for_certain_parameters_alone(line: str, right: bool) -> None:
-    assert drum().check(f"{DRUM}\n{line}").right is right
+    assert drum().check(f"{DRUM}\n{line}", hint=0).right is right

@@ -94,7 +94,7 @@ def test_a_velocity_that_explains_nothing_is_neither_blamed_nor_right() -> None:
     """The bob's velocity is wrong in its line alone; another sign is wrong in T*."""
     verdict = wheel().check("\n".join(["xB' = x' - 2 s theta' cos(theta)", turned(T), turned(WHEEL), turned(BOB)]))
     assert not verdict.right and found(verdict)[0] == (2, False, False)
-    assert wheel().check("\n".join(["xB' = x' - 2 s theta' cos(theta)", T, WHEEL, BOB])).right
+    assert wheel().check("\n".join(["xB' = x' - 2 s theta' cos(theta)", T, WHEEL, BOB]), hint=0).right
 
 
 @pytest.mark.parametrize(
@@ -121,14 +121,14 @@ D = "D = 1/2 c R^2/r^2 (alpha' - beta')^2\nQ_beta = M"
 @pytest.mark.parametrize("said", ["gamma' = ((R + r) alpha' - R beta')/r", "gamma' - alpha' = R/r (alpha' - beta')"])
 def test_a_wrong_rate_of_an_angle_of_the_system_is_the_mistake(said: str) -> None:
     sheet = f"{said}\n{ENERGIES}\n{D}"
-    assert planet().check(sheet).right
+    assert planet().check(sheet, hint=0).right
     wrong = sheet.replace("- R beta'", "+ R beta'").replace("alpha' - beta'", "alpha' + beta'")
     verdict = planet().check(wrong)
     assert found(verdict)[:2] == [(1, False, False), (2, False, True)]
     assert [m.name for m in verdict.mistakes] == ["definition_wrong"]
     assert all(f.follows or f.status.right for f in verdict.findings[1:])
     slip = said.replace("- R", "+ R").replace("alpha' - beta'", "alpha' + beta'")
-    assert not planet().check(f"{slip}\n{ENERGIES}\n{D}").right
+    assert not planet().check(f"{slip}\n{ENERGIES}\n{D}", hint=0).right
 
 
 def test_what_is_said_once_more_of_the_rate_follows() -> None:
@@ -177,7 +177,7 @@ def test_an_energy_with_another_rate_is_told_by_the_rate(part: str, wrong: str, 
 
 def test_a_damper_without_the_rate_of_a_driven_end_is_told_so() -> None:
     sheet = f"T = {ARM.format(**PARTS)}\nV = 1/2 k (phi - u)^2\nQ_phi = -b (phi' - u')\nQ_s = 0"
-    assert carried().check(sheet).right
+    assert carried().check(sheet, hint=0).right
     verdict = carried().check(sheet.replace("(phi' - u')", "phi'"))
     assert str(verdict.mistakes[0].what) == "The rate of damper 'oil' is taken as phi'; it is phi' - u'."
 

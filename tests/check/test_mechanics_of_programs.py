@@ -62,7 +62,7 @@ DYAD = KANE.replace("inertia(A, 0, 0, J)", "J*outer(N.z, N.z)").replace(
 def right(program: str) -> bool:
     """Whether an answer is right; one that cannot be read is not."""
     try:
-        return derivation("cart-pole").check(program).right
+        return derivation("cart-pole").check(program, hint=0).right
     except ParseError:
         return False
 
@@ -102,14 +102,14 @@ print(LM.form_lagranges_equations())
 
 
 def test_methods_of_mechanics_may_have_multipliers() -> None:
-    assert wheel().check(ROLLING).right
+    assert wheel().check(ROLLING, hint=0).right
     for old, new in (
         ("- R*phi.diff()]", "+ R*phi.diff()]"),
         ("F*N.x", "F*N.y"),
         ("+ lam1", "- lam1"),
         ("- k*x**2/2", "+ k*x**2/2"),
     ):
-        assert old in ROLLING and not wheel().check(ROLLING.replace(old, new)).right
+        assert old in ROLLING and not wheel().check(ROLLING.replace(old, new), hint=0).right
 
 
 COMPARED = """from sympy import *

@@ -21,7 +21,7 @@ SOLVED = (
 
 
 def test_solved_rows_are_right_as_they_stand() -> None:
-    assert derivation("cart-pole").check("\n".join(SOLVED)).right
+    assert derivation("cart-pole").check("\n".join(SOLVED), hint=0).right
 
 
 @pytest.mark.sampled(3)

@@ -23,7 +23,7 @@ def _first(verdict: Verdict) -> str:
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("force", ["F", "-F R", "F l"])
 def test_a_force_without_its_arm_is_told_as_such(force: str) -> None:
-    assert reel().check(f"x = R phi\nQ_phi = F R - c (phi' + psi')\n{TURN}\n{SWING}").right
+    assert reel().check(f"x = R phi\nQ_phi = F R - c (phi' + psi')\n{TURN}\n{SWING}", hint=0).right
     wrong = TURN.replace("F R", force)
     told = _first(reel().check(f"x = R phi\nQ_phi = {force} - c (phi' + psi')\n{wrong}\n{SWING}"))
     assert "orce 'F'" in told
@@ -56,7 +56,7 @@ def test_rows_of_one_matrix_keep_their_own_verdicts() -> None:
     verdict = reel().check(matrix)
     assert not verdict.right
     assert sorted(f.status.right for f in verdict.findings if f.line.kind == "equation")[:2] == [False, True]
-    assert reel().check(matrix.replace("R l sin(psi), m l^2", "R l cos(psi), m l^2")).right
+    assert reel().check(matrix.replace("R l sin(psi), m l^2", "R l cos(psi), m l^2"), hint=0).right
 
 
 def test_a_height_may_be_counted_from_another_place() -> None:

@@ -44,7 +44,7 @@ def test_one_mistake_in_a_reduced_equation(answer: str, said: str) -> None:
 
 def test_right_reduced_equations_stay_right() -> None:
     for answer in ("y = r*phi\n(J + m*r^2)*phi'' + b*r^2*phi' = m*g*r", "(m + J/r^2) y'' + b y' = m g\nphi'' = y''/r"):
-        assert DERIVED.check(answer).right
+        assert DERIVED.check(answer, hint=0).right
 
 
 def test_two_mistakes_beside_a_multiplier_are_two() -> None:

@@ -37,7 +37,7 @@ ROW = (
 
 
 def test_the_answer_is_right() -> None:
-    verdict = strut().check(SAID + ENERGIES + ROW)
+    verdict = strut().check(SAID + ENERGIES + ROW, hint=0)
     assert verdict.right
     assert verdict.status.value == "right in other coordinates"
 
@@ -58,7 +58,7 @@ def test_a_mistake_is_named_there_and_right_lines_are_right(written: str, instea
 
 
 def test_a_multiplier_beside_it_is_not_passed_over() -> None:
-    assert not strut().check(SAID + ENERGIES + ROW + "\nm x'' = F + 3 lambda x").right
+    assert not strut().check(SAID + ENERGIES + ROW + "\nm x'' = F + 3 lambda x", hint=0).right
 
 
 def test_coordinates_that_break_the_constraint_are_the_mistake() -> None:

@@ -16,7 +16,7 @@ BARE = r"m L^2\ddot\theta + b\dot\theta + m g L\sin\theta"
 def right(written: str, name: str = "cart-pole") -> bool:
     """Whether an answer is judged right; one with a name that nothing explains is asked about, and is not."""
     try:
-        return derivation(name).check(written).right
+        return derivation(name).check(written, hint=0).right
     except ParseError as error:
         if "what is '" not in str(error):
             raise

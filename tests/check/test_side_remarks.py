@@ -66,9 +66,9 @@ def test_what_is_no_remark_is_judged(answer: str) -> None:
 def test_a_constraint_is_no_remark() -> None:
     wheel = derivation("wheel-on-incline")
     equations = "(m + J/r^2) x'' = m g sin(beta)\nJ phi'' = r S\nm x'' = m g sin(beta) - S\n"
-    assert wheel.check(f"{equations}Check: phi' = x'/r, because it rolls").right
-    assert wheel.check(f"{equations}Check: for beta = 0 nothing drives it, x'' = 0").right
-    assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls").right
+    assert wheel.check(f"{equations}Check: phi' = x'/r, because it rolls", hint=0).right
+    assert wheel.check(f"{equations}Check: for beta = 0 nothing drives it, x'' = 0", hint=0).right
+    assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls", hint=0).right
 
 
 @pytest.mark.sampled(3)
@@ -85,9 +85,9 @@ def test_a_constraint_is_no_remark() -> None:
 def test_a_case_is_no_constraint(remark: str) -> None:
     rows = "m x'' = 2 lam x\nm y'' + m g = 2 lam y\nx^2 + y^2 = l^2"
     pendulum = derivation("rod-pendulum")
-    assert pendulum.check(f"{rows}\n\n{remark}").right
-    assert not pendulum.check(f"{rows.replace('m g', '2 m g')}\n\n{remark}").right
-    assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}").right
+    assert pendulum.check(f"{rows}\n\n{remark}", hint=0).right
+    assert not pendulum.check(f"{rows.replace('m g', '2 m g')}\n\n{remark}", hint=0).right
+    assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}", hint=0).right
 
 
 @pytest.mark.sampled(2)
@@ -116,9 +116,9 @@ def test_what_a_name_is_in_a_special_case_is_not_said_of_all_motions() -> None:
     board = sys.derive()
     answer = "With s = x - R phi:\nm x'' + k s = 0\nJ phi'' - k R s = 0"
     for remark in ("", "If the roller is held at x = 0 (s = -R phi), it swings.", "For x = 0, s = -R phi."):
-        assert board.check(f"{answer}\n{remark}").right
-        assert not board.check(f"{answer.replace('- k R s', '+ k R s')}\n{remark}").right
-    assert not board.check(answer.replace("x - R", "x + R")).right
+        assert board.check(f"{answer}\n{remark}", hint=0).right
+        assert not board.check(f"{answer.replace('- k R s', '+ k R s')}\n{remark}", hint=0).right
+    assert not board.check(answer.replace("x - R", "x + R"), hint=0).right
 
 
 def test_a_product_without_a_sign_is_no_condition() -> None:
@@ -128,8 +128,8 @@ def test_a_product_without_a_sign_is_no_condition() -> None:
     s.kinetic(J * phi.diff() ** 2 / 2)
     s.spring(k, deflection=phi)
     derived = s.derive()
-    assert derived.check("J phi'' = -k phi\nCheck: at rest with phi = 0").right
-    assert not derived.check("Disc about its axle:   phi'' = k phi\n\nJ phi'' = -k phi").right
+    assert derived.check("J phi'' = -k phi\nCheck: at rest with phi = 0", hint=0).right
+    assert not derived.check("Disc about its axle:   phi'' = k phi\n\nJ phi'' = -k phi", hint=0).right
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,7 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     """Return what is right and what is wrong in an answer, line by line and as a whole.
 
     Lines are checked in order. Equality is decided in normal form or, if there is none, with 50 digits. Without
-    ``explain``, mistakes are not sought.
+    ``explain``, mistakes are not sought; at ``hint`` 0, which tells none, only those that decide what is right.
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
@@ -99,7 +99,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     general = untrue_in_general(truth, written)
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
-    if not verdict.right:
+    if not verdict.right and hint:
         verdict = in_own_names(truth, written, with_wrong_terms(truth, written, verdict) if explain else verdict)
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
@@ -144,7 +144,7 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
     verdict = energies_on_rows(truth, read.lines, verdict, hint)
     if not verdict.right:
         verdict = on_branch(truth, read.lines, hint) or right_in_own_coordinates(truth, read.lines, hint) or verdict
-    if not explain:
+    if not explain or not hint:
         return verdict
     if (off := off_constraints(truth, read.lines, verdict)) is not None:
         return off
@@ -209,7 +209,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     """The verdict on an answer whose names are known; with ``explain``, also the mistakes that explain it."""
     lines, told = unrounded(truth, spelling.lines)
     spelling = replace(spelling, lines=lines, notes=(*spelling.notes, *told))
-    judged = judged_lines(truth, spelling.lines, compared=explain)
+    judged = judged_lines(truth, spelling.lines, compared=explain and hint > 0)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     verdict = replace(verdict, motion=judged.motion)
     if judged.status.right or judged.status is Status.INCOMPLETE:
@@ -240,7 +240,7 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
         if not change.plain and not explain:
             continue
         if not change.plain or not (new or _tells(spelling.lines)):
-            findings = verdict.findings if explain else judged_lines(truth, spelling.lines).findings
+            findings = verdict.findings if explain and verdict.hint else judged_lines(truth, spelling.lines).findings
             named = mistakes(truth, spelling.lines, findings)
             if named.certain or too_long(truth):
                 note = text("It would be right with ", *change.words.parts, ".")

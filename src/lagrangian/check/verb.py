@@ -142,11 +142,13 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
-    verdict = check.check(derivation, decides.lines, hint=hint)
+    sought = hint or int(_needs_mistakes(answer, decides.lines))
+    verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
         answer, decides = again.answer, again.decides
-        verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=hint)
+        verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=sought)
+        verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
         verdict = _with_forces_of_below(derivation, answer, decides.lines, verdict)
     asked = unexplained(derivation, answer, verdict)
@@ -161,6 +163,13 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         if not verdict.right:
             raise question(asked)
     return _told(verdict, answer, decides.notes)
+
+
+def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether the mistakes of a wrong answer decide how it is read: whether it has names that nothing explains, or
+    lines that may be misread."""
+    marked = answer.read_marked is not None and bool(answer.marked_rows())
+    return marked or bool(answer.unknown) or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
 
 
 def _with_forces_of_below(
