@@ -7,7 +7,7 @@ t lies outside it are one multiple of each other, 1 − f.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -61,7 +61,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
             continue
         note = (
             finding.note
-            if _stands_in(wrong.term, finding.line)
+            if wrong.factor == sp.oo or _stands_in(wrong.term, finding.line)
             else text("after substituting what other lines say of its names")
         )
         differences = (difference(on, wrong, finding.coordinate),)
@@ -74,7 +74,7 @@ def _put_in_from(
 ) -> Finding | None:
     """The finding for the definition from which a wrong term was put in: its name stands in the line, in which a letter
     of the term does not. None if there is none, or several."""
-    if _stands_in(wrong.term, line):
+    if wrong.factor == sp.oo or _stands_in(wrong.term, line):
         return None
     found: list[Finding] = []
     for x in lines:
@@ -141,9 +141,9 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
         if share is not None and np.allclose(share, 1, rtol=NEAR):
             found.append((1, WrongTerm(term, factor)))
     found.sort(key=lambda x: x[0])
-    if not found or (len(found) > 1 and found[0][0] == found[1][0]):
-        return None
-    return found[0][1]
+    if not found:
+        return _missing(truth, wrong, lambda x: _outside(truth, CompiledExpressions(x).at(truth.states)))
+    return None if len(found) > 1 and found[0][0] == found[1][0] else found[0][1]
 
 
 def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
@@ -160,7 +160,7 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
         return None
     listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
     if not listed:
-        return _missing(truth, found[0], values)
+        return _missing(truth, found[0], lambda x: CompiledExpressions(x).at(truth.states, values))
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
@@ -169,8 +169,9 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     return best[0] if len(best) == 1 else None
 
 
-def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
-    """The term of a right equation, or all those with one parameter, that a line lacks along the right motion."""
+def _missing(truth: Reference, wrong: Array, valued: Callable[[Sequence[sp.Expr]], Array]) -> WrongTerm | None:
+    """The term of a right equation, or all those with one parameter, that a line lacks; ``valued`` gives what terms are
+    where it is compared, as along the right motion."""
     listed: set[sp.Expr] = set()
     for row in truth.rows:
         own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
@@ -179,7 +180,7 @@ def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -
     right = sorted(listed, key=sp.default_sort_key)
     if not 0 < len(right) <= MOST_TERMS:
         return None
-    found = CompiledExpressions(right).at(truth.states, values).reshape(len(right), *wrong.shape)
+    found = valued(right).reshape(len(right), *wrong.shape)
     shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
     signed = [(t, share.mean()) for t, share in shares if share is not None and np.allclose(abs(share), 1, rtol=NEAR)]
     lacking = {cast("sp.Expr", -t if sign > 0 else t) for t, sign in signed}
