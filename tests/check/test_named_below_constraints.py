@@ -89,6 +89,8 @@ def test_the_wrong_term_of_a_squared_distance_is_named(strut: lg.Derivation) -> 
         (1, False, False), (2, False, True), (3, False, True), (4, False, True)
     ]  # fmt: skip
     assert not verdict.notes
+    chain = strut.check(STRUT.replace("l^2\nm x''", "l^2 = 0\nm x''"))
+    assert [f.line.number for f in chain.findings] == [1, 2, 3, 4] and chain.mistakes == verdict.mistakes
 
 
 def test_the_number_of_a_term_of_the_second_derivative_is_named(strut: lg.Derivation) -> None:
