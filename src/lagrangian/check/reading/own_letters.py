@@ -18,7 +18,7 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them; and those that
     an equation with accelerations uses alone, or whose rate the answer forms: D = m r^2 theta', dD/dt = 0. P is a power
-    if rates stand in its value: P = F x' - b theta'^2.
+    if rates stand in its value: P = F x' - b theta'^2. K is a force if only positions do: K = k (x - l sin alpha).
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -35,6 +35,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if own and (moving[k] or any(key(x) in rates for x in listed)):
             found.add("P")
         if moving[k]:
+            continue
+        if str(named[0]) == "K" and any(map(names.changes, listed)):  # of positions alone: the force of a spring
+            found.add("K")
             continue
         other = only_name(sides[1]) if len(sides) == 2 else None
         renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
