@@ -108,7 +108,9 @@ def _kinetic(truth: Reference, body: Body) -> list[list[sp.Expr]]:
     s = ingredients_of(truth.derivation)
     bodies = [body, *(b for b in s.bodies if b is not body)]
     others = [s.kinetic(e) for e in s.model.elements if e.kind == "kinetic"]  # a pinion beside its rack
-    return [[truth.put(x)] for x in (*(p for b in bodies for p in (s.translation(b), s.rotation(b))), *others) if x != 0]
+    return [
+        [truth.put(x)] for x in (*(p for b in bodies for p in (s.translation(b), s.rotation(b))), *others) if x != 0
+    ]
 
 
 def _potential(truth: Reference, body: Body) -> list[list[sp.Expr]]:
