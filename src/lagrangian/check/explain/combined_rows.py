@@ -25,6 +25,8 @@ from lagrangian.records import dataclass
 
 MOST_TERMS, MOST_LETTERS = 60, 12
 """The most terms of a line that are tried, and the most letters that may be a factor."""
+MOST_PRODUCTS = 400
+"""The most products of a term and an arm that a line may lack."""
 NEAR = 1e-8
 """The relative difference of values that is rounding."""
 NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
@@ -152,21 +154,37 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
     that without accelerations is wrong: a moment or a force. By a number, it may be either.
     """
-    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
-    if not 1 < len(own) <= MOST_TERMS:
-        return None
-    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
-    if not np.isfinite(found).all():
-        return None
-    listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    wrong, listed = _wrong_factors(truth, expr, values)
     if not listed:
-        return _missing(truth, found[0], values)
+        return None if wrong is None else _missing(truth, wrong, values)
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
     if len(still) == 1 and any(x.term.has(*moving) for x in best):
         return None if still[0].factor in (2, sp.S.Half) else still[0]
     return best[0] if len(best) == 1 else None
+
+
+def _wrong_factors(
+    truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]
+) -> tuple[Array | None, list[tuple[int, WrongTerm]]]:
+    """What is wrong in a line along the right motion, and its terms that have a wrong factor, the plainest first."""
+    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return None, []
+    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
+    if not np.isfinite(found).all():
+        return None, []
+    listed = _in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
+    return found[0], sorted(listed, key=lambda x: x[0])
+
+
+def likelihood(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> int | None:
+    """How likely it is that a line has one wrong term: 0 for a factor, 1 for a term that it lacks, None for neither."""
+    wrong, listed = _wrong_factors(truth, expr, values)
+    if wrong is None or listed:
+        return 0 if listed else None
+    return None if _missing(truth, wrong, values) is None else 1
 
 
 def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
@@ -178,6 +196,26 @@ def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -
         listed.update(t for group in groups if group for t in (*group, _together(group)))
     right = sorted(listed, key=sp.default_sort_key)
     if not 0 < len(right) <= MOST_TERMS:
+        return None
+    return _lacking(truth, right, wrong, values) or _lacking(truth, _with_arms(truth, right, values), wrong, values)
+
+
+def _with_arms(truth: Reference, right: Sequence[sp.Expr], values: Mapping[sp.Basic, Array]) -> list[sp.Expr]:
+    """Terms without accelerations, and forces, times a letter, a sine or a cosine: b ṡ r, N sin α."""
+    moving = [c.acceleration for c in truth.model.coordinates]
+    forces = [cast("sp.Expr", x) for x in values if x not in moving]
+    angles = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
+    arms = [*(p.symbol for p in truth.model.parameters), *sorted(angles, key=sp.default_sort_key)]
+    bare = [t for t in right if not t.has(*moving)][: MOST_TERMS // 2]
+    products = [t * a for t in (*bare, *forces) for a in arms if not t.has(a)]
+    return [*forces, *cast("list[sp.Expr]", products)][:MOST_PRODUCTS]
+
+
+def _lacking(
+    truth: Reference, right: Sequence[sp.Expr], wrong: Array, values: Mapping[sp.Basic, Array]
+) -> WrongTerm | None:
+    """The only one of some terms that is, but for its sign, what a line lacks."""
+    if not right:
         return None
     found = CompiledExpressions(right).at(truth.states, values).reshape(len(right), *wrong.shape)
     shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
