@@ -95,7 +95,7 @@ def moving_part(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
     sums = [k for k, f in enumerate(factors) if isinstance(f, sp.Add)]
     if len(sums) != 1:
         return right
-    factors[sums[0]] = sp.Add(*[x for x in factors[sums[0]].args if x.has(*moving) or not x.has(time)])
+    factors[sums[0]] = sp.Add(*[x for x in sp.Add.make_args(factors[sums[0]]) if x.has(*moving) or not x.has(time)])
     return cast("sp.Expr", sp.Mul(*factors))
 
 

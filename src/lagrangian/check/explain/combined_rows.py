@@ -25,6 +25,8 @@ from lagrangian.records import dataclass
 
 MOST_TERMS, MOST_LETTERS = 60, 12
 """The most terms of a line that are tried, and the most letters that may be a factor."""
+MOST_PRODUCTS = 400
+"""The most products of a term and an arm that a line may lack."""
 NEAR = 1e-8
 """The relative difference of values that is rounding."""
 NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
@@ -142,7 +144,8 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
             found.append((1, WrongTerm(term, factor)))
     found.sort(key=lambda x: x[0])
     if not found:
-        return _missing(truth, wrong, lambda x: _outside(truth, CompiledExpressions(x).at(truth.states)))
+        right = _right_terms(truth)
+        return _lacking(right, wrong, _outside(truth, CompiledExpressions(right).at(truth.states))) if right else None
     return None if len(found) > 1 and found[0][0] == found[1][0] else found[0][1]
 
 
@@ -152,15 +155,9 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
     that without accelerations is wrong: a moment or a force. By a number, it may be either.
     """
-    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
-    if not 1 < len(own) <= MOST_TERMS:
-        return None
-    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
-    if not np.isfinite(found).all():
-        return None
-    listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    wrong, listed = _wrong_factors(truth, expr, values)
     if not listed:
-        return _missing(truth, found[0], lambda x: CompiledExpressions(x).at(truth.states, values))
+        return None if wrong is None else _missing(truth, wrong, values)
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
@@ -169,18 +166,62 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     return best[0] if len(best) == 1 else None
 
 
-def _missing(truth: Reference, wrong: Array, valued: Callable[[Sequence[sp.Expr]], Array]) -> WrongTerm | None:
-    """The term of a right equation, or all those with one parameter, that a line lacks; ``valued`` gives what terms are
-    where it is compared, as along the right motion."""
+def _wrong_factors(
+    truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]
+) -> tuple[Array | None, list[tuple[int, WrongTerm]]]:
+    """What is wrong in a line along the right motion, and its terms that have a wrong factor, the plainest first."""
+    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return None, []
+    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
+    if not np.isfinite(found).all():
+        return None, []
+    listed = _in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
+    return found[0], sorted(listed, key=lambda x: x[0])
+
+
+def likelihood(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> int | None:
+    """How likely it is that a line has one wrong term: 0 for a factor, 1 for a term that it lacks, None for neither."""
+    wrong, listed = _wrong_factors(truth, expr, values)
+    if wrong is None or listed:
+        return 0 if listed else None
+    return None if _missing(truth, wrong, values) is None else 1
+
+
+def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
+    """The term of a right equation, or all those with one parameter, that a line lacks along the right motion."""
+    right = _right_terms(truth)
+    for some in (right, _with_arms(truth, right, values)) if right else ():
+        found = _lacking(some, wrong, CompiledExpressions(some).at(truth.states, values))
+        if found is not None:
+            return found
+    return None
+
+
+def _right_terms(truth: Reference) -> list[sp.Expr]:
+    """The terms of the right equations, and all those with one parameter together; none if there are many."""
     listed: set[sp.Expr] = set()
     for row in truth.rows:
         own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
         groups = [[cast("sp.Expr", t) for t in own if t.has(p.symbol)] for p in truth.model.parameters]
         listed.update(t for group in groups if group for t in (*group, _together(group)))
-    right = sorted(listed, key=sp.default_sort_key)
-    if not 0 < len(right) <= MOST_TERMS:
-        return None
-    found = valued(right).reshape(len(right), *wrong.shape)
+    return sorted(listed, key=sp.default_sort_key) if len(listed) <= MOST_TERMS else []
+
+
+def _with_arms(truth: Reference, right: Sequence[sp.Expr], values: Mapping[sp.Basic, Array]) -> list[sp.Expr]:
+    """Terms without accelerations, and forces, times a letter, a sine or a cosine: b ṡ r, N sin α."""
+    moving = [c.acceleration for c in truth.model.coordinates]
+    forces = [cast("sp.Expr", x) for x in values if x not in moving]
+    angles = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
+    arms = [*(p.symbol for p in truth.model.parameters), *sorted(angles, key=sp.default_sort_key)]
+    bare = [t for t in right if not t.has(*moving)][: MOST_TERMS // 2]
+    products = [t * a for t in (*bare, *forces) for a in arms if not t.has(a)]
+    return [*forces, *cast("list[sp.Expr]", products)][:MOST_PRODUCTS]
+
+
+def _lacking(right: Sequence[sp.Expr], wrong: Array, values: Array) -> WrongTerm | None:
+    """The only one of some terms, given with their values, that is, but for its sign, what a line lacks."""
+    found = values.reshape(len(right), *wrong.shape)
     shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
     signed = [(t, share.mean()) for t, share in shares if share is not None and np.allclose(abs(share), 1, rtol=NEAR)]
     lacking = {cast("sp.Expr", -t if sign > 0 else t) for t, sign in signed}

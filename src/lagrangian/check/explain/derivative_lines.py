@@ -162,7 +162,7 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
 
 def _why(written: sp.Expr, right: sp.Expr) -> Text:
     """Why a term of a derivative by time is another: the sign of that of a sine or cosine of time, or what is in it."""
-    inside = [x.args[0] for x in right.atoms(sp.sin, sp.cos) if x.args[0].has(time)]
+    inside = [cast("sp.Expr", x.args[0]) for x in right.atoms(sp.sin, sp.cos) if x.args[0].has(time)]
     if written == -right and inside:
         return WHY_FUNCTION
     factors = [a for x in inside for a in sp.Mul.make_args(x) if a != time]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import combinations
 
@@ -16,10 +17,11 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import CompiledExpressions
-from lagrangian.model import Body
+from lagrangian.model import Body, time
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
+_NUMBERED = re.compile(r"[TVUK]_?\{?\d\}?")
 MOST_PIECES = 10
 """The most pieces of T* of which all sums are compared with what is written."""
 NEAR = 1e-9
@@ -41,16 +43,32 @@ def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[in
         every = sp.Add(*values.values())
         if not values or (zero_everywhere(truth, every - truth.T) if kind == "kinetic" else _level(truth, every)):
             continue
+        listed = {k for k in values if _NUMBERED.fullmatch(lines[k].name or "")}
+        if any(_is_of_another(truth, lines[k], values[k], kind) for k in listed):
+            values = {k: value for k, value in values.items() if k not in listed}  # T_2 is the second in a list
         for k, value in values.items():
             body = _owner(truth, lines[k], kind)
             if body is None or not _is_meant(truth, body, value, kind):
                 continue
-            pieces = _kinetic(truth, body) if kind == "kinetic" else _potential(truth, body)
-            of = [value] if kind == "kinetic" else [bounded.diff(value, c.symbol) for c in truth.model.coordinates]
-            if not _is_sum(truth, of, pieces):
+            if not _is_sum(truth, *_in_pieces(truth, body, value, kind)):
                 note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
                 found[k] = Finding(lines[k], Status.WRONG, note)
     return found
+
+
+def _in_pieces(truth: Reference, body: Body, value: sp.Expr, kind: str) -> tuple[list[sp.Expr], list[list[sp.Expr]]]:
+    """A value and the energies of which it may be a sum, or the slopes of both."""
+    if kind == "kinetic":
+        return [value], _kinetic(truth, body)
+    return [bounded.diff(value, c.symbol) for c in truth.model.coordinates], _potential(truth, body)
+
+
+def _is_of_another(truth: Reference, line: AnsweredLine, value: sp.Expr, kind: str) -> bool:
+    """Whether what a number calls the energy of a body is a sum of energies, and has no letter of this body."""
+    body = _owner(truth, line, kind)
+    if body is None or _is_meant(truth, body, value, kind):
+        return False
+    return _is_sum(truth, *_in_pieces(truth, body, value, kind))
 
 
 def _owner(truth: Reference, line: AnsweredLine, kind: str) -> Body | None:
@@ -82,14 +100,17 @@ def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
     else:
         fits = s.moves(value) and not value.has(*s.v)
         letters = truth.put(s.expand(body.mass)).free_symbols
-    return fits and bool(letters & value.free_symbols or (truth.values and kind == "kinetic"))
+    return fits and bool((letters & value.free_symbols) - {time} or (truth.values and kind == "kinetic"))
 
 
 def _kinetic(truth: Reference, body: Body) -> list[list[sp.Expr]]:
-    """The energies of translations and rotations, those of a body first."""
+    """The energies of translations and rotations, those of a body first, and of elements that are none."""
     s = ingredients_of(truth.derivation)
     bodies = [body, *(b for b in s.bodies if b is not body)]
-    return [[truth.put(x)] for b in bodies for x in (s.translation(b), s.rotation(b)) if x != 0]
+    others = [s.kinetic(e) for e in s.model.elements if e.kind == "kinetic"]  # a pinion beside its rack
+    return [
+        [truth.put(x)] for x in (*(p for b in bodies for p in (s.translation(b), s.rotation(b))), *others) if x != 0
+    ]
 
 
 def _potential(truth: Reference, body: Body) -> list[list[sp.Expr]]:

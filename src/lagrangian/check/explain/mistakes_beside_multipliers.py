@@ -101,8 +101,13 @@ def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
     found = list(findings)
     judged = [f.line for f in findings if f.line.kind == "equation" and f.status is Status.WRONG]
     roots = [bounded.expand(x.expr) for x in judged if not x.expr.has(sp.Derivative)]
+    said = {(x.number, x.text) for x in judged}  # f = … = 0 is one statement
     for line in lines if roots else ():
-        if line.kind == "definition" and bounded.expand(line.expr) in {*roots, *(-x for x in roots)}:
+        if (
+            line.kind == "definition"
+            and (line.number, line.text) not in said
+            and bounded.expand(line.expr) in {*roots, *(-x for x in roots)}
+        ):
             found = inserted(found, Finding(line, Status.WRONG))
     return tuple(found)
 

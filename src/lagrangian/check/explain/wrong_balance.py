@@ -15,7 +15,8 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
-from lagrangian.check.explain.combined_rows import difference, term_to_blame
+from lagrangian.check.constraints.without_constraints import with_constraints_put_in
+from lagrangian.check.explain.combined_rows import difference, likelihood, term_to_blame
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
@@ -77,14 +78,20 @@ def with_wrong_balance(
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
-    if verdict.status is not Status.WRONG or truth.derivation.multipliers or truth.n < 2 or verdict.hint == 0:
+    if verdict.status is not Status.WRONG or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
-    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(truth, lines)) is None:
+    constrained = bool(truth.derivation.multipliers)
+    if constrained:
+        if (free := with_constraints_put_in(truth, lines)) is None:
+            return verdict
+        truth, change = free
+        lines, later = ([replace(x, expr=change.put(x.expr)) for x in own] for own in (lines, later))
+    if truth.n < 2 or (balances := _balances(truth, lines)) is None:
         return verdict
     every = range(len(balances.lines))
-    k = _one_wrong(balances)
+    k = _one_wrong(truth, balances)
     u = balances.solved([i for i in every if i != k])
-    if u is None or not balances.compared([i for i in every if i != k]):
+    if u is None or not (_are_open(balances) or balances.compared([i for i in every if i != k])):
         return verdict
     values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
     false = [x for x in later if not _is_true(truth, x, values)]
@@ -101,7 +108,7 @@ def with_wrong_balance(
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
-    if verdict.mistakes and roots == {_at(line)}:
+    if verdict.mistakes and roots == {_at(line)} and not constrained:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
@@ -119,7 +126,7 @@ def with_forces_of_below(
     if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
         return verdict
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
-    if not solved or len({x.name for x in solved}) < len(solved):
+    if not solved or len({x.name for x in solved}) < len({(x.name, x.number) for x in solved}):
         return verdict
     numbers = frozenset(x.number for x in solved)
     if any(x.number in numbers and not any(x is y for y in solved) for x in lines):
@@ -169,13 +176,36 @@ def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | Non
     return Balances(rows, tuple(forces), A, values[len(slopes) :].T)
 
 
-def _one_wrong(balances: Balances) -> int | None:
-    """The place of the line without which all others hold; None if there is none, or several."""
+def _without_which(balances: Balances) -> list[int]:
+    """The places of the lines without each of which all others hold; none if all hold."""
     every = list(range(len(balances.lines)))
     if balances.solved(every) is not None:
-        return None
-    found = [k for k in every if balances.solved([i for i in every if i != k]) is not None]
-    return found[0] if len(found) == 1 else None
+        return []
+    return [k for k in every if balances.solved([i for i in every if i != k]) is not None]
+
+
+def _are_open(balances: Balances) -> bool:
+    """Whether a line is wrong, and the forces alone do not tell which of several it is."""
+    return len(_without_which(balances)) > 1
+
+
+def _one_wrong(truth: Reference, balances: Balances) -> int | None:
+    """The place of the line without which all others hold; None if there is none, or several.
+
+    Where a force stands in two lines alone, either may be wrong: that counts which is likelier to have one wrong term.
+    """
+    found = _without_which(balances)
+    if len(found) < 2:
+        return found[0] if found else None
+    ranks: list[tuple[int, int]] = []
+    for k in found:
+        u = balances.solved([i for i in range(len(balances.lines)) if i != k])
+        assert u is not None
+        values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
+        if (rank := likelihood(truth, balances.lines[k].expr, values)) is not None:
+            ranks.append((rank, k))
+    best = [k for rank, k in ranks if rank == min(ranks)[0]]
+    return best[0] if len(best) == 1 else None
 
 
 def _is_true(truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array]) -> bool:

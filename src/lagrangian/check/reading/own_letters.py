@@ -18,7 +18,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, and a D of
     positions if any line does; and those that an equation with accelerations uses alone, or whose rate the answer
-    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value: P = F x' - b theta'^2.
+    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value: P = F x' - b theta'^2. K is a force if
+    only positions do: K = k (x - l sin alpha).
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -35,6 +36,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         if own and (moving[k] or any(key(x) in rates for x in listed)):
             found.add("P")
         if moving[k]:
+            continue
+        if str(named[0]) == "K" and any(map(names.changes, listed)):  # of positions alone: the force of a spring
+            found.add("K")
             continue
         meant = [found for x in listed for found in names.scope.meanings(x)[0]]
         if kind == "D" and len(meant) == len(listed) and any(c.name in meant for c in model.coordinates):

@@ -225,8 +225,8 @@ class Words:
             return [word]
         if word in self._spoken:
             return [word]
-        if word[-1].isdigit() and self._is_force(word):
-            return [word]  # lam1 is no l a m1
+        if self._is_force(word) and (word[-1].isdigit() or word in _SPELLED or self.is_used(word)):
+            return [word]  # lam1 is no l a m1, and lambda no l a m b d a
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
