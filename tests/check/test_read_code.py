@@ -167,3 +167,33 @@ def test_a_model_in_modelica_is_its_equations() -> None:
     for old, new in (("= F;", "= -F;"), ("sin(theta)", "cos(theta)"), ("s*omega^2", "s*omega")):
         assert old in MODEL
         assert not cart.check(MODEL.replace(old, new), hint=0).right
+
+
+@pytest.mark.parametrize(
+    ("stated", "calls"),
+    [
+        ("EL[q_] := D[D[T - V, q'[t]], t] - D[T - V, q[t]]", ("EL[x] == {}", "EL[theta] == 0")),
+        (
+            "EL[q_] := D[D[T - V, D[q, t]], t] - D[T - V, q]",
+            ("e1 = EL[x[t]] == {}", "e2 = Simplify[EL[theta[t]]] == 0"),
+        ),
+        ("eq[q_, Q_] := D[D[T - V, q'[t]], t] - D[T - V, q[t]] == Q", ("eq[x, {}]", "eq[theta, 0]")),
+    ],
+)
+def test_functions_that_differentiate_are_written_out_where_they_are_called(
+    stated: str, calls: tuple[str, str]
+) -> None:
+    sheet = f"T = {ENERGY};\nV = m g l Cos[theta[t]];\n{stated};\n" + "\n".join(calls)
+    cart = derivation("cart-pole")
+    assert cart.check(sheet.format("F - b x'[t]")).right
+    assert not cart.check(sheet.format("F + b x'[t]")).right
+    assert not cart.check(
+        sheet.format("F - b x'[t]").replace(" t] - D[", " t] + D[", 1).replace(", t]] - ", ", t]] + ")
+    ).right
+
+
+def test_a_capital_letter_twice_is_a_name_in_mathematica() -> None:
+    rows = f"T = {ENERGY};\nV = m g l Cos[theta[t]];".replace("J theta", "JJ theta")
+    rows += "\n(M + m) x''[t] + m l theta''[t] Cos[theta[t]] - m l theta'[t]^2 Sin[theta[t]] + b x'[t] == F"
+    rows += "\n(JJ + m l^2) theta''[t] + m l x''[t] Cos[theta[t]] - m g l Sin[theta[t]] == 0"
+    twins(f"(* JJ is the moment J of the pole *)\n{rows}", "- m g l Sin", "+ m g l Sin")

@@ -193,3 +193,14 @@ def test_matrices_of_the_column_of_coordinates() -> None:
     assert cart.check(answer, hint=0).right
     for old, new in (("-mgl", "mgl"), ("b&-ml", "b&ml"), ("q+C(q,", "q-C(q,")):
         assert not cart.check(answer.replace(old, new), hint=0).right
+
+
+def test_a_bold_command_without_braces_takes_one_letter() -> None:
+    said = r"$q=(x_1,x_{2r})^T$. The equations are $\mathbf M\ddot q+\mathbf Kq=\mathbf f$ with"
+    rows = (
+        r"\[\mathbf M=\begin{pmatrix}m_1+m_2&m_2\\m_2&m_2\end{pmatrix},\quad"
+        r"\mathbf K=\begin{pmatrix}0&0\\0&k\end{pmatrix},\quad\mathbf f=\begin{pmatrix}0\\F\end{pmatrix}.\]"
+    )
+    carts = derivation("lecture-3b")
+    assert carts.check(f"{said}\n{rows}").right
+    assert not carts.check(f"{said}\n{rows.replace('0&k', '0&-k')}").right

@@ -296,3 +296,18 @@ def test_a_name_gets_a_value_behind_a_sentence() -> None:
     rows = f"{CART}\n{POLE}".replace("cos theta", "c").replace("sin theta", "s")
     assert right(f"{said}\n{rows}")
     assert not right(f"{said.replace('sin', 'tan')}\n{rows}")
+
+
+def test_a_product_that_an_answer_spells_out_stays_one() -> None:
+    rows = f"{CART}\n(J + ml²) theta'' + ml x'' cos theta - mgl sin theta = 0"
+    assert right(f"{rows}\nml means m times l, mgl = m·g·l, and so on.")
+    assert not right(f"{rows.replace('- mgl', '+ mgl')}\nml means m times l, mgl = m·g·l, and so on.")
+    assert not right(f"{rows}\nmgl = m·g")
+
+
+def test_a_name_of_the_system_in_a_list_of_other_names_says_nothing() -> None:
+    rows = f"{CART}\n{POLE}".replace("J", "Jp").replace("m g l", "m*g*l").replace("M + m", "Mc + m")
+    assert right(f"m, Jp = J, Mc = M\n{rows}")
+    assert right(f"m, Jp = J, Mc = M  (I wrote Jp and Mc on my paper)\n{rows}")
+    assert not right(f"m, Jp = 2*J, Mc = M\n{rows}")
+    assert not right(f"m, Jp = M, Mc = J\n{rows}")

@@ -34,7 +34,7 @@ from lagrangian.check.reading.programs.marks import is_program, told_comments, w
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
-from lagrangian.check.reading.prose.spoken_words import spoken_words
+from lagrangian.check.reading.prose.spoken_words import is_spelled_out, spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.renamed import renamed, restored
@@ -375,7 +375,8 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
 
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
-    own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
+    own = dict.fromkeys(m[1] for m in _DEFINED.finditer(text) if not is_spelled_out(text, m.end(), m[1]))
+    alone = [m[1] for m in _ALONE.finditer(text)]
     system = Words(lines.names, (), ())
     for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …
         word = match[1]

@@ -248,7 +248,10 @@ class Words:
         return bool(self.names.scope.meanings(name)[0]) and not self.names.changes(name)
 
     def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
-        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π."""
+        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π. A
+        capital letter twice, CC, is a name: a square is written C^2."""
+        if word.isupper() and word == word[0] * len(word):
+            return []
 
         @cache
         def fits(part: str, last: bool, after: bool) -> bool:
