@@ -55,11 +55,8 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
-    read = with_exchanged(truth, read, lines)
-    judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
-    judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
-    judged = with_reduced(truth, wrong, judged)
-    judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
+    read, own = with_exchanged(truth, read, lines), where_held(truth, wrong)
+    judged = _following(truth, own, wrong, with_terms_put_in(truth, judge(read.lines)))
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
@@ -94,6 +91,16 @@ def named_beside_multipliers(
         notes=() if odd else read.notes,
         sure=named.sure,
     )
+
+
+def _following(
+    truth: Reference, own: Reference | None, wrong: Sequence[WrongConstraint], judged: Findings
+) -> tuple[Finding, ...]:
+    """The findings, of which those below wrong constraints that hold with these follow from them; ``own`` is the system
+    with the wrong constraints in place of its own."""
+    judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
+    judged = with_reduced(truth, wrong, judged)
+    return tuple(_below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND]))
 
 
 def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
