@@ -25,6 +25,7 @@ def hoist() -> Derivation:
 WITH_ROPE_FORCE = "m s'' = m g - S s/ρ\nJ φ'' = r S - c φ' - M\n"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("said", ["ρ = √(s² + d²) = l + r φ\n{}", "ρ = √(s² + d²)\n{}ρ = l + r φ"])
 def test_a_length_in_two_ways_is_the_constraint(said: str) -> None:
     assert hoist().check(said.format(WITH_ROPE_FORCE), hint=0).right
@@ -39,6 +40,7 @@ Q_s = -M s/(r ρ) - c s² s'/(r² ρ²)
 (m + J s²/(r² ρ²)) s'' + J s d² s'²/(r² ρ⁴) + c s² s'/(r² ρ²) - m g = -M s/(r ρ)"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", ["", "φ'' = s s''/(r ρ) + d² s'²/(r ρ³)\n"])
 def test_an_abbreviation_is_no_coordinate_of_the_answers_own(more: str) -> None:
     sheet = SHEET.format(more)

@@ -166,6 +166,7 @@ lam = @(q, qd, F) -(W'*(MM(q)\\W)) \\ (W'*(MM(q)\\h(q, qd, F)));
 qdd = @(q, qd, F) MM(q)\\(h(q, qd, F) + W*lam(q, qd, F));"""
 
 
+@pytest.mark.slow
 def test_a_multiplier_may_be_eliminated_by_matrices() -> None:
     assert wheel().check(CONSTRAINED, hint=0).right
     for old, new in (
@@ -187,6 +188,7 @@ end
 simplify(eq)"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("last", ["simplify(eq)", ""])
 def test_loops_of_matlab_over_numbers_are_carried_out(last: str) -> None:
     program = COUNTED.replace("simplify(eq)", last)
@@ -202,6 +204,7 @@ eq1 = diff(T,pd,pd)*pdd + diff(T,pd,qd)*qdd + diff(T,pd,q)*qd == F - b*pd;
 eq2 = diff(T,qd,pd)*pdd + diff(T,qd,qd)*qdd + diff(T,qd,q)*qd - diff(T,q) + diff(V,q) == 0;"""
 
 
+@pytest.mark.slow
 def test_a_comment_lists_what_declared_symbols_are() -> None:
     assert right(LISTED)
     python = LISTED.replace(
@@ -221,6 +224,7 @@ TYPED = """def residuals(x, xd, xdd, theta, thetad, thetadd, F):
 X, ANGLE = (line.partition("=")[2].strip().replace("**", "^") for line in TYPED.split("\n")[1:3])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "form",
     [
@@ -298,6 +302,7 @@ def accelerations(x, phi, xd, phid, F):
     return np.linalg.solve(A, np.array([F - k*x, 0, 0]))"""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("program", [TOGETHER, UNNAMED, SCALARS, f"% q = [x; phi]\n{UNNAMED}"])
 def test_accelerations_and_multipliers_are_solved_for_together(program: str) -> None:
     assert wheel().check(program, hint=0).right

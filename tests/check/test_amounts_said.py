@@ -96,6 +96,7 @@ def test_a_wrong_amount_is_told_by_its_number_and_is_no_equation(row: str, line:
     assert told[:-1] not in swing().check(f"{line}\n{row}", hint=2).to_text()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("line", ["m g l/2 = 1.5 * 0.55 g = 6.622", "m g l/2 = 1.5 * 0.45 g = 7.622"])
 def test_a_wrong_side_in_a_chain_of_amounts_is_wrong(line: str) -> None:
     assert not swing().check(f"{line}\n{ROW}", hint=0).right

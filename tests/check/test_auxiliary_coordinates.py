@@ -52,7 +52,7 @@ def test_rolling_says_what_the_angle_is(rolls: str) -> None:
     assert not wrong.right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("p", ["p_x", "P", "pi_x"])
 @pytest.mark.parametrize("rate", ["%s' =", "d%s/dt ="])
 def test_hamiltons_equations_alone_say_what_the_momentum_is(p: str, rate: str) -> None:

@@ -88,7 +88,7 @@ def test_what_inputs_hold_does_not_stand_for_an_equation_of_motion() -> None:
     assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d", hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -117,7 +117,7 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
     assert right or (verdict.motion and verdict.first_wrong.line.number > 2)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("line", "right"),
     [

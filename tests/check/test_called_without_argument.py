@@ -30,7 +30,7 @@ STATED = "J_P = J + m (R^2 + e^2 - 2 R e cos(theta))"
 ROW = "J_P(theta) theta'' + m R e sin(theta) theta'^2 + m g e sin(theta) = 0"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -59,7 +59,7 @@ def test_a_constant_times_a_coordinate_in_brackets_is_a_product() -> None:
 NUMBERS = "(0.82 - 0.2 cos(theta)) theta'' + 0.1 sin(theta) theta'^2 + 1.962 sin(theta) = 0"
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("relation", ["x = R theta", "x' = R theta'", "x = 0.5 theta"])
 def test_a_relation_in_letters_stands_beside_an_answer_in_numbers(relation: str) -> None:
     energies = "T = 1/2 (0.82 - 0.2 cos(theta)) theta'^2\nV = -1.962 cos(theta)"

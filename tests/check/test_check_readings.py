@@ -46,7 +46,7 @@ def derived(name: str) -> Derivation:
     return loads(MOTOR).derive() if name == "motor" else derivation(name)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("l", "w", "c", "g", "right"),
     [
@@ -61,6 +61,7 @@ def test_a_number_may_be_g_or_a_value(l: str, w: str, c: str, g: str, right: boo
     assert derived("elastic-pendulum").check(PENDULUM.format(l=l, w=w, c=c, g=g), hint=0).right is right
 
 
+@pytest.mark.slow
 def test_energies_in_letters_go_with_equations_in_numbers_alone() -> None:
     energies = "T = m/2*(r'^2 + r^2*theta'^2)\nV = k/2*(r - L_0)^2 - m*g*r*cos(theta)\nwith m*g = 4.905 N\n"
     numbers = PENDULUM.format(l="0.6", w="4.905", c="2", g="9.81")
@@ -112,7 +113,7 @@ LONG_NAMES = loads(
 ).derive()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [

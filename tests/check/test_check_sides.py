@@ -65,7 +65,7 @@ def test_a_distance_is_positive(spring: str, answer: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("spring", rest_slow(SPRINGS, {"between"}))
 @pytest.mark.parametrize(
     "answer",

@@ -46,6 +46,7 @@ def test_the_answer_is_right() -> None:
     assert bar().check(ANSWER, hint=0).right
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("written", "instead", "said"),
     [

@@ -32,12 +32,14 @@ IN_AN_ANGLE = {
 """Equations in an angle of the rod, by how it is measured: from below, from the side, from above (x may be −x)."""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("answer", IN_AN_ANGLE)
 def test_an_answer_may_use_an_angle_of_the_circle(pendulum: lg.Derivation, answer: str) -> None:
     found = pendulum.check(answer)
     assert found.right and f"Read with {IN_AN_ANGLE[answer]}." in str(found)
 
 
+@pytest.mark.slow
 def test_a_force_may_be_stated_in_an_angle_of_the_circle() -> None:
     s = lg.System("pendulum in x, y with a damper")
     x, y = s.coordinates("x y")
@@ -55,7 +57,7 @@ def test_a_force_may_be_stated_in_an_angle_of_the_circle() -> None:
     assert not damped.check(answer.replace("Q_x = -b l cos", "Q_x = -b l sin"), hint=0).right
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -69,7 +71,7 @@ def test_a_wrong_equation_in_an_angle_is_wrong(pendulum: lg.Derivation, answer: 
     assert found.status is Status.WRONG and "Read with x = l sin θ, y = −l cos θ." in str(found)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["lam", "lmbda", "lambda"])
 def test_a_multiplier_needs_no_sign_of_a_product(pendulum: lg.Derivation, name: str) -> None:
     assert pendulum.check(f"m x'' = 2 {name} x\nm y'' + m g = 2 {name} y", hint=0).right
@@ -126,7 +128,7 @@ def test_below_the_terms_nothing_of_a_wrong_answer_holds_a_formula(pendulum: lg.
         assert (data["lines"][0]["note"] is not None) == ("times 1/m" in verdict.to_text()) == (hint == 3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", ["lambda", "S", "lambda_rod"])
 @pytest.mark.parametrize("scale", ["", "-", "2*"])
 def test_a_force_that_is_only_a_result_is_judged(pendulum: lg.Derivation, name: str, scale: str) -> None:
@@ -250,7 +252,7 @@ def test_derivatives_of_an_energy_with_the_constraint_put_in_beside_right_equati
     assert (found.right or found.motion) and not found.mistakes
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("force", ["J^T lambda", "Jᵀ λ", "J^T*lambda, J q' = 0"])
 def test_the_transpose_of_a_matrix_that_is_given_below(pendulum: lg.Derivation, force: str) -> None:
     """J is a list, which is a column; in front of a column it is a row."""

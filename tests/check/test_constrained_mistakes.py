@@ -33,6 +33,7 @@ def test_the_right_equations_are_right_with_any_sign_and_scale(puck: lg.Derivati
     ).right  # r' = 0 on the cylinder
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "row", [("*theta'^2", "*theta'"), (" - m*r*theta'^2", ""), ("F*sin", "F*cos"), ("+ m*g*", "- m*g*")]
 )
@@ -91,7 +92,7 @@ def trammel() -> lg.Derivation:
     return s.derive()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("right", "wrong", "kind", "element"),
     [
@@ -218,7 +219,7 @@ def test_a_multiplier_is_read_with_the_signs_that_most_equations_agree_on(trolle
     assert str(verdict.mistakes[1].what).endswith("y/l belongs there.")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["la", "La", "lam"])
 def test_a_short_name_between_a_number_and_a_sum_is_a_factor(trolley: lg.Derivation, name: str) -> None:
     """That la is an article in French does not cut the equation."""
@@ -242,7 +243,7 @@ ON_CIRCLE = "x = l sin theta\ny = -l cos theta\n"
 FORCE = "lambda = -m/(2 l^2)*(g l cos theta + l^2 theta'^2)"
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [
@@ -262,12 +263,14 @@ def test_what_nothing_explains_is_told_by_the_case_in_which_it_holds(
     assert mistake.name == "special_case" and said in str(mistake.what), str(mistake.what)
 
 
+@pytest.mark.slow
 def test_slopes_by_an_angle_of_the_answer_are_not_judged(bob: lg.Derivation) -> None:
     slopes = "T = m l^2 theta'^2/2\ndL/dtheta' = m l^2 theta'\n"
     assert bob.check(ON_CIRCLE + slopes + "theta'' = -g/l sin theta\n" + FORCE, hint=0).right
     assert not bob.check(ON_CIRCLE + slopes + "theta'' = g/l sin theta\n" + FORCE, hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [
@@ -287,6 +290,7 @@ def test_mistakes_in_an_angle_of_the_answer_are_those_of_a_system_without_constr
     assert "Read with x = l sin θ, y = −l cos θ." in str(verdict)
 
 
+@pytest.mark.slow
 def test_a_factor_of_a_multiplier_may_have_another_form() -> None:
     s = lg.System("slotted lever")
     theta, x = s.coordinates("theta x")

@@ -18,7 +18,7 @@ def test_an_angle_may_be_counted_from_where_the_wheel_starts(said: str) -> None:
     assert verdict.right and any("so that" in str(note) for note in verdict.notes)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [

@@ -106,7 +106,7 @@ def test_what_is_no_energy_has_no_name(swing: lg.Derivation, line: str) -> None:
 WHEEL = "T_wheel = 1/2 J phi'^2"
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize(
     ("wheel", "rod", "right"),
     [
@@ -147,7 +147,7 @@ def test_energies_of_parts_alone_are_no_answer(swing: lg.Derivation) -> None:
     assert swing.check(f"{WHEEL}\nT = 1/2 J phi'^2 + {ROD}\n{potential}", hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("form", ["NFC", "NFD"])
 @pytest.mark.parametrize(
     ("cart", "body"),

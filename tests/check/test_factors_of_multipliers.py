@@ -36,7 +36,7 @@ def findings(answer: str) -> list[bool]:
     return [f.status.right for f in wagon().check(answer).findings]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("said", "right"),
     [
@@ -63,6 +63,7 @@ def test_of_two_lines_that_do_not_fit_neither_is_called_right() -> None:
     assert "not right together with line 2" in str(verdict) and "was read as" not in str(verdict)
 
 
+@pytest.mark.slow
 def test_a_constraint_says_which_factor_of_its_multiplier_is_wrong() -> None:
     rows = f"{ALONG}\n{TURN.replace('R ', '')}"
     assert findings(rows) == [False, False]
@@ -73,6 +74,7 @@ def test_a_constraint_says_which_factor_of_its_multiplier_is_wrong() -> None:
     assert wagon().check(f"phi' = x'/R\n{ALONG.replace('lambda', 'lambda/R')}\n{TURN.replace('R ', '')}", hint=0).right
 
 
+@pytest.mark.slow
 def test_the_other_lines_say_which_sign_is_wrong() -> None:
     force = "lambda = (tau - J phi'')/R"
     assert findings(f"{ALONG}\n{WRONG}\n{force}")[:2] == [True, False]
@@ -92,6 +94,7 @@ def tractor() -> Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_of_several_multipliers_the_one_that_does_not_fit_is_told() -> None:
     rows = "M x'' = F + A - B\nJ phi'' = -R A\nI psi'' = r B"
     assert tractor().check(rows, hint=0).right

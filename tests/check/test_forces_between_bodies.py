@@ -45,7 +45,7 @@ def test_a_force_of_an_axle_is_none_of_the_constraint(last: bool) -> None:
     assert wheel().check(answer.replace("F - H - A", "F + H - A").replace("R H", "-R H"), hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -61,6 +61,7 @@ def test_no_force_between_bodies_takes_up_a_mistake(right: str, wrong: str) -> N
     assert right in NEWTON and not wheel().check(NEWTON.replace(right, wrong), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_force_that_leaves_nothing_but_the_constraint_is_judged() -> None:
     """m r″ = S without −m r θ̇² and S + m r″ = 0 agree, and the motion is right; the tension S is not."""
     sys = System("puck on a string")
@@ -77,6 +78,7 @@ def test_a_force_that_leaves_nothing_but_the_constraint_is_judged() -> None:
     assert not sys.derive().check(f"m r'' = -S\n{together}", hint=0).right  # S would be 0
 
 
+@pytest.mark.slow
 def test_a_force_in_the_equation_of_one_coordinate_alone_is_none_of_a_constraint_between_two() -> None:
     """The friction S of the floor on a rolling cart is no force P of the rod between cart and collar."""
     sys = System("cart, rod and collar")
@@ -104,6 +106,7 @@ def test_wrong_energies_into_which_a_coordinate_is_put_are_wrong(right: str) -> 
     assert right in ENERGIES and not wheel().check(ENERGIES.replace(right, TWINS[right]), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_coordinate_may_be_put_in_before_an_energy_is_differentiated() -> None:
     verdict = wheel().check(ENERGIES)
     assert verdict.right and any("put into its energies" in str(note) for note in verdict.notes)
@@ -117,7 +120,7 @@ BESIDE = """Forces: H is a force of the floor, A of the axle.
    x'' = R phi''"""
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["acc", "ab", "ax"])
 def test_a_name_is_defined_behind_a_gap_and_is_no_product_with_an_article(name: str) -> None:
     answer = BESIDE.replace("acc", name)

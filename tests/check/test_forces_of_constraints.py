@@ -48,7 +48,7 @@ def test_a_generalized_force_may_hold_the_force_of_a_constraint(equations: str) 
     assert spinner().check(ENERGIES + FORCES + equations, hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [("Q_z = -S", "Q_z = S"), ("Q_z = -S", "Q_z = -2 S"), ("- S\nQ_z", "+ S\nQ_z"), ("-b r' - S\nQ", "b r' - S\nQ")],
@@ -62,6 +62,7 @@ def test_generalized_forces_alone_are_no_equations() -> None:
     assert not spinner().check(ENERGIES + FORCES, hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("energies", [ENERGIES, ""])
 def test_the_rate_of_a_momentum_may_be_equal_to_forces(energies: str) -> None:
     turning, _, rest = EQUATIONS.partition("\n")
@@ -83,6 +84,7 @@ def puck() -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("energy", ["T = 1/2 (J + m r^2) phi'^2 + 1/2 m r'^2\n", ""])
 def test_the_rate_of_a_momentum_is_an_equation_where_nothing_is_held(energy: str) -> None:
     last = "m r'' - m r phi'^2 + k r = 0"
@@ -115,6 +117,7 @@ J theta'' = tau + S/l [a cos(theta) (z - a sin(theta)) - a sin(theta) (c - a cos
 (c - a cos(theta))^2 + (z - a sin(theta))^2 = l^2"""
 
 
+@pytest.mark.slow
 def test_a_side_may_be_written_in_two_forms() -> None:
     assert lift().check(TWO_FORMS, hint=0).right
     assert not lift().check(TWO_FORMS.replace("= tau + S a (z", "= tau + S a (2 z"), hint=0).right
@@ -134,7 +137,7 @@ REMARKS = [
 ]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("remark", REMARKS)
 def test_special_cases_are_remarks_where_constraints_hold(remark: str) -> None:
     assert spinner().check(f"{TENSION}\n{remark}", hint=0).right
@@ -165,6 +168,7 @@ def test_a_constraint_may_be_solved_with_a_root(turned: bool) -> None:
     assert lift().check(ROOT.replace("w = sqrt", "w = -sqrt") if turned else ROOT, hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("turned", rest_slow([False, True], {False}))
 @pytest.mark.parametrize("right", rest_slow(TWINS_OF_ROOT, {"cos(theta) - a sin", "+ m g u = tau"}))
 def test_wrong_twins_of_a_constraint_that_is_solved_with_a_root(right: str, turned: bool) -> None:
@@ -184,6 +188,7 @@ m z'' + m g = -lambda2
 0 = -lambda1 l sin(beta) + lambda2 l cos(beta)"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("answer", "changes"),
     [
@@ -243,6 +248,7 @@ sqrt(s^2 + d^2) = l_0 + r phi
 """
 
 
+@pytest.mark.slow
 def test_one_line_says_what_the_cosine_of_an_angle_of_the_answer_is() -> None:
     assert winch().check(PULLED, hint=0).right
     assert winch().check(PULLED.replace("cos(alpha)", "sin(alpha)"), hint=0).right

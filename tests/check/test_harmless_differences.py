@@ -31,7 +31,7 @@ m r'' - m r (Omega + theta')^2 - m a Omega^2 cos(theta) + k r = 0
 """
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("energy", "right"),
     [

@@ -69,6 +69,7 @@ def found(verdict: CheckedAnswer) -> list[tuple[int, bool, bool]]:
 SAID = ["xB' = x' - s theta' cos(theta)", r"$\dot x_B = \dot x - s\dot\theta\cos\theta$"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", [*SAID, "velocity of the bob to the right: x' - s theta' cos(theta)"])
 def test_a_wrong_velocity_that_nothing_uses_is_the_mistake(said: str) -> None:
     verdict = wheel().check("\n".join([said, turned(T), turned(WHEEL), turned(BOB)]))
@@ -81,6 +82,7 @@ def test_a_wrong_velocity_that_nothing_uses_is_the_mistake(said: str) -> None:
     assert not any("not judged" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", [*SAID, "velocity of the bob to the right: x' - s theta' cos(theta)"])
 def test_a_right_velocity_is_marked_and_not_blamed(said: str) -> None:
     right = said.replace(" - s", " + s").replace(r"- s\dot", r"+ s\dot")
@@ -90,6 +92,7 @@ def test_a_right_velocity_is_marked_and_not_blamed(said: str) -> None:
     assert found(wrong)[:2] == [(1, True, False), (2, False, False)]
 
 
+@pytest.mark.slow
 def test_a_velocity_that_explains_nothing_is_neither_blamed_nor_right() -> None:
     """The bob's velocity is wrong in its line alone; another sign is wrong in T*."""
     verdict = wheel().check("\n".join(["xB' = x' - 2 s theta' cos(theta)", turned(T), turned(WHEEL), turned(BOB)]))
@@ -118,6 +121,7 @@ ENERGIES = "T = 1/2 J beta'^2 + 1/2 J_a alpha'^2 + 1/2 J_p ((R + r) alpha' - R b
 D = "D = 1/2 c R^2/r^2 (alpha' - beta')^2\nQ_beta = M"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("said", ["gamma' = ((R + r) alpha' - R beta')/r", "gamma' - alpha' = R/r (alpha' - beta')"])
 def test_a_wrong_rate_of_an_angle_of_the_system_is_the_mistake(said: str) -> None:
     sheet = f"{said}\n{ENERGIES}\n{D}"
@@ -158,6 +162,7 @@ ARM = "1/2 J {arm}^2 + 1/2 m (s'^2 + s^2 phi'^2) + 1/2 M ({half}^2 + s^2 phi'^2/
 PARTS = {"arm": "phi'", "half": "(s'/2)", "coil": "(phi - u)", "oil": "(phi' - u')"}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("part", "wrong", "told"),
     [

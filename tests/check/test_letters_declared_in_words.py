@@ -266,6 +266,7 @@ thetadd = ((M+m)*m*g*l*sin(theta) - m*l*cos(theta)*(F - b*xd + m*l*thetad^2*sin(
 % where Delta = (M+m)*(J+m*l^2) - m^2*l^2*cos(theta)^2"""
 
 
+@pytest.mark.slow
 def test_a_comment_may_say_what_a_name_is_that_nothing_else_defines() -> None:
     pole = derivation("cart-pole")
     assert pole.check(SOLVED, hint=0).right

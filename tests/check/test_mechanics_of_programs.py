@@ -67,7 +67,7 @@ def right(program: str) -> bool:
         return False
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     ("program", "old", "new"),
     [
@@ -101,6 +101,7 @@ print(LM.form_lagranges_equations())
 # x: (M + m)*x'' + k*x + lam1 - F = 0"""
 
 
+@pytest.mark.slow
 def test_methods_of_mechanics_may_have_multipliers() -> None:
     assert wheel().check(ROLLING, hint=0).right
     for old, new in (

@@ -38,6 +38,7 @@ MATRICES = """M = [ m   0 ]     D = [ d     d b   ]     K = [ k + c         c b 
 M [y''; theta''] + D [y'; theta'] + K [y; theta] = [F; 0]"""
 
 
+@pytest.mark.slow
 def test_named_matrices_may_stand_beside_each_other() -> None:
     assert skid().check(ROWS, hint=0).right
     assert skid().check(MATRICES, hint=0).right

@@ -34,6 +34,7 @@ def first(verdict: lg.CheckedAnswer) -> str:
     return str(verdict.mistakes[0].what)
 
 
+@pytest.mark.slow
 def test_velocities_along_one_line_have_signs_and_no_directions() -> None:
     right = "T = 1/2 m x'^2 + 1/2 n (2 x' + u')^2"
     assert plank().check(right, hint=0).right or not plank().check(right).mistakes
@@ -115,6 +116,7 @@ def truck() -> lg.Derivation:
 LEFT = "(J + m b^2 + m s^2) th'' + m b s'' + 2 m s s' th' = {0}\nm s'' + m b th'' - m s th'^2 = F"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("share", ["-d a cos(th) th'", "-d a^2 th'", "-d th'"])
 def test_a_damper_with_another_arm_in_a_generalized_force_is_named_with_its_arm(share: str) -> None:
     right = "-d a^2 cos(th)^2 th'"
@@ -151,6 +153,7 @@ def governor() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_what_should_cancel_is_left_over_and_not_counted_twice() -> None:
     rows = "(M + m) z'' + m l theta'' sin(theta) + m l theta'^2 cos(theta) = 0\n"
     right = rows + "m l^2 theta'' + m l z'' sin(theta) - m Omega^2 l^2 sin(theta) cos(theta) = 0"

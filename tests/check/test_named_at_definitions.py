@@ -65,6 +65,7 @@ def _crane(r_c: str) -> str:
     return f"r_c = {r_c}\nT = 1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2) + 1/2 m_c (r'^2/4 + ({r_c})^2 psi'^2)"
 
 
+@pytest.mark.slow
 def test_a_wrong_distance_along_a_turning_jib() -> None:
     assert crane().check(_crane("e + r/2"), hint=0).right
     told = _told(crane().check(_crane("e - r/2")), 1)
@@ -74,6 +75,7 @@ def test_a_wrong_distance_along_a_turning_jib() -> None:
 V = "V = 1/2 k x^2 + m_b g R {}(psi)"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", ["", " + m g e sin(Omega t)"])
 def test_a_wrong_height_that_no_other_line_names(more: str) -> None:
     """What depends on time alone may be left out of V, and does not hide the mistake."""
@@ -153,7 +155,7 @@ def trough() -> Derivation:
     return sys.derive()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("D", "told", "hint"),
     [
@@ -184,6 +186,7 @@ def test_hints_speak_of_no_derivative_of_an_energy_that_nobody_stated() -> None:
     assert not any("∂" in str(x) for m in verdict.mistakes for x in (m.what, m.why))
 
 
+@pytest.mark.slow
 def test_one_mistake_is_not_told_as_a_quantity_said_wrongly_twice() -> None:
     s = System("ladder")
     psi, theta = s.coordinates("psi theta")

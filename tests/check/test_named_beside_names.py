@@ -26,7 +26,7 @@ TURN = "(M*l^2/3 + m*r^2)*theta'' + 2*m*r*r'*theta' = tau"
 ALONG = "m*r'' - m*r*theta'^2 + k*(r - l0) = 0"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("right", "wrong", "kinds", "element"),
     [

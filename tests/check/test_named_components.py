@@ -21,6 +21,7 @@ def test_components_along_turning_axes_are_right(said: str) -> None:
     assert "axes turned by θ" in " ".join(verdict.to_text().split())
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("said", "wrong", "told"),
     [
@@ -57,6 +58,7 @@ def tray() -> Derivation:
     return sys.derive()
 
 
+@pytest.mark.slow
 def test_the_sign_of_a_part_is_told_of_the_component_that_has_it() -> None:
     verdict = tray().check(
         "v_xi = -s phi', v_eta = s' - h phi'\nT = 1/2 J phi'^2 + 1/2 m (s^2 phi'^2 + (s' - h phi')^2)\nV = 1/2 k s^2"
@@ -90,6 +92,7 @@ def table() -> Derivation:
 COMPONENTS = "v_x = {x}\nv_y = {y}\nT = 1/2 J psi'^2 + 1/2 m (({x})^2 + ({y})^2)\nV = 1/2 k s^2"
 
 
+@pytest.mark.slow
 def test_components_x_and_y_without_an_angle_are_along_the_axes_that_turn() -> None:
     right = table().check(COMPONENTS.format(x="s' - h psi'", y="s psi'"))
     assert right.right and "axes turned by ψ" in " ".join(right.to_text().split())

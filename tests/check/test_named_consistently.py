@@ -105,6 +105,7 @@ ROWS = f"""dT/dx' = (M + m) x' + {{0}} m l theta' cos theta
 {POLE}"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("wrong", [2, sp.Rational(1, 2)])
 def test_what_follows_from_a_wrong_derivative_of_a_right_T_is_marked_so(wrong: int) -> None:
     d = derivation("cart-pole")

@@ -262,6 +262,7 @@ def test_parts_of_a_velocity_along_axes_that_turn(energy: str, said: str) -> Non
     assert said in str(mistake.what), str(mistake.what)
 
 
+@pytest.mark.slow
 def test_a_spring_linearized_alone_is_one_mistake_and_gravity_is_not_blamed() -> None:
     s = lg.System("two pendula")
     p, q = s.coordinate("p"), s.coordinate("q")

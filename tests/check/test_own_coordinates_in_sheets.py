@@ -60,6 +60,7 @@ m*u'' + m*h*phi'' - m*u*phi'^2 + b*u' + k*u = 0
 """
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [
@@ -73,6 +74,7 @@ def test_an_energy_is_differentiated_by_a_coordinate_of_the_answers_own(now: str
     assert now in TURNED and not table().check(TURNED.replace(now, wrong), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_coordinate_that_is_no_sum_of_others_changes_its_rate() -> None:
     """With s = u²: ∂T/∂u and d/dt ∂T/∂u' hold the squares of rates that the chain rule gives."""
     text = """\
@@ -103,6 +105,7 @@ Q_theta = tau - d theta' + P r sin(theta)
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [
@@ -190,7 +193,7 @@ m a^2 theta'' + m a^2 phi'' cos(theta - phi) + m a^2 phi'^2 sin(theta - phi) = -
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [
@@ -207,6 +210,7 @@ def test_derivatives_beside_an_absolute_angle_hold_it(now: str, wrong: str) -> N
     assert now in ABSOLUTE and not arms().check(ABSOLUTE.replace(now, wrong), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_numbered_force_may_be_that_of_a_coordinate_of_the_answers_own() -> None:
     """Instead of s, u = s/h: the power b s'² is Q_2 u' with Q_2 = −h b s'."""
     rows = """\

@@ -42,6 +42,7 @@ def test_the_answer_is_right() -> None:
     assert verdict.status.value == "right in other coordinates"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("written", "instead", "said"),
     [
@@ -57,6 +58,7 @@ def test_a_mistake_is_named_there_and_right_lines_are_right(written: str, instea
     assert sum(not f.status.right for f in verdict.findings) == 1
 
 
+@pytest.mark.slow
 def test_a_multiplier_beside_it_is_not_passed_over() -> None:
     assert not strut().check(SAID + ENERGIES + ROW + "\nm x'' = F + 3 lambda x", hint=0).right
 

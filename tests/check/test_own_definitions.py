@@ -57,6 +57,7 @@ J psi'' + b psi' = M
 3/2 m (R - r)^2 phi'' + m g (R - r) sin(phi) = 0"""
 
 
+@pytest.mark.slow
 def test_a_wrong_angular_velocity_is_the_mistake_and_the_rest_follows(drum: lg.Derivation) -> None:
     verdict = drum.check(STANDING)
     (mistake,) = verdict.mistakes
@@ -177,6 +178,7 @@ V = -m g l cos(phi)
 (J + m l^2) phi'' + m l x'' cos(phi) + m g l sin(phi) = 0"""
 
 
+@pytest.mark.slow
 def test_a_wrong_position_as_a_column_is_the_mistake(crane: lg.Derivation) -> None:
     verdict = crane.check(HANGING)
     assert found(verdict) == [(1, False, False), *((k, False, True) for k in range(2, 7))]
@@ -331,6 +333,7 @@ def test_of_two_likely_reasons_both_are_told(bar: lg.Derivation) -> None:
     assert sorted(["½" in first and "missing" in first, "about its pivot" in second]) == [True, True], words
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "said",
     ["with w0^2 = k/m, 2 D w0 = b/m", "Let 2 D w0 = b/m and m w0^2 = k.", "2 m D w0 = b\nw0 = sqrt(k/m)"],

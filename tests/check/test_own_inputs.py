@@ -35,6 +35,7 @@ def winch() -> Derivation:
 ROPE = "m y'' = m g - S\nJ φ'' = r S - {}\ny = r φ"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("said", ["motor(t) = 8 + 2 sin(3 t)\n", "motor = 8 + 2*sin(3*t)\n"])
 def test_a_value_of_time_alone_may_be_the_only_input(said: str) -> None:
     name = said.split(" =", maxsplit=1)[0]
@@ -51,6 +52,7 @@ def test_a_value_of_time_alone_is_no_parameter() -> None:
     assert not cart().check("kk = 30 + sin(t)\nm x'' + c x' + kk x = F", hint=0).right
 
 
+@pytest.mark.slow
 def test_an_input_has_another_name_beside_a_multiplier() -> None:
     verdict = winch().check(ROPE.format("M_mot"))
     assert verdict.right and "'M_mot' was read as M." in str(verdict)

@@ -68,7 +68,7 @@ def test_values_that_are_rounded(answer: str) -> None:
     assert not any(f.status.value == "wrong" for f in verdict.findings), verdict.to_text()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -131,6 +131,7 @@ value = "k*theta^2/2"
 GROWS = "(10 + 5 s^2) theta'' + 4 s theta' + 30 theta = 0"
 
 
+@pytest.mark.slow
 def test_a_length_by_name_beside_its_rate_in_numbers() -> None:
     arm = loads(LONGER).derive()
     said = "s = 2 + 0.4 t\nT = 5 theta'^2 + 2.5 (0.16 + s^2 theta'^2)\nV = 15 theta^2\n"

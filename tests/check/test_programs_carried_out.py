@@ -160,7 +160,7 @@ PROGRAMS = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize(("text", "right", "wrong"), PROGRAMS.values(), ids=PROGRAMS)
 def test_what_a_program_computes_is_judged(text: str, right: str, wrong: str) -> None:
     assert right in text
@@ -320,6 +320,7 @@ Ass = [zeros(2) eye(2); zeros(2) -Mq\\Dq];
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("program", [IN_COMMENT, OF_MATRICES])
 def test_an_equation_of_matrices_in_a_comment_is_carried_out(program: str) -> None:
     judge = derivation("cart-pole")

@@ -56,6 +56,7 @@ end
 """
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("program", [IN_PLACE, WHOLE, RETURNED, DOTTED])
 def test_functions_of_julia_are_carried_out(program: str) -> None:
     judge = derivation("cart-pole")
@@ -93,6 +94,7 @@ end
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("solved", ["a", "acc"])
 def test_unknowns_beside_the_accelerations_are_multipliers(disk: lg.Derivation, solved: str) -> None:
     program = ROLLING.replace("    a =", f"    {solved} =").replace("a[", f"{solved}[")
@@ -123,6 +125,7 @@ def test_names_that_python_keeps_for_itself_are_names_in_julia() -> None:
     assert not judge.check(program.replace("- b*ẋ", "+ b*ẋ"), hint=0).right
 
 
+@pytest.mark.slow
 def test_values_in_tuples_and_by_conditions() -> None:
     program = """M, m, l = 1.0, 0.2, 0.3
 J, b, g = 0.006, 0.1, 9.81

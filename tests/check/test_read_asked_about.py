@@ -31,6 +31,7 @@ def test_a_name_that_accelerates_is_a_coordinate_where_it_makes_the_answer_right
     assert roller.check("theta = x/R\nm x'' + J/R theta'' + k x = 0", hint=0).right
 
 
+@pytest.mark.slow
 def test_a_name_in_a_denominator_is_no_multiplier() -> None:
     platform = derivation("stewart-platform")
     for written in ("m/R2*platform_vx' = 0", "m*wheel_vx' + platform_wy*platform_wz = 0"):

@@ -129,6 +129,7 @@ def test_rates_as_matlab_writes_them_in_latex_are_read(second: str) -> None:
 ENERGY = "1/2 M x'[t]^2 + 1/2 m (x'[t]^2 + 2 l x'[t] theta'[t] Cos[theta[t]] + l^2 theta'[t]^2) + 1/2 J theta'[t]^2"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("stated", "of"),
     [

@@ -83,6 +83,7 @@ ENTRIES = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "answer", [BARRED, SLASHED, SLASHED.translate(str.maketrans("/\\", "||")), f"{ENTRIES}, with M q'' = f."]
 )

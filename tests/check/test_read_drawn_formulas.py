@@ -141,6 +141,7 @@ def test_what_goes_on_is_never_read_without_it() -> None:
         right("\n".join(first) + "\n\n" + "\n".join(rest), "pendulum")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "text",
     [

@@ -43,6 +43,7 @@ PRIMED = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("answer", PRIMED)
 def test_a_prime_behind_a_function_of_a_coordinate_is_its_slope_where_rates_have_dots(answer: str) -> None:
     assert turntable().check(answer, hint=0).right

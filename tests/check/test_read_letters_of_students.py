@@ -43,6 +43,7 @@ def accepted(written: str) -> bool:
         return False
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("letter", ["ℓ", "l", "ell"])
 def test_ell_is_read_as_the_letter_and_as_l(letter: str) -> None:
     assert accepted(f"{CART}\n{BOB}".replace("ell", letter))

@@ -194,6 +194,7 @@ REFERENCES = """[1] T_1 = 1/2*M*x'^2
 [6] (J + m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta) = 0"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("written", "old", "new"),
     [

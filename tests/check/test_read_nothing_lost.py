@@ -172,6 +172,7 @@ def test_energies_alone_are_not_right_in_front_of_a_result_that_was_not_read(res
     ).right
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("slope", ["d delta/d theta", "ddelta/dtheta", "d delta / dtheta", "∂delta/∂theta"])
 def test_a_slope_of_a_quantity_in_long_letters_is_no_product_with_a_damper(slope: str) -> None:
     flap = loads(

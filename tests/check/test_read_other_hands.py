@@ -121,6 +121,7 @@ def test_what_is_not_judged_is_told(written: str, told: str) -> None:
     assert verdict.right and told in " ".join(map(str, verdict.notes))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "wrong",
     [

@@ -62,7 +62,7 @@ def accepted(written: str) -> bool:
         return False
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize(
     ("written", "old", "new"),
     [

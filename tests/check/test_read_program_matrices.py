@@ -143,7 +143,7 @@ def test_names_of_columns_and_states(written: str, old: str, new: str) -> None:
     assert not derivation(name).check(written.replace(old, new), hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     ("written", "old", "new"),
     [
@@ -233,6 +233,7 @@ def test_the_order_of_the_states_is_that_of_the_accelerations() -> None:
     assert not derivation("cart-pole").check(f"{turned}    acc = np.linalg.solve(A, r)\n    return acc\n", hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["acc", "qdd"])
 def test_accelerations_below_velocities_are_the_rest_of_the_state(name: str) -> None:
     written = f"""function dy = rhs(t, y)

@@ -71,6 +71,7 @@ def test_a_factor_in_words_is_no_remark() -> None:
         right(f"{CART}\n(J + m l^2) theta'' = m l (twice g sin theta - x'' cos theta)")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("mark", ["%", "#", "//"])
 def test_comments_that_name_coordinates_are_read(mark: str) -> None:
     for first, second, is_right in (("x", "theta", True), ("theta", "x", False)):
@@ -138,6 +139,7 @@ def test_single_positions_and_small_motions_beside_the_equations_are_not_judged(
     assert not right(f"{CART}\n{POLE.replace('- m g', '+ m g')}\n{beside}")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("untrue", ["cos theta = 7", "sin theta = theta/2"])
 def test_a_line_that_no_position_makes_true_is_untrue(untrue: str) -> None:
     verdict = derivation("cart-pole").check(f"{CART}\n{POLE}\n{untrue}")
@@ -145,6 +147,7 @@ def test_a_line_that_no_position_makes_true_is_untrue(untrue: str) -> None:
     assert right(f"{CART}\n{POLE}\nsin theta = theta, cos theta = 1 - theta^2/2")
 
 
+@pytest.mark.slow
 def test_a_position_at_rest_must_be_one() -> None:
     row = "m R^2 theta'' - m R^2 Omega^2 sin theta cos theta + m g R sin theta = 0"
     assert right(f"{row}\ntheta = 0 or cos theta = g/(R Omega^2)", "bead-on-hoop")
@@ -178,6 +181,7 @@ def test_a_name_that_only_words_explain_is_unknown() -> None:
         derivation("cart-pole").check(f"S x'' + {CART.split(' + ', 2)[2]}\n{POLE}\nS = the ((sum of masses")
 
 
+@pytest.mark.slow
 def test_letters_of_energies_and_rates_of_columns_are_the_answers_own() -> None:
     cart = "q1'' = (F - b q1' - m l D q2'' + m l sin(q2) q2'^2)/(M + m)"
     assert right(f"D = cos(q2)\n{cart}\nq2'' = m l (g sin(q2) - D q1'')/(J + m l^2)")
@@ -255,6 +259,7 @@ def test_bold_lines_may_hold_stars_and_lines_that_are_set_in_go_on_with_a_plus()
     assert right(broken) and not right(broken.replace("+ m l theta''", "+ 2 m l theta''"))
 
 
+@pytest.mark.slow
 def test_a_tangent_with_two_values_says_that_these_are_equal() -> None:
     rows = "α: slope of the path\ntan α = {} = -x/y\nm x'' = -N x/l\nm y'' = -N y/l - m g\nx^2 + y^2 = l^2"
     assert right(rows.format("dy/dx"), "rod-pendulum") and not right(rows.format("-dx/dy"), "rod-pendulum")

@@ -41,6 +41,7 @@ def test_a_sentence_gives_names_their_values(said: str, old: str, new: str) -> N
     twins(f"{rows}\n\n{said}", old, new)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("said", "old", "new"),
     [
@@ -92,7 +93,7 @@ def test_what_may_belong_to_an_equation_is_not_left_out(row: str) -> None:
     assert not right(f"{row}\n{POLE}")
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "said",
     [
@@ -109,6 +110,7 @@ def test_what_holds_under_a_condition_is_not_judged(said: str) -> None:
     assert not right(f"{CART}\n{said}")
 
 
+@pytest.mark.slow
 def test_a_line_with_a_name_that_nothing_needs_is_not_judged() -> None:
     rows = "(J/R^2 + m1 + m2) x'' = (m1 - m2) g"
     twins(f"The pulley turns with phi' = x'/R.\n{rows}", "m1 - m2", "m1 + m2", "atwood")
@@ -117,6 +119,7 @@ def test_a_line_with_a_name_that_nothing_needs_is_not_judged() -> None:
     assert not right("phi' = x'/R\n(J/R^2 + m1 + mu) x'' = (m1 - m2) g", "atwood")
 
 
+@pytest.mark.slow
 def test_functions_of_julia_and_declarations_of_c_are_read() -> None:
     julia = (
         "function f!(du, u, p, t)\n    x, xdot, th, thdot = u\n    M, m, l, J, b, g, F = p\n"
@@ -223,7 +226,7 @@ deflection = "y2"
 """
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("said", "old", "new"),
     [
@@ -242,6 +245,7 @@ def test_names_told_by_enumeration_are_rates_of_masses_with_the_same_numbers(sai
         assert "what is '" in str(error)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("tag", ["(I)", "[II]", "(q)"])
 def test_a_letter_in_brackets_far_behind_an_equation_is_its_label(tag: str) -> None:
     twins(f"{POLE}        {tag}\n{CART}\nI add {tag} to the other one.", "- m g", "+ m g")
@@ -250,6 +254,7 @@ def test_a_letter_in_brackets_far_behind_an_equation_is_its_label(tag: str) -> N
     assert not right(f"{POLE}\n{CART.replace('F', 'q x - F')}        (q)")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("said", "old", "new"),
     [
@@ -307,6 +312,7 @@ def test_words_behind_a_gap_are_no_product_though_letters_of_the_system_spell_th
     assert not wrong.right and "th e" not in wrong.to_text()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "place", ["theta = 0 is alpha = pi/2", "theta = 0 (upright) means alpha = pi/2", "alpha = pi/2"]
 )

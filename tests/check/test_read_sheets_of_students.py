@@ -149,6 +149,7 @@ def test_a_damper_in_front_of_a_name_with_primes_is_a_factor() -> None:
         assert s.derive().check(rf"$J\, d^2\phi/dt^2 + {rate} + k \phi = 0$", hint=0).right, rate
 
 
+@pytest.mark.slow
 def test_expressions_beside_every_generalized_force_are_left_hand_sides() -> None:
     cart = "x: (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta"
     pole = "theta: (J + m l^2) theta'' + m l x'' cos theta - m g l sin theta"

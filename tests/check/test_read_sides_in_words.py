@@ -15,6 +15,7 @@ WORDS = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("cart", WORDS)
 def test_a_side_in_words_says_what_the_terms_are(cart: str) -> None:
     assert right(f"{cart}\n{POLE}")

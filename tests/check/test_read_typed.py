@@ -129,6 +129,7 @@ def test_two_equations_in_a_list(written: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("written", "said"),
     [

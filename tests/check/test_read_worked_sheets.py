@@ -29,7 +29,7 @@ BESIDE = {
 """Lines of a sheet beside the equations of the cart with a pole."""
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("kind", BESIDE)
 def test_what_stands_beside_equations_leaves_them_right_or_wrong(kind: str) -> None:
     assert right(f"{BESIDE[kind]}\n{CART}\n{POLE}")
@@ -95,6 +95,7 @@ value = "-G*m/r"
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("beside", ["a_r = r'' - r*phi'^2", "G = K*M_0", "r = r_0", "phi' = r''"])
 def test_a_wrong_line_beside_equations_without_small_motions_is_judged(beside: str) -> None:
     rows = "m*(r'' - r*phi'^2) + G*m/r^2 = 0\nr*phi'' + 2*r'*phi' = 0"
@@ -143,7 +144,7 @@ expression = "x^2 + y^2 - R^2"
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "beside",
     [

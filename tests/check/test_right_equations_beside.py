@@ -58,7 +58,7 @@ def yoke() -> lg.Derivation:
 F = "x - r cos(theta) = 0"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("answer", "right"),
     [
@@ -192,7 +192,7 @@ ALL_FORCES = "Q_x = F - b x', Q_theta = m g l sin theta"
 GIBBS = "S = 1/2 M x''^2 + 1/2 (J + m l^2) theta''^2 + m l x'' theta'' cos theta\n"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "sheet",
     [

@@ -78,7 +78,7 @@ def test_the_edge_of_a_sleigh_put_into_its_energy(equations: str, lost: tuple[st
         )
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("energy", ENERGIES.values())
 def test_an_energy_on_the_constraint_is_right_beside_right_equations(energy: str) -> None:
     """Its value is that of T*, and the equations cannot have been derived from it."""
@@ -121,6 +121,7 @@ expression = "x' - R*phi' - a0*t"
 """
 
 
+@pytest.mark.slow
 def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> None:
     belt = lg.loads(ON_BELT).derive()
     energy = "L = M x'^2/2 + J (x' - a0 t)^2/(2 R^2) - k x^2/2\n"
@@ -131,6 +132,7 @@ def test_a_lagrangian_on_the_constraint_may_have_another_level_of_height() -> No
     assert not belt.check(right.replace("- k x^2/2", "- k x^2"), hint=0).right
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("right_side", ["= lambda", "- lambda = 0"])
 def test_terms_are_told_with_the_signs_of_the_side_on_which_all_others_stand(right_side: str) -> None:
     """Also where the other side is the multiplier alone."""
@@ -176,6 +178,7 @@ def test_what_can_be_integrated_may_be_put_in() -> None:
         assert not verdict.right and NAME not in [m.name for m in (*verdict.mistakes, *verdict.alternatives)]
 
 
+@pytest.mark.slow
 def test_other_mistakes_keep_their_names() -> None:
     """A wrong inertia, and a wrong energy that does not hold on the constraint either."""
     right = "m*v' - m*a*theta'^2 = 0\n(J + m*a^2)*theta'' + m*a*v*theta' = 0"
@@ -184,6 +187,7 @@ def test_other_mistakes_keep_their_names() -> None:
         assert not verdict.right and NAME not in [m.name for m in verdict.mistakes]
 
 
+@pytest.mark.slow
 def test_an_upright_disc_may_be_put_in() -> None:
     """Without its lean, nothing is lost: (K + m r²) φ″ = 0 and I ψ″ = 0 are right."""
     s = lg.System("upright disc")

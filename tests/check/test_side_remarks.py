@@ -45,7 +45,7 @@ def test_remarks_in_latex_are_taken_off_with_their_formulas() -> None:
     assert not right(f"$${cart}$$\n$${pole.replace('- m g', '+ m g')}$$\n{said}\n{case}\n")
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -71,7 +71,7 @@ def test_a_constraint_is_no_remark() -> None:
     assert not wheel.check(f"{equations}Check: phi' = -x'/r, because it rolls", hint=0).right
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "remark",
     [
@@ -90,7 +90,7 @@ def test_a_case_is_no_constraint(remark: str) -> None:
     assert not pendulum.check(f"{rows.replace('= l^2', '= 2 l^2')}\n\n{remark}", hint=0).right
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "remark",
     [

@@ -28,7 +28,7 @@ IN_LATEX = [
 IN_TEXT = ["dI/dtheta", "(dI/dθ)", "dI(theta)/dtheta", "d/dtheta(I)", "d/dtheta I(theta)", "I'(theta)", "∂I/∂theta"]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("slope", [*IN_LATEX, *IN_TEXT])
 def test_a_function_of_a_coordinate_is_differentiated_by_it(slope: str) -> None:
     written = (LATEX if "\\" in slope else PLAIN).replace("SLOPE", slope)

@@ -181,7 +181,7 @@ def test_what_is_stated_in_own_coordinates_is_right_in_these(name: str) -> None:
     assert found.right, found.to_text()
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(35)
 @pytest.mark.parametrize(
     ("name", "now", "wrong"), [(name, a, b) for name, (_, _, twins) in SHEETS.items() for a in twins for b in twins[a]]
 )
@@ -224,6 +224,7 @@ J\ddot\vartheta + c a(\dot z + a\dot\vartheta) + k_1 a(z + a\vartheta) - k_2 b(z
 """
 
 
+@pytest.mark.slow
 def test_two_forms_of_a_letter_are_two_names_where_one_is_given_by_the_other() -> None:
     found = beam().check(VARIANTS)
     assert found.right, found.to_text()
@@ -276,7 +277,7 @@ def test_coordinates_of_the_system_may_be_any_functions_of_the_answers() -> None
     assert found.right and "other coordinates" in found.to_text(), found.to_text()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("now", "wrong"),
     [
@@ -314,6 +315,7 @@ V = m g sqrt(l^2 - u^2) + 1/2 k u^2
 m l^2/(l^2 - u^2) u'' + m l^2 u u'^2/(l^2 - u^2)^2 - m g u/sqrt(l^2 - u^2) + k u = F - b u^2/(l^2 - u^2) u'"""
 
 
+@pytest.mark.slow
 def test_a_root_is_a_length_where_a_coordinate_of_the_answer_s_own_determines_the_motion() -> None:
     """There √(l² − u²) is l sin φ; in φ itself it is so only on one side."""
     assert trammel().check(IN_PLACE, hint=0).right

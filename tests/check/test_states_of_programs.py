@@ -34,7 +34,7 @@ end
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("arguments", ["~, z, F", "t, z, F", "tt, z", "z", "time, z, par"])
 def test_the_state_is_the_argument_with_an_index(arguments: str) -> None:
     written = BY_INDEX.format(arguments=arguments)
@@ -48,7 +48,7 @@ def test_the_state_is_the_argument_with_an_index(arguments: str) -> None:
         assert not derivation("cart-pole").check(written.replace(old, new), hint=0).right
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("states", "a"),
     [
@@ -130,6 +130,7 @@ def right(written: str) -> bool:
         return False
 
 
+@pytest.mark.slow
 def test_a_wrong_program_is_told_by_what_it_computes_where_its_states_are_misread() -> None:
     program = """function zd = sled(t, z, p)
 % z = [x theta xdot thetadot]

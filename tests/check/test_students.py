@@ -34,11 +34,13 @@ def told(name: str, count: int, seed: str, *, wrong: bool = False) -> Counter[st
     return found
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", FEW)
 def test_a_few_right_answers_in_random_clothes_are_accepted(name: str) -> None:
     assert told(name, 8, "few")["unread"] == 0
 
 
+@pytest.mark.slow
 def test_a_few_wrong_answers_in_random_clothes_are_not() -> None:
     assert told("two-disk-shaft", 6, "few", wrong=True)["wrong"] > 4
 

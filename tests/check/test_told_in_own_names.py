@@ -53,6 +53,7 @@ JIB = """rho = p + s/2
 (m + n/4) s'' - m s phi'^2 - n/2 rho phi'^2 = -d s'"""
 
 
+@pytest.mark.slow
 def test_a_term_is_told_in_the_names_of_the_answer() -> None:
     assert jib().check(JIB, hint=0).right
     told = first(jib(), JIB.replace("n/2 rho phi'^2", "n/2 m rho phi'^2"))
@@ -69,6 +70,7 @@ def test_a_name_that_no_wrong_line_has_is_not_put_in() -> None:
     assert "rho" not in told
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("difference", ["phi - beta", "beta - phi"])
 def test_a_difference_of_angles_keeps_the_order_of_the_answer(difference: str) -> None:
     sign = "" if difference == "phi - beta" else "-"

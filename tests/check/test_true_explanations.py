@@ -35,6 +35,7 @@ ROWS = """(Ja + J (R + r)^2/r^2) a'' {0} J R (R + r)/r^2 b'' + {1} = 0
 DAMPED = "c (R/r)^2 (a' - b')"
 
 
+@pytest.mark.slow
 def test_a_rate_is_quoted_with_the_sign_that_was_written(gears: lg.Derivation) -> None:
     assert gears.check(T.format("-") + ROWS.format("-", DAMPED), hint=0).right
     words = told(gears, T.format("+"))
@@ -76,6 +77,7 @@ def swing() -> lg.Derivation:
 ENERGY = "B = A sin(Omega t)\nT = m/2 (H^2 B'^2 + a^2 phi'^2 {} 2 a H B' phi' cos(phi - B)) + M/2 y'^2"
 
 
+@pytest.mark.slow
 def test_a_length_is_no_motion_that_goes_the_other_way(swing: lg.Derivation) -> None:
     assert not swing.check(ENERGY.format("-")).mistakes
     words = told(swing, ENERGY.format("+"))
@@ -131,6 +133,7 @@ def sling() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_product_with_a_sum_is_told_as_one_term(sling: lg.Derivation) -> None:
     rows = """(J + M h^2 + m r^2) th'' + 2 m r r' (W + th') {} (M h + m r) R W^2 sin(th) = 0
 m r'' - m r (W + th')^2 - m R W^2 cos(th) + k r = 0"""
@@ -173,6 +176,7 @@ REDUCED = """phi' = (x' - a0 t)/R
 m l cos(th) x'' + m l^2 th'' + c ((x' - a0 t)/R + th') = 0"""
 
 
+@pytest.mark.slow
 def test_a_radius_is_missed_where_a_turn_on_a_moving_belt_was_eliminated(belt: lg.Derivation) -> None:
     assert belt.check(REDUCED.format("J/R^2"), hint=0).right
     words = told(belt, REDUCED.format("J/R"))
@@ -189,6 +193,7 @@ LOST = """x'' = R phi'', lambda = -J x''/R^2 - c (phi' + th')/R
 (M + m + J/R^2) x'' + m l th'' cos(th) - m l th'^2 sin(th) + k x + (c/R) (phi' + th') = 0"""
 
 
+@pytest.mark.slow
 def test_what_is_lost_when_a_constraint_is_differentiated_is_the_cause_of_what_follows(belt: lg.Derivation) -> None:
     verdict = belt.check(FORCES.format(LOST, "", ""))
     assert [str(m.what) for m in verdict.mistakes] == [
@@ -224,6 +229,7 @@ m3 h'' = S {1}/l - m3 g
 m2 (x'' + d'') = S {0}/l"""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("dropped", ["", "m1 x'' = -N\nm3 x'' = N - S {0}/l\n"])
 def test_factors_of_a_force_that_are_exchanged_are_one_mistake(mast: lg.Derivation, dropped: str) -> None:
     laws = LAWS.replace(dropped, "(m1 + m2 + m3) x'' + m2 d'' = 0\n") if dropped else LAWS
@@ -241,6 +247,7 @@ def test_a_line_without_unknown_forces_is_judged_beside_them(mast: lg.Derivation
     assert [f.status.right for f in verdict.findings] == [True, True, False, False], verdict.to_text()
 
 
+@pytest.mark.slow
 def test_the_velocity_term_that_is_missing_is_told_where_a_root_was_put_in(mast: lg.Derivation) -> None:
     rows = """h = sqrt(l^2 - d^2)
 (m1 + m2 + m3) x'' + m2 d'' = 0

@@ -49,6 +49,7 @@ def test_right_balances_are_right(answer: str) -> None:
     assert drum().check(answer, hint=0).right
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize(
     ("line", "wrong", "told"),
     [
@@ -72,6 +73,7 @@ def test_the_wrong_line_is_blamed_alone(line: int, wrong: str, told: str) -> Non
     assert f"line {line}" in only and told in only, only
 
 
+@pytest.mark.slow
 def test_a_force_that_is_solved_from_a_wrong_line_follows() -> None:
     results = "J phi'' = tau - I r (z'' - r phi'')/a^2 - c phi'\nm z'' = m g + I (z'' - r phi'')/a^2"
     answer = f"{DRUM}\n{LOAD}\nI (z'' - r phi'')/a = -S a\nS = -I (z'' - r phi'')/a^2\n{results}"
@@ -128,6 +130,7 @@ def sprung() -> lg.Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_a_missing_force_of_several_terms_is_told_as_one() -> None:
     right = "J phi'' = S r - k r (r phi - z)\nm z'' = m g - S + k (r phi - z)\nI (z'' - r phi'')/a = S a"
     assert sprung().check(right, hint=0).right
