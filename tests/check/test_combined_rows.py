@@ -89,3 +89,24 @@ def test_the_term_of_one_line_with_a_solved_force_is_told_beside_right_equations
     verdict = derived.check(rows.format("J R"))
     assert [f.line.number for f in verdict.findings if not f.status.right] == [2], verdict.to_text()
     assert verdict.mistakes and "line 2" in str(verdict.mistakes[0].what), verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("(x' + l theta' cos(theta))^2", "l*cos(theta)*theta' + x'"),
+        ("(l theta' sin(theta) + 0)^2", ""),
+    ],
+)
+def test_a_sum_of_rates_that_is_not_squared_is_told(written: str, told: str) -> None:
+    energy = "T = 1/2 M x'^2 + 1/2 m [(x' + l theta' cos(theta))^2 + (l theta' sin(theta) + 0)^2] + 1/2 J theta'^2"
+    rows = "\n(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) = F - b x'"
+    rows += "\nm l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0"
+    assert derivation("cart-pole").check(energy + rows).right
+    verdict = derivation("cart-pole").check(energy.replace(written, written.removesuffix("^2")) + rows)
+    assert not verdict.right
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [1]
+    assert ("is not squared" in str(verdict.mistakes[0].what)) == bool(told), verdict.to_text()
+    assert told in str(verdict.mistakes[0].what)
+    twice = energy.replace(written, written.removesuffix("^2")).replace("1/2 J", "J")
+    assert "sum" not in str(derivation("cart-pole").check(twice + rows).mistakes)

@@ -298,3 +298,25 @@ def test_an_arm_that_is_called_R_is_no_dissipation_beside_a_wrong_equation() -> 
     rows = "R = 1/2 c theta^2\n(m*(e + l*cos(theta))^2) theta'' - m*l*(e + l*cos(theta))*sin(theta)*theta'^2"
     wrong = derived.check(rows + " + c*theta + m*g*l*cos(theta) = 0")
     assert wrong.findings[0].line.kind == "D" and not wrong.findings[0].status.right, wrong.to_text()
+
+
+def test_values_in_a_wrong_program_are_not_wrong() -> None:
+    s = lg.System("rope over an edge")
+    r, z = s.coordinates("r z")
+    m1, m2, b, L, g = s.parameters("m1 m2 b L g")
+    s.kinetic((m1 * r.diff() ** 2 + m2 * z.diff() ** 2) / 2)
+    s.potential(-m2 * g * z)
+    s.damper(b, deflection=r)
+    s.constraint(r + z - L)
+    program = """function dx = rope(t, x)
+% x = [r; r_dot], z = L - r
+m1 = 1.5; m2 = 2; b = 5; g = 9.81;
+r = x(1);
+rd = x(2);
+rdd = ({}-m2*g) / (m1 + m2);
+dx = [rd; rdd];
+end"""
+    derived = s.derive()
+    assert derived.check(program.format("-b*rd ")).right
+    verdict = derived.check(program.format(""))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [6], verdict.to_text()

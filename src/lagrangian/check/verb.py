@@ -206,9 +206,16 @@ def _program(answer: Answer) -> Answer | None:
 
 
 def _misread(verdict: check.Verdict) -> bool:
-    """Whether a line that only takes an entry of a state, v = y(3), is called wrong: it says nothing of the motion."""
-    wrong = (f.line.text for f in verdict.findings if f.status is check.Status.WRONG)
-    return any(_ENTRY.fullmatch(x) for x in wrong)
+    """Whether a line that only takes an entry of a state, v = y(3), or gives a constant a value, m = 2, is called
+    wrong: it says nothing of the motion."""
+    wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG]
+    return any(_ENTRY.fullmatch(x.text) or _gives_number(x) for x in wrong)
+
+
+def _gives_number(line: AnsweredLine) -> bool:
+    """Whether a line equates one letter and a number."""
+    letters = line.expr.free_symbols
+    return line.kind == "equation" and len(letters) == 1 and bool(line.expr.diff(*letters).is_number)
 
 
 def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:

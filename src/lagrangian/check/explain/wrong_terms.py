@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.explain.combined_rows import difference, term_to_blame, with_combined_rows
+from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
@@ -17,7 +18,8 @@ def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put."""
     balanced = with_wrong_balance(truth, lines, verdict)
-    return with_terms_alone(_with_term_of_one_line(truth, with_combined_rows(truth, lines, balanced)))
+    told = _with_term_of_one_line(truth, with_combined_rows(truth, lines, balanced))
+    return with_sum_not_squared(truth, with_terms_alone(told))
 
 
 def _with_term_of_one_line(truth: Reference, verdict: Verdict) -> Verdict:
