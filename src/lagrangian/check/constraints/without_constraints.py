@@ -258,7 +258,9 @@ def _as_put_in(
         if line.kind in ("T-p", "T-rate"):
             more += by_rate * bounded.diff(rate, c.rate)
         else:
-            more += bounded.diff(own, gone.symbol) * bounded.diff(value, c.symbol) + by_rate * bounded.diff(rate, c.symbol)
+            more += bounded.diff(own, gone.symbol) * bounded.diff(value, c.symbol) + by_rate * bounded.diff(
+                rate, c.symbol
+            )
     more = bounded.diff(more, time) if line.kind == "T-rate" else more
     return line.expr + more if line.kind in ("T-p", "T-slope") else line.expr - more
 
