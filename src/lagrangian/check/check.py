@@ -382,7 +382,7 @@ def _in_these(
     other: Reference, lines: Sequence[AnsweredLine], change: ProposedChange, notes: Sequence[Text], verdict: Verdict
 ) -> Verdict | None:
     """The verdict on lines in the coordinates of another reference; None if they are right there."""
-    judged = judged_lines(other, lines)
+    judged = judged_lines(other, [x for x in lines if x.expr == 0 or bounded.expand(change.put(x.expr)) != 0])
     if judged.status.right:  # equal only in double precision
         return None
     named = mistakes(other, lines, judged.findings)
