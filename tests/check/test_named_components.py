@@ -9,6 +9,8 @@ import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, System
+from lagrangian.check.explain.said_wrongly import turned_to
+from lagrangian.check.reference import truth_of
 from lagrangian.model import time
 
 T = "T = 1/2 m (r'^2 + r^2 theta'^2)"
@@ -121,3 +123,34 @@ def test_a_part_along_axes_that_turn_in_space_is_told_as_one() -> None:
     assert not [f for f in d.check(right).findings if not f.status.right]
     (mistake,) = d.check(right.replace("y' + Omega x", "y'")).mistakes
     assert str(mistake.what) == "In the velocity of particle 'bead' along axes that turn, Omega*x is left out."
+
+
+def test_a_component_is_told_in_the_sense_of_its_own_rate() -> None:
+    """Of ṡ − r θ̇ for ṡ + r θ̇, along an axis that we count the other way, the sign of r θ̇ is wrong."""
+    s = System("ramp")
+    theta, u = s.coordinates("theta s")
+    J, m, r, k = s.parameters("J m r k")
+    s.kinetic(J * theta.diff() ** 2 / 2, name="ramp")
+    s.kinetic(m * (u.diff() + r * theta.diff()) ** 2 / 2, name="wagon")
+    s.spring(k=k, deflection=u, name="spring")
+    truth, forth = truth_of(s.derive()), u.diff() + r * theta.diff()
+    said = u.diff() - r * theta.diff()
+    assert turned_to(truth, -forth, said) == -1
+    assert turned_to(truth, forth, said) == 1
+
+
+def test_the_rate_of_a_stated_coordinate_is_right() -> None:
+    """s′ = R φ′ below "(s = R φ)" is no wrong line in an answer in φ."""
+    s = System("barrel")
+    x, u = s.coordinates("x s")
+    M, m, J, R, k = s.parameters("M m J R k")
+    s.kinetic(M * x.diff() ** 2 / 2, name="car")
+    s.kinetic((m + J / R**2) * u.diff() ** 2 / 2, name="barrel")
+    s.spring(k=k, deflection=x - u, name="spring")
+    answer = """with x and the angle phi of the barrel (s = R phi)
+s' = R phi'
+M x'' + k (x - R phi) = 0
+(m R^2 + 4 J) phi'' - k R (x - R phi) = 0"""
+    verdict = s.derive().check(answer)
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [4]
+    assert s.derive().check(answer.replace("4 J", "J")).right

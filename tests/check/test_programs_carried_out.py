@@ -341,3 +341,36 @@ def test_two_sides_that_are_printed_with_an_equals_sign_are_an_equation(shown: s
     assert cart.check(program + shown).right
     assert not cart.check(program.replace("F - b", "F + b") + shown).right
     assert not cart.check(program.replace("F - b*x.diff(t)", "0*m") + shown).right
+
+
+def test_an_energy_that_a_loop_completes_is_not_judged_before() -> None:
+    """What is wrong is told by what the program computes, where this leaves fewer lines wrong than its text."""
+    s = lg.System("two on an arm")
+    phi, u = s.coordinates("phi s")
+    m, k, c, J = s.parameters("m k c J")
+    s.kinetic(J * phi.diff() ** 2 / 2, name="arm")
+    for name, sign in (("one", 1), ("other", -1)):
+        place = s.point(f"P{name}", (sign * u * sp.cos(phi), sign * u * sp.sin(phi)))
+        s.particle(m, at=place, name=name)
+    s.spring(k=k, deflection=u, name="spring")
+    s.damper(b=c, deflection=u, name="damper")
+    program = """from sympy import *
+t = symbols('t')
+m, k, c, J = symbols('m k c J')
+phi, s = Function('phi')(t), Function('s')(t)
+T = J*phi.diff(t)**2/2
+for sign in (1, -1):
+    pos = Matrix([sign*s*cos(phi), sign*s*sin(phi)])
+    vel = pos.diff(t)
+    T += m/2*vel.dot(vel)
+V = k*s**2/2
+Q_phi = 0
+Q_s = -2*c*s.diff(t)
+for q, Q in ((phi, Q_phi), (s, Q_s)):
+    print(simplify((T - V).diff(q.diff(t)).diff(t) - (T - V).diff(q) - Q))
+# 2*m*s'' - 2*m*s*phi'**2 + k*s + 2*c*s' = 0
+"""
+    derivation = s.derive()
+    assert derivation.check(program.replace("2*c", "c")).right
+    (mistake,) = derivation.check(program).mistakes
+    assert "amper" in str(mistake.what)

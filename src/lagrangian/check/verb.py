@@ -157,6 +157,13 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
+    if not answer.program and len(_open(verdict)) > 1 and (program := _program(answer)) is not None:
+        try:
+            other = _of_readings(derivation, program, hint)
+        except ParseError:
+            other = verdict
+        if 0 < len(_open(other)) < len(_open(verdict)):
+            return other
     if asked:
         lines = without_names_of_equations(decides.lines, asked)
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
@@ -195,6 +202,11 @@ def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int,
     wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG] if verdict.motion else []
     cases = {"case"} if derivation.multipliers else set[str]()
     return {(x.number, x.text) for x in wrong if x.beside and not x.beside & cases}
+
+
+def _open(verdict: check.Verdict) -> list[check.Finding]:
+    """The findings that are wrong and follow from none."""
+    return [f for f in verdict.findings if f.status is check.Status.WRONG and not f.follows]
 
 
 def _program(answer: Answer) -> Answer | None:

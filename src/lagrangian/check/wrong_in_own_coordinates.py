@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from lagrangian import bounded
 from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange
@@ -78,7 +79,7 @@ def wrong_in(
     other: Reference, lines: Sequence[AnsweredLine], change: ProposedChange, notes: Sequence[Text], verdict: Verdict
 ) -> Verdict | None:
     """The verdict on lines in the coordinates of another reference; None if they are right there."""
-    judged = judged_lines(other, lines)
+    judged = judged_lines(other, [x for x in lines if x.expr == 0 or bounded.expand(change.put(x.expr)) != 0])
     if judged.status.right:  # equal only in double precision
         return None
     named = mistakes(other, lines, judged.findings)

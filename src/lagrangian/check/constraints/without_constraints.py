@@ -22,7 +22,7 @@ from lagrangian.check.coordinates.stated import InStatedCoordinates
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine
 from lagrangian.coordinates import Carrier, Change
 from lagrangian.derive import derive
 from lagrangian.derive.sampling import CompiledExpressions
@@ -234,8 +234,35 @@ def _moved(
                 yield replace(line, kind="statement")
             continue
         moved = replace(line, expr=change.put(line.expr))
+        if line.kind in OWN_DERIVATIVES and not _is_zero(truth, moved.expr):
+            moved = replace(line, expr=change.put(_as_put_in(truth, lines, line, table)))
         holds = line.kind in ("equation", "identity") and _is_zero(truth, moved.expr)
         yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
+
+
+def _as_put_in(
+    truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine, table: dict[sp.Expr, sp.Expr]
+) -> sp.Expr:
+    """A derivative of the answer's own T* or V as one of what it is with the coordinates that go put in: below
+    V = … − M g z and z = l − s − r θ, ∂V/∂θ has M g r."""
+    energies = {x.kind: x.expr for x in lines if x.kind in ("T", "V")}
+    own = energies.get("V" if line.kind == "V-slope" else "T")
+    c = next((c for c in truth.model.coordinates if c.name == line.name), None)
+    if own is None or c is None or line.kind == "D-slope":
+        return line.expr
+    more: sp.Expr = sp.S.Zero
+    for gone in (x for x in truth.model.coordinates if x.symbol in table):
+        value = table[gone.symbol]
+        rate = bounded.diff(value, time)
+        by_rate = bounded.diff(own, gone.rate)
+        if line.kind in ("T-p", "T-rate"):
+            more += by_rate * bounded.diff(rate, c.rate)
+        else:
+            more += bounded.diff(own, gone.symbol) * bounded.diff(value, c.symbol) + by_rate * bounded.diff(
+                rate, c.symbol
+            )
+    more = bounded.diff(more, time) if line.kind == "T-rate" else more
+    return line.expr + more if line.kind in ("T-p", "T-slope") else line.expr - more
 
 
 def _is_zero(truth: Reference, expr: sp.Expr) -> bool:

@@ -19,7 +19,7 @@ from lagrangian.check.explain.constraint_slips import WrongConstraint, wrong_con
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.explain.put_in_terms import with_terms_put_in
-from lagrangian.check.held import held
+from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -94,7 +94,7 @@ def named_beside_multipliers(
 
 
 def _following(
-    truth: Reference, own: Reference | None, wrong: Sequence[WrongConstraint], judged: Findings
+    truth: Reference, own: OnConstraints | None, wrong: Sequence[WrongConstraint], judged: Findings
 ) -> tuple[Finding, ...]:
     """The findings, of which those below wrong constraints that hold with these follow from them; ``own`` is the system
     with the wrong constraints in place of its own."""
