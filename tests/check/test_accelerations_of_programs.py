@@ -11,7 +11,7 @@ import pytest
 from test_forces_between_bodies import wheel
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 
 COLUMNS = """function qdd = accel(q, qd, F, p)
 th = q(2);
@@ -313,3 +313,24 @@ MM = hessian(T, [xd; thd]);
 eom = MM*[xdd; thdd] + [b*xd - F - m*l*thd^2*sin(th); -m*g*l*sin(th)]"""
     assert right(program)
     assert not right(program.replace("J/2", "J"))
+
+
+def test_named_accelerations_are_fewer_where_constraints_are_put_in() -> None:
+    sys = System("wheel that pulls a box")
+    x, phi, y = sys.coordinates("x phi y")
+    M, m, J, R, k = sys.parameters("M m J R k")
+    axle = sys.point("axle", (x, R))
+    body = sys.rigid_body(m, J, at=axle, frame=sys.frame(-phi), name="wheel")
+    sys.particle(M, at=sys.point("box", (y, 0)), name="box")
+    sys.spring(k, deflection=y - x)
+    sys.force((sys.input("F"), 0), at=axle)
+    sys.rolling(body, at=sys.point("contact", (x, 0)), along=(1, 0))
+    made = sys.derive()
+    program = """function [xdd, ydd] = fcn(F, x, y, xd, yd)
+s = k*(y - x);
+xdd = (F + s)/(m + J/R^2);
+ydd = -s/M;
+end"""
+    assert made.check(program).right
+    assert not made.check(program.replace("F + s", "F - s")).right
+    assert not made.check(program.replace("m + J/R^2", "m")).right
