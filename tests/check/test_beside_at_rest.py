@@ -10,7 +10,6 @@ from functools import cache
 
 import pytest
 import sympy as sp
-
 from test_forces_between_bodies import wheel
 
 import lagrangian as lg
