@@ -334,3 +334,16 @@ end"""
     assert made.check(program).right
     assert not made.check(program.replace("F + s", "F - s")).right
     assert not made.check(program.replace("m + J/R^2", "m")).right
+
+
+def test_rates_of_a_state_that_a_comment_lists_are_solved_for() -> None:
+    program = """% E*xdot = A0*x + B0*u, x = [x1; x2r; x1dot; x2rdot]
+E  = [1 0 0 0; 0 1 0 0; 0 0 m1+m2 m2; 0 0 m2 m2];
+A0 = [0 0 1 0; 0 0 0 1; 0, 0, 0, 0; 0, -k, 0, 0];
+B0 = [0; 0; 0; 1];
+xdot = E\\(A0*[x1; x2r; x1d; x2rd] + B0*F);"""
+    carts = derivation("lecture-3b")
+    assert carts.check(program).right
+    assert not carts.check(program.replace("0, -k", "0, k")).right
+    assert not carts.check(program.replace("m1+m2 m2;", "m1 m2;")).right
+    assert not carts.check(program.replace("0 0 1 0; 0 0 0 1; 0, 0", "0 0 2 0; 0 0 0 1; 0, 0")).right

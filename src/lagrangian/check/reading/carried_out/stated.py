@@ -252,6 +252,7 @@ def _of_states(
             listed_so = sorted(x for name in named for x in reader.scope.meanings(name)[0]) == sorted(coordinates)
             rates = [sp.Function(x)(TIME).diff(TIME, 2) for x in (named if listed_so else coordinates)]
             solved = solved[:n, :]
+        rates = rates or reader.rates_of(one.name, len(solved))
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
             yield from _equations(run, found, reader)

@@ -163,6 +163,18 @@ class StateReader:
         found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
         return found[0] if found else None
 
+    def rates_of(self, name: str, count: int) -> list[sp.Expr]:
+        """The rates of the entries of a state that a comment lists, x = [phi; z; phidot; zdot] for xdot; none if their
+        number is another one."""
+        coordinates = {c.name for c in self.model.coordinates}
+        for stem in (s for k, s in spelled_rates(name) if k == 1):
+            said = list(self.in_comments(stem).values())
+            own = [set(self.scope.meanings(x)[0]) & coordinates for x in said]
+            moving = [(x, 1) if y else (self._rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
+            if len(said) == count and all(x for x, _ in moving):
+                return [sp.Function(x)(TIME).diff(TIME, order) for x, order in moving]
+        return []
+
     def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:
         """What the entries of a vector of inputs are."""
         comments, inputs = self.in_comments(other.name), [u.name for u in self.model.inputs]
