@@ -11,7 +11,7 @@ import pytest
 from test_forces_between_bodies import wheel
 
 from built_in import derivation
-from lagrangian import ParseError
+from lagrangian import ParseError, System
 
 COLUMNS = """function qdd = accel(q, qd, F, p)
 th = q(2);
@@ -318,3 +318,37 @@ MM = hessian(T, [xd; thd]);
 eom = MM*[xdd; thdd] + [b*xd - F - m*l*thd^2*sin(th); -m*g*l*sin(th)]"""
     assert right(program)
     assert not right(program.replace("J/2", "J"))
+
+
+def test_named_accelerations_are_fewer_where_constraints_are_put_in() -> None:
+    sys = System("wheel that pulls a box")
+    x, phi, y = sys.coordinates("x phi y")
+    M, m, J, R, k = sys.parameters("M m J R k")
+    axle = sys.point("axle", (x, R))
+    body = sys.rigid_body(m, J, at=axle, frame=sys.frame(-phi), name="wheel")
+    sys.particle(M, at=sys.point("box", (y, 0)), name="box")
+    sys.spring(k, deflection=y - x)
+    sys.force((sys.input("F"), 0), at=axle)
+    sys.rolling(body, at=sys.point("contact", (x, 0)), along=(1, 0))
+    made = sys.derive()
+    program = """function [xdd, ydd] = fcn(F, x, y, xd, yd)
+s = k*(y - x);
+xdd = (F + s)/(m + J/R^2);
+ydd = -s/M;
+end"""
+    assert made.check(program).right
+    assert not made.check(program.replace("F + s", "F - s")).right
+    assert not made.check(program.replace("m + J/R^2", "m")).right
+
+
+def test_rates_of_a_state_that_a_comment_lists_are_solved_for() -> None:
+    program = """% E*xdot = A0*x + B0*u, x = [x1; x2r; x1dot; x2rdot]
+E  = [1 0 0 0; 0 1 0 0; 0 0 m1+m2 m2; 0 0 m2 m2];
+A0 = [0 0 1 0; 0 0 0 1; 0, 0, 0, 0; 0, -k, 0, 0];
+B0 = [0; 0; 0; 1];
+xdot = E\\(A0*[x1; x2r; x1d; x2rd] + B0*F);"""
+    carts = derivation("lecture-3b")
+    assert carts.check(program).right
+    assert not carts.check(program.replace("0, -k", "0, k")).right
+    assert not carts.check(program.replace("m1+m2 m2;", "m1 m2;")).right
+    assert not carts.check(program.replace("0 0 1 0; 0 0 0 1; 0, 0", "0 0 2 0; 0 0 0 1; 0, 0")).right

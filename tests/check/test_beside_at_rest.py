@@ -10,6 +10,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from test_forces_between_bodies import wheel
 
 import lagrangian as lg
 
@@ -129,3 +130,11 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
 )
 def test_rest_for_certain_parameters_alone(line: str, right: bool) -> None:
     assert drum().check(f"{DRUM}\n{line}", hint=0).right is right
+
+
+def test_forces_of_constraints_at_rest_are_a_remark() -> None:
+    rows = "(m + M) x'' = F - k x - H\nJ phi'' = R H\nx' = R phi'"
+    said = "Sanity: everything at rest -> F = k x, H = 0. OK!"
+    assert wheel().check(f"{rows}\n{said}").right
+    assert not wheel().check(f"{rows.replace('- H', '+ H')}\n{said}").right
+    assert not wheel().check(f"{rows.rpartition(chr(10))[0].replace('R H', 'H')}\n{said}").right

@@ -5,6 +5,7 @@ Oracle: two masses on springs, a bar on a hinge, and a mass on a spring, with eq
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 import pytest
@@ -44,6 +45,20 @@ def test_named_matrices_may_stand_beside_each_other() -> None:
     assert skid().check(MATRICES, hint=0).right
     assert not skid().check(MATRICES.replace("[ d b   d b^2 ]", "[ d b   d a^2 ]"), hint=0).right
     assert not skid().check(MATRICES.replace("k + c  ", "k - c  "), hint=0).right
+
+
+BELOW = """    | m   0 |         | d     d b   |         | k + c         c b - k a     |
+M = | 0   J |     D = | d b   d b^2 |     K = | c b - k a   k a^2 + c b^2 |
+
+M [y''; theta''] + D [y'; theta'] + K [y; theta] = [F; 0]"""
+
+
+@pytest.mark.parametrize("open_close", ["||", "[]"])
+def test_the_names_of_matrices_may_stand_on_any_of_their_lines(open_close: str) -> None:
+    text = re.sub(r"\|([^|\n]*)\|", lambda m: f"{open_close[0]}{m[1]}{open_close[1]}", BELOW)
+    assert skid().check(text).right
+    assert not skid().check(text.replace(" d b^2 ", " d a^2 ")).right
+    assert not skid().check(text.replace("k + c  ", "k - c  ")).right
 
 
 @pytest.mark.parametrize(

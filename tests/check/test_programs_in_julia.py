@@ -144,3 +144,13 @@ end"""
     assert cart.check(program.replace("F(t) = t < 1 ? 20.0 : 0.0\n", "").replace("F(t)", "F"), hint=0).right
     for old, new in (("F(t) -", "-F(t) -"), ("J + m", "J - m"), ("[v, ω]", "[ω, v]")):
         assert not cart.check(program.replace(old, new), hint=0).right
+
+
+@pytest.mark.parametrize("example", ["push(t) = 8 + 2sin(3t)\n", "push(t) = 5.0\n"])
+def test_a_function_of_time_alone_is_the_input_that_a_program_does_not_name(example: str) -> None:
+    program = example + IN_PLACE.replace("F(t)", "push(t)")
+    pole = derivation("cart-pole")
+    assert pole.check(program).right
+    assert not pole.check(program.replace("push(t) - b", "push(t) + b")).right
+    assert not pole.check(program.replace("push(t) - b", "2*push(t) - b")).right
+    assert not pole.check(program.replace("push(t) - b", "push(t)^2 - b")).right

@@ -137,14 +137,13 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
     found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
+    resting = [r for r in found if _REST.search(text[r.start : r.end].split("=", 1)[0])]
     if sum(n for r, n in zip(found, moving, strict=True) if not r.case) >= len(model.coordinates):
         found = [r for r in found if r.case]
     elif model.constraints:  # a remark may state a constraint
-        found = [r for r, n in zip(found, moving, strict=True) if r.case or n]
+        found = [r for r, n in zip(found, moving, strict=True) if r.case or n or r in resting]
     bare = _blanked(text, found)
-    told = [
-        r for r in found if not _REST.search(text[r.start : r.end].split("=", 1)[0])
-    ]  # a value at rest is no meaning
+    told = [r for r in found if r not in resting]  # a value at rest is no meaning
     stated = {m["name"] for m in _STATED.finditer(bare)}  # for d = 0: u = 1, where another line says what u is
     used = [
         r

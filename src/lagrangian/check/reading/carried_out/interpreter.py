@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -26,6 +26,7 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     called_name,
     equated,
+    is_scalar,
     is_sided,
     listed,
     matrix,
@@ -45,6 +46,8 @@ class Interpreter(Evaluator):
 
     valued: Mapping[str, float] = field(default_factory=dict)
     """The values of the parameters of the system that a program does not name."""
+    driven: str | None = None
+    """The one input of the system that a program does not name."""
 
     def run(self, tree: ast.Module, given: dict[str, Value]) -> dict[str, Value]:
         """Carry out a whole program, with names that are ``given``; return its names."""
@@ -52,6 +55,12 @@ class Interpreter(Evaluator):
         self.outer = names
         self.carry_out(tree.body, names)
         return names
+
+    def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
+        """The value of a function of the program; one of time alone is the input that has no name, motor(t)."""
+        value = Evaluator.function(self, of, given, called)
+        alone = self.driven is not None and list(given) == [TIME] and is_scalar(value)
+        return sp.Symbol(self.driven) if alone and set(scalar(value).free_symbols) <= {TIME} else value
 
     # -- statements --------------------------------------------------------------------------------------------------
 
