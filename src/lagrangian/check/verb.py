@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian import check
+from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
@@ -49,6 +49,7 @@ class CheckedAnswer(Written, check.Verdict):
         return cut(f"<CheckedAnswer, {self.model.name}: {self.status.value}>")
 
 
+@bounded.rarely_collected()
 def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 

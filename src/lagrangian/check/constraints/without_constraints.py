@@ -21,7 +21,7 @@ from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.rows import differs_somewhere, zero_everywhere
 from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine
 from lagrangian.coordinates import Carrier, Change
 from lagrangian.derive import derive
@@ -267,6 +267,8 @@ def _as_put_in(
 
 def _is_zero(truth: Reference, expr: sp.Expr) -> bool:
     """Whether an expression is 0 when it is written out, or everywhere, as h/cos² θ − h − h tan² θ."""
+    if differs_somewhere(truth, expr):
+        return False
     if sp.expand_trig(expr).expand() == 0:
         return True
     return not _others(truth, expr) and zero_everywhere(truth, expr)
