@@ -81,7 +81,7 @@ def _put_in_from(
         if x.kind != "definition" or x.name is None or key(x.name) not in key(line.text):
             continue
         value = truth.expand(x.expr)
-        own = _own_terms(value) if terms(value) <= MOST_TERMS else []
+        own = own_terms_of(value) if terms(value) <= MOST_TERMS else []
         there = [t for t in own if _quotient(truth, wrong.term, t)]
         found += [
             Finding(x, Status.WRONG, differences=(difference(truth, replace(wrong, term=t), None),)) for t in there
@@ -126,7 +126,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     """
     if terms(expr) > MOST_TERMS:
         return None
-    own = _own_terms(expr)
+    own = own_terms_of(expr)
     if not 2 < len(own) <= MOST_TERMS:
         return None
     powers = [(t, f) for t in own for c in truth.model.coordinates for f in _powers(t, c.rate)]
@@ -135,7 +135,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
         return None
     outside = _outside(truth, values)
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
-    found = _in_factors(truth, wrong, across)
+    found = in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
         share = _share(wrong, across[term] - right)
         if share is not None and np.allclose(share, 1, rtol=NEAR):
@@ -152,13 +152,13 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
     that without accelerations is wrong: a moment or a force. By a number, it may be either.
     """
-    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
+    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
     if not 1 < len(own) <= MOST_TERMS:
         return None
     found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
     if not np.isfinite(found).all():
         return None
-    listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    listed = sorted(in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
     if not listed:
         return _missing(truth, found[0], values)
     best = [x for rank, x in listed if rank == listed[0][0]]
@@ -191,7 +191,7 @@ def _together(group: Sequence[sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", sp.factor_terms(sp.Add(*group))) if len(group) > 1 else group[0]
 
 
-def _in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
+def in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
     """The terms that are wrong by a factor, if all others are right, each with how far-fetched the factor is."""
     listed = list(_factors(truth))
     found: list[tuple[int, WrongTerm]] = []
@@ -210,7 +210,7 @@ def _powers(term: sp.Expr, rate: sp.Expr) -> list[sp.Expr]:
     return [rate] if power == 1 else [1 / rate] if power == 2 else []
 
 
-def _own_terms(expr: sp.Expr) -> list[sp.Expr]:
+def own_terms_of(expr: sp.Expr) -> list[sp.Expr]:
     """The terms of an equation: multiplied out, as they are written, and those of sums in them, each once."""
     found: dict[sp.Expr, sp.Expr] = {}
     written = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]

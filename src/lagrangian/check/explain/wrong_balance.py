@@ -15,8 +15,10 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
-from lagrangian.check.explain.combined_rows import difference, term_to_blame
+from lagrangian.check.explain.balance_terms import Mend, mends, plainest
+from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
+from lagrangian.check.held import held
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import small
@@ -60,6 +62,22 @@ class Balances:
         left = np.abs((A @ u[:, :, None])[:, :, 0] + b)
         return u if (left <= NEAR * np.maximum(scale, 1e-300)).all() else None
 
+    def forces_without(self, k: int) -> dict[sp.Basic, Array] | None:
+        """The forces that the lines without one determine; None if one of its own is not among these."""
+        rows = [i for i in range(len(self.lines)) if i != k]
+        if (u := self.solved(rows)) is None:
+            return None
+        found: dict[sp.Basic, Array] = {}
+        for j, force in enumerate(self.forces):
+            alone = np.zeros((len(self.A), 1, len(self.forces)))
+            alone[:, 0, j] = 1
+            both = np.linalg.matrix_rank(np.concatenate([self.A[:, rows], alone], axis=1))
+            if (both == np.linalg.matrix_rank(self.A[:, rows])).all():
+                found[force] = u[:, j]
+            elif self.A[:, k, j].any():
+                return None
+        return found
+
     def compared(self, rows: Sequence[int]) -> bool:
         """Whether each of some lines is compared with the rest: the others determine all forces, too."""
         whole = self.rank(range(len(self.lines)))
@@ -77,36 +95,71 @@ def with_wrong_balance(
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
-    if verdict.status is not Status.WRONG or truth.derivation.multipliers or truth.n < 2 or verdict.hint == 0:
+    on = held(truth) if truth.derivation.multipliers else truth
+    if verdict.status is not Status.WRONG or on is None or truth.n < 2 or verdict.hint == 0:
         return verdict
-    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(truth, lines)) is None:
+    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(on, lines)) is None:
         return verdict
-    every = range(len(balances.lines))
-    k = _one_wrong(balances)
-    u = balances.solved([i for i in every if i != k])
-    if u is None or not balances.compared([i for i in every if i != k]):
+    if (solved := _one_blamed(on, balances, later)) is None:
         return verdict
-    values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
-    false = [x for x in later if not _is_true(truth, x, values)]
-    if k is None and len(false) != 1:
-        return verdict
-    line = false[0] if k is None else balances.lines[k]
-    term = term_to_blame(truth, line.expr, values)
-    blamed = Finding(line, Status.WRONG, differences=() if term is None else (difference(truth, term, None),))
+    every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
+    of_forces = solved.term is not None and solved.term.term.has(*balances.forces)
+    blamed = Finding(
+        line, Status.WRONG, differences=() if solved.term is None else (difference(on, solved.term, None),)
+    )
     own = balances.lines
     causes = [own] if k is not None else [(*own[:i], *own[i + 1 :], line) for i in every]
     below = [x for x in lines if x.kind == "equation" and not x.expr.has(*balances.forces)]
     below += [x for x in false if x is not line]
-    holds = np.any([_hold(truth, rows, balances.forces, below) for rows in causes], axis=0)
+    holds = np.any([_hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
-    if verdict.mistakes and roots == {_at(line)}:
+    if verdict.mistakes and roots == {_at(line)} and not of_forces:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
     return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Blamed:
+    """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
+    later lines that are."""
+
+    k: int | None
+    line: AnsweredLine
+    term: WrongTerm | None
+    false: tuple[AnsweredLine, ...] = ()
+
+
+def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> Blamed | None:
+    """The line that is wrong; None if it may be several, and none of them would be right with a plain term."""
+    every, left_out = range(len(balances.lines)), _left_out(balances)
+    k = left_out[0] if len(left_out) == 1 else None
+    rest = [i for i in every if i != k]
+    if len(left_out) <= 1 and balances.compared(rest) and (u := balances.solved(rest)) is not None:
+        values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
+        false = [x for x in later if not _is_true(truth, x, values)]
+        if k is None and len(false) != 1:
+            return None
+        line = false[0] if k is None else balances.lines[k]
+        term = term_to_blame(truth, line.expr, values)
+        if term is None and (best := plainest({0: mends(truth, line.expr, values, balances.forces)})) is not None:
+            term = best[1]
+        return Blamed(k, line, term, tuple(false))
+    listed: dict[int, list[Mend]] = {}
+    given: dict[int, dict[sp.Basic, Array]] = {}
+    for i in left_out:
+        if (u := balances.forces_without(i)) is not None:
+            given[i] = truth.accelerations | u
+            listed[i] = mends(truth, balances.lines[i].expr, given[i], list(u))
+    if (best := plainest(listed)) is None:
+        return None
+    i, term = best
+    false = tuple(x for x in later if not _is_true(truth, x, given[i]))
+    return Blamed(i, balances.lines[i], term, false)
 
 
 def with_forces_of_below(
@@ -153,7 +206,7 @@ def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | Non
     """The lines of an answer with forces of its own; None if these are not linear, or too many or too few."""
     forces = sorted(unknown_in(truth, lines), key=str)
     rows = tuple(x for x in lines if x.kind == "equation" and x.expr.has(*forces)) if forces else ()
-    if not 0 < len(forces) <= MOST_FORCES or not len(forces) + 1 < len(rows) <= MOST_LINES:
+    if not 0 < len(forces) <= MOST_FORCES or not len(forces) < len(rows) <= MOST_LINES:
         return None
     slopes: list[sp.Expr] = []
     for x in rows:
@@ -169,13 +222,12 @@ def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | Non
     return Balances(rows, tuple(forces), A, values[len(slopes) :].T)
 
 
-def _one_wrong(balances: Balances) -> int | None:
-    """The place of the line without which all others hold; None if there is none, or several."""
+def _left_out(balances: Balances) -> list[int]:
+    """The places of the lines without which all others hold; none if all hold together."""
     every = list(range(len(balances.lines)))
     if balances.solved(every) is not None:
-        return None
-    found = [k for k in every if balances.solved([i for i in every if i != k]) is not None]
-    return found[0] if len(found) == 1 else None
+        return []
+    return [k for k in every if balances.solved([i for i in every if i != k]) is not None]
 
 
 def _is_true(truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array]) -> bool:
