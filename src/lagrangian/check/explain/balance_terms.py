@@ -95,8 +95,7 @@ def _inertias(truth: Reference) -> list[sp.Expr]:
 
 def _has_weight(truth: Reference, expr: sp.Expr) -> bool:
     """Whether a line has a weight, of any body."""
-    still = sp.Add(*sp.Add.make_args(truth.V))
-    g = [p.symbol for p in truth.model.parameters if p.name == "g" and still.has(p.symbol)]
+    g = [p.symbol for p in truth.model.parameters if p.name == "g" and truth.V.has(p.symbol)]
     return bool(g) and expr.has(*g)
 
 
@@ -114,9 +113,7 @@ def _is_inertia(truth: Reference, term: sp.Expr, J: sp.Expr) -> bool:
     return any(term in (x, -x) for x in turned)
 
 
-def _other_inertias(
-    truth: Reference, expr: sp.Expr, wrong: Array, values: Mapping[sp.Basic, Array]
-) -> Iterator[Mend]:
+def _other_inertias(truth: Reference, expr: sp.Expr, wrong: Array, values: Mapping[sp.Basic, Array]) -> Iterator[Mend]:
     """The moment of inertia about the centre of mass for one of the same letters about another point."""
     if _has_weight(truth, expr):
         return
@@ -162,24 +159,29 @@ def _missing(
 
 def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Iterator[tuple[float, sp.Expr]]:
     """Forces of the answer's own and of the system, and masses times accelerations of one kind."""
-    for f in forces:
-        yield MISSING, cast("sp.Expr", f)
     model = truth.model
-    moving = [c.acceleration for c in model.coordinates]
+    masses = [p.symbol for p in model.parameters if _is_mass(truth, p.symbol)][:MOST_LETTERS]
     rates = [c.rate for c in model.coordinates]
-    seen: set[sp.Expr] = set()
+    kinds = [c.acceleration for c in model.coordinates]
+    kinds += [2 * a * b if a != b else a * b for a, b in combinations_with_replacement(rates, 2)]
+    found: dict[sp.Expr, float] = {cast("sp.Expr", f): MISSING for f in forces}
     for row in truth.rows:
         own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
         for t in own:
+            powers = t.as_powers_dict()
+            inert = t.has(*kinds[: len(rates)]) or sum(int(powers.get(x, 0)) for x in rates) > 1
+            foreign = inert and any(t.has(m) and not expr.has(m) for m in masses)
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
-            if signed not in seen:
-                seen.add(signed)
-                yield MISSING, signed
-    letters = [p.symbol for p in model.parameters if truth.T.has(p.symbol)][:MOST_LETTERS]
-    kinds = [*moving, *(2 * a * b if a != b else a * b for a, b in combinations_with_replacement(rates, 2))]
-    for m in letters:
+            found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
+    for m in masses:
         for kind in kinds:
-            yield MISSING + BODY + (0 if expr.has(m) else FOREIGN), cast("sp.Expr", m * kind)
+            found.setdefault(cast("sp.Expr", m * kind), MISSING + BODY + (0 if expr.has(m) else FOREIGN))
+    yield from ((cost, x) for x, cost in found.items())
+
+
+def _is_mass(truth: Reference, letter: sp.Symbol) -> bool:
+    """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
+    return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
 
 
 def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:

@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
@@ -34,6 +35,8 @@ NAME = "wrong_balance"
 """The name of the mistake."""
 MOST_LINES, MOST_FORCES = 12, 6
 """The most lines, and the most forces in them, that are compared."""
+MOST_TOLD = 3
+"""The most lines of which one is said to be wrong."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
 WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
@@ -95,15 +98,15 @@ def with_wrong_balance(
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
-    on = held(truth) if truth.derivation.multipliers else truth
-    if verdict.status is not Status.WRONG or on is None or truth.n < 2 or verdict.hint == 0:
+    if verdict.status is not Status.WRONG or truth.n < 2 or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
-    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(on, lines)) is None:
+    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    if on is None or (balances := _balances(on, lines)) is None:
         return verdict
     if (solved := _one_blamed(on, balances, later)) is None:
-        return verdict
+        return _without_invented(balances, verdict)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
-    of_forces = solved.term is not None and solved.term.term.has(*balances.forces)
+    plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
     blamed = Finding(
         line, Status.WRONG, differences=() if solved.term is None else (difference(on, solved.term, None),)
     )
@@ -115,7 +118,7 @@ def with_wrong_balance(
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
-    if verdict.mistakes and roots == {_at(line)} and not of_forces:
+    if verdict.mistakes and roots == {_at(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
@@ -126,12 +129,36 @@ def with_wrong_balance(
 @dataclass(frozen=True, eq=False)
 class Blamed:
     """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
-    later lines that are."""
+    later lines that are; ``few``: its term alone tells it from others."""
 
     k: int | None
     line: AnsweredLine
     term: WrongTerm | None
     false: tuple[AnsweredLine, ...] = ()
+    few: bool = False
+
+
+def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
+    """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
+    do not agree in their place."""
+    if not any(_of_derivatives(m) for m in verdict.mistakes):
+        return verdict
+    told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
+    left_out = _left_out(balances)
+    if not told and 1 < len(left_out) <= MOST_TOLD:
+        numbers = sorted({balances.lines[i].number for i in left_out})
+        listed = f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
+        names = [f for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
+        force = text(*[x for f in names for x in (f, ", ")][:-1])
+        what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
+        brief = text(f"Lines {listed} do not agree: one of them is wrong.")
+        told, others = (Mistake(NAME, what, WHY, 5, brief=brief),), ()
+    return replace(verdict, mistakes=told, alternatives=others)
+
+
+def _of_derivatives(mistake: Mistake) -> bool:
+    """Whether a mistake is told in derivatives of energies."""
+    return any("∂" in str(x) or "T*" in str(x) for x in (mistake.what, mistake.why))
 
 
 def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> Blamed | None:
@@ -159,7 +186,7 @@ def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLi
         return None
     i, term = best
     false = tuple(x for x in later if not _is_true(truth, x, given[i]))
-    return Blamed(i, balances.lines[i], term, false)
+    return Blamed(i, balances.lines[i], term, false, few=True)
 
 
 def with_forces_of_below(
@@ -200,6 +227,22 @@ def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an equation above a definition has its name."""
     own = key(str(line.name))
     return any(x.kind == "equation" and x.number < line.number and own in x.names for x in lines)
+
+
+def _primes_as_names(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines with S' beside S as a name, if the system has no S: a force is not differentiated."""
+    told = [x.expr for x in lines if x.kind == "equation"]
+    rates = set[sp.Basic]().union(*(e.atoms(sp.Derivative) for e in told))
+    own = unknown_in(truth, lines)
+    put = {
+        d: sp.Symbol(f"{d.args[0].func}'")
+        for d in rates
+        if isinstance(d, sp.Derivative) and d.derivative_count == 1 and d.args[0] in own
+    }
+    moving = {d.args[0] for d in rates if isinstance(d, sp.Derivative) and d.derivative_count > 1}
+    if not put or any(d.args[0] in moving for d in put):
+        return tuple(lines)
+    return tuple(replace(x, expr=bounded.replaced(x.expr, put)) for x in lines)
 
 
 def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | None:
