@@ -28,7 +28,7 @@ COSTS: dict[sp.Expr, float] = {sp.S.NegativeOne: 1.0, sp.Integer(2): 1.0, sp.S.Z
 LETTER, INVERSE, RATIO, MOVING = 2.0, 2.5, 3.0, 0.5
 """The same for a letter or an angle, for what a term is divided by, for both; more for a term with an acceleration."""
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
-"""What a missing force costs, and more for mass times acceleration, for the mass of a body that the line has not."""
+"""What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
 OTHER_INERTIA = 1.7
 """What a moment of inertia about another point costs."""
 CLEAR = 0.3
@@ -170,7 +170,8 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
         for t in own:
             powers = t.as_powers_dict()
             inert = t.has(*kinds[: len(rates)]) or sum(int(powers.get(x, 0)) for x in rates) > 1
-            foreign = inert and any(t.has(m) and not expr.has(m) for m in masses)
+            foreign = any(t.has(c.symbol) and not expr.has(c.symbol) for c in model.coordinates)
+            foreign |= inert and any(t.has(m) and not expr.has(m) for m in masses)
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
             found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
     for m in masses:
