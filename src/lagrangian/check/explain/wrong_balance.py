@@ -103,6 +103,8 @@ def with_wrong_balance(
     on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
     if on is None or (balances := _balances(on, lines)) is None:
         return verdict
+    if len(balances.forces) <= len(truth.derivation.multipliers):
+        return verdict  # multipliers
     if (solved := _one_blamed(on, balances, later)) is None:
         return _without_invented(balances, verdict)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
@@ -158,7 +160,7 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
 
 def _of_derivatives(mistake: Mistake) -> bool:
     """Whether a mistake is told in derivatives of energies."""
-    return any("∂" in str(x) or "T*" in str(x) for x in (mistake.what, mistake.why))
+    return any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
 
 
 def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> Blamed | None:
