@@ -14,7 +14,8 @@ from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
-from lagrangian.check.explain.wrong_balance import with_forces_of_below
+from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
+from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
@@ -151,7 +152,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=sought)
         verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
-        verdict = _with_forces_of_below(derivation, answer, decides.lines, verdict)
+        verdict = _with_balances(derivation, answer, decides.lines, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
     if unsure and (program := _program(answer)) is not None:
@@ -180,19 +181,24 @@ def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
     return marked or bool(answer.unknown) or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
 
 
-def _with_forces_of_below(
-    derivation: Derived, answer: Answer, lines: Sequence[AnsweredLine], verdict: check.Verdict
+def _with_balances(
+    derivation: Derived, answer: Answer, judged: Sequence[AnsweredLine], verdict: check.Verdict
 ) -> check.Verdict:
-    """The verdict on a wrong answer, in which forces that it solves from its own balances are read as unknown."""
+    """The verdict on a wrong answer with its balances that were not ``judged``, and in which forces that it solves from
+    these are read as unknown."""
 
     def read(numbers: frozenset[int]) -> tuple[Sequence[AnsweredLine], dict[str, sp.Expr]]:
         assert answer.read_without is not None
         found = answer.read_without(numbers)
         return check.lines_of(found), {u.name: u.symbol for u in found.unknown}
 
+    truth = truth_of(derivation)
+    lines = with_auxiliary(truth, check.lines_of(answer))
+    if any(all(x.text != y.text for y in judged) for x in lines if x.kind == "equation"):
+        verdict = with_wrong_balance(truth, filled(truth, lines), verdict)
     if answer.read_without is None:
         return verdict
-    return with_forces_of_below(truth_of(derivation), lines, read, verdict)
+    return with_forces_of_below(truth, lines, read, verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:

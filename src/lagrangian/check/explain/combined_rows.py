@@ -83,7 +83,7 @@ def _put_in_from(
         if x.kind != "definition" or x.name is None or key(x.name) not in key(line.text):
             continue
         value = truth.expand(x.expr)
-        own = _own_terms(value) if terms(value) <= MOST_TERMS else []
+        own = own_terms_of(value) if terms(value) <= MOST_TERMS else []
         there = [t for t in own if _quotient(truth, wrong.term, t)]
         found += [
             Finding(x, Status.WRONG, differences=(difference(truth, replace(wrong, term=t), None),)) for t in there
@@ -128,7 +128,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     """
     if terms(expr) > MOST_TERMS:
         return None
-    own = _own_terms(expr)
+    own = own_terms_of(expr)
     if not 2 < len(own) <= MOST_TERMS:
         return None
     powers = [(t, f) for t in own for c in truth.model.coordinates for f in _powers(t, c.rate)]
@@ -137,7 +137,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
         return None
     outside = _outside(truth, values)
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
-    found = _in_factors(truth, wrong, across)
+    found = in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
         share = _share(wrong, across[term] - right)
         if share is not None and np.allclose(share, 1, rtol=NEAR):
@@ -170,22 +170,14 @@ def _wrong_factors(
     truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]
 ) -> tuple[Array | None, list[tuple[int, WrongTerm]]]:
     """What is wrong in a line along the right motion, and its terms that have a wrong factor, the plainest first."""
-    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
+    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
     if not 1 < len(own) <= MOST_TERMS:
         return None, []
     found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
     if not np.isfinite(found).all():
         return None, []
-    listed = _in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
+    listed = in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
     return found[0], sorted(listed, key=lambda x: x[0])
-
-
-def likelihood(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> int | None:
-    """How likely it is that a line has one wrong term: 0 for a factor, 1 for a term that it lacks, None for neither."""
-    wrong, listed = _wrong_factors(truth, expr, values)
-    if wrong is None or listed:
-        return 0 if listed else None
-    return None if _missing(truth, wrong, values) is None else 1
 
 
 def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
@@ -233,7 +225,7 @@ def _together(group: Sequence[sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", sp.factor_terms(sp.Add(*group))) if len(group) > 1 else group[0]
 
 
-def _in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
+def in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
     """The terms that are wrong by a factor, if all others are right, each with how far-fetched the factor is."""
     listed = list(_factors(truth))
     found: list[tuple[int, WrongTerm]] = []
@@ -252,7 +244,7 @@ def _powers(term: sp.Expr, rate: sp.Expr) -> list[sp.Expr]:
     return [rate] if power == 1 else [1 / rate] if power == 2 else []
 
 
-def _own_terms(expr: sp.Expr) -> list[sp.Expr]:
+def own_terms_of(expr: sp.Expr) -> list[sp.Expr]:
     """The terms of an equation: multiplied out, as they are written, and those of sums in them, each once."""
     found: dict[sp.Expr, sp.Expr] = {}
     written = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]
