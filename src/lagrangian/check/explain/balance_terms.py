@@ -70,8 +70,12 @@ def plainest(listed: Mapping[int, Sequence[Mend]]) -> tuple[int, WrongTerm] | No
     if not every:
         return None
     best, k, term = every[0]
-    near = [x for cost, _, x in every[1:] if cost < best + CLEAR and x != term]
-    return None if near else (k, term)
+    near = [(at, x) for cost, at, x in every if cost < best + CLEAR]
+    alike = [
+        x for at, x in near if at == k and x.factor != sp.oo and x.term / term.term in (2, -2)
+    ]  # 2 M g for M g, not M g more
+    near = [x for x in near if x[1] not in (term, *alike)]
+    return None if near else (k, alike[0] if term.factor == sp.oo and alike else term)
 
 
 def _cost(truth: Reference, wrong: WrongTerm) -> float:
@@ -171,7 +175,7 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
             powers = t.as_powers_dict()
             inert = t.has(*kinds[: len(rates)]) or sum(int(powers.get(x, 0)) for x in rates) > 1
             foreign = any(t.has(c.symbol) and not expr.has(c.symbol) for c in model.coordinates)
-            foreign |= inert and any(t.has(m) and not expr.has(m) for m in masses)
+            foreign |= any(t.has(m) and not expr.has(m) for m in masses)
             signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
             found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
     for m in masses:
