@@ -19,9 +19,9 @@ from lagrangian.check.explain.spoken import in_dissipation, in_lagrangian
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import given, index_of, right_value
-from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status
 from lagrangian.model import time
-from lagrangian.page.formula import Left, Minus, Name, Partial, Total, text
+from lagrangian.page.formula import Left, Minus, Name, Partial, Text, Total, text
 
 WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
@@ -104,7 +104,18 @@ def of_derivative_of(
     found = [replace(m, why=WHY_FUNCTION) if m.name == "sine_cosine" else m for m in told]
     if (slip := slip_in(truth, line, lines)) is None:
         return found, tuple(others)
-    return [_with_slip(found[0], slip), *found[1:]], tuple(m for m in others if m.name not in RESTATED)
+    more = [_of_own_line(truth, m, lines, findings) for m in found[1:]]
+    return [_with_slip(found[0], slip), *more], tuple(m for m in others if m.name not in RESTATED)
+
+
+def _of_own_line(
+    truth: Reference, mistake: Mistake, lines: Sequence[AnsweredLine], findings: Sequence[Finding]
+) -> Mistake:
+    """A mistake in the equation of a coordinate, told in the wrong derivative of this coordinate if there is one."""
+    wrong = (f.line for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind in DERIVED)
+    own = [x for x in wrong if x.name == mistake.coordinate] if mistake.coordinate is not None else []
+    slip = slip_in(truth, own[0], lines) if len(own) == 1 and _is_of_equation(mistake) else None
+    return mistake if slip is None else _with_slip(mistake, slip)
 
 
 def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
@@ -113,8 +124,14 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
         return slip
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr)]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
-        return mistake
+        of = replace(mistake, what=slip.what, why=slip.why, brief=slip.brief)
+        return of if _is_of_equation(mistake) else mistake
     return with_reason(slip.what, mistake)
+
+
+def _is_of_equation(mistake: Mistake) -> bool:
+    """Whether the words of a mistake say that it is in an equation, in which a derivative was put."""
+    return any(isinstance(x, str) and x.endswith(" the equation of ") for x in mistake.what.parts)
 
 
 def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Mistake | None:
@@ -135,7 +152,22 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     words = str(first)
     brief = text("A term of ", title, " is not right.")
     what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
-    return Mistake(name, what, WHY, 5, None, truth.model.coordinates[i].name, brief)
+    return Mistake(name, what, _why(title, *pair), 5, None, truth.model.coordinates[i].name, brief)
+
+
+def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
+    """Why a term of a derivative is wrong: an inner derivative by the time that is missing, or a sine's wrong sign."""
+    functions = right.atoms(sp.sin, sp.cos)
+    if right == 0 or written == 0 or not functions:
+        return WHY
+    quotient = bounded.cancel(right / written)
+    rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
+    if quotient == -1 and (not isinstance(title, Total) or any(x != 0 and right.has(x) for x in rates.values())):
+        return WHY_FUNCTION
+    for f, inner in rates.items() if isinstance(title, Total) else ():
+        if inner not in (0, 1) and bounded.expand(quotient - inner) == 0:
+            return text("The chain rule: sine and cosine of ", f.args[0], " have the inner derivative ", inner, ".")
+    return WHY
 
 
 def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mistake]:
