@@ -51,7 +51,7 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
         solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
         if solved is None:
             break
-        k, name, value = solved
+        k, name, value = cast("tuple[int, Any, sp.Expr]", solved)
         unknown -= {name}
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]

@@ -124,8 +124,8 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
         return slip
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr)]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
-        of = replace(mistake, what=slip.what, why=slip.why, brief=slip.brief)
-        return of if _is_of_equation(mistake) else mistake
+        why = mistake.why if slip.why is WHY else slip.why
+        return replace(mistake, what=slip.what, why=why, brief=slip.brief) if _is_of_equation(mistake) else mistake
     return with_reason(slip.what, mistake)
 
 
@@ -166,7 +166,8 @@ def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
         return WHY_FUNCTION
     for f, inner in rates.items() if isinstance(title, Total) else ():
         if inner not in (0, 1) and bounded.expand(quotient - inner) == 0:
-            return text("The chain rule: sine and cosine of ", f.args[0], " have the inner derivative ", inner, ".")
+            angle = cast("sp.Expr", f.args[0])
+            return text("The chain rule: sine and cosine of ", angle, " have the inner derivative ", inner, ".")
     return WHY
 
 

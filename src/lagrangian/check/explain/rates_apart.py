@@ -19,7 +19,7 @@ def rates_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
     if len(rates) < 2 or any(x.has(*rates) for pair in slopes.values() for x in pair):
         return ()
     still = dict.fromkeys(rates, sp.S.Zero)
-    if bounded.expand(written.xreplace(still) - right.xreplace(still)) != 0:
+    if bounded.expand(cast("sp.Expr", (written - right).xreplace(still))) != 0:
         return ()
     differ = [v for v, (own, theirs) in slopes.items() if bounded.expand(own - theirs) != 0]
     if len(differ) != 1:

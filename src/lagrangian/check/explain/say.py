@@ -259,7 +259,7 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
         )
     else:
         name, what, brief = _part(change, site, times)
-        what = _text(*what.parts, *of_rotation(model, site)) if name == "term_forgotten" else what
+        what = text(*what.parts, *of_rotation(model, site)) if name == "term_forgotten" else what
         why = WHY_PART.get(site.step, WHY_PART[5])
         if name == "wrong_number" and site.step == 2:
             why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER

@@ -211,7 +211,7 @@ class GeometryChanges:
         if len(others) != 1:
             return v, ("the other rates",)
         pair = [w for w in self.s.v if w == v or w in others]
-        plain = [all(product(x, w, w) in ({}, {ONE: 1}) for x in velocities) for w in pair]
+        plain = [all(set(product(x, w, w)) <= {ONE} for x in velocities) for w in pair]
         return (pair[0], pair[1]) if plain == [False, True] else (pair[1], pair[0])
 
     def _parallel(self, velocity: list[sp.Expr], rates: list[Any]) -> bool:
