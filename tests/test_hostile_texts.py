@@ -14,6 +14,7 @@ import built_in
 import lagrangian as lg
 import size
 from effort import at_most
+from lagrangian.check.explain import beside_lengths
 from lagrangian.check.names import amounts_said
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
@@ -148,6 +149,8 @@ FORMS = {
     "_PROMPT": (sessions._PROMPT, "y" + BLANKS + "y"),
     "_DRAWN": (sketches._DRAWN, "w" + "-" * LONGEST),
     "_NUMBER of an amount": (amounts_said._NUMBER, "a" + "1" * LONGEST),
+    "_TWICE": (beside_lengths._TWICE, "2" + BLANKS + "y 2" + "y" * LONGEST),
+    "_HALF": (beside_lengths._HALF, "y" * LONGEST + BLANKS + r"/3 \frac{y" + BLANKS),
     "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANKS + "yy"),
 }
 

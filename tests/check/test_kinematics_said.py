@@ -77,7 +77,7 @@ def test_a_wrong_velocity_that_nothing_uses_is_the_mistake(said: str) -> None:
     (mistake,) = verdict.mistakes
     assert str(mistake.what) == (
         "Line 1 is not right: the x component of the velocity of particle 'bob' is s*cos(theta)*theta' + x', "
-        "not -s*cos(theta)*theta' + x'."
+        "not -s*cos(theta)*theta' + x': the term -s*cos(theta)*theta' has the wrong sign."
     )
     assert not any("not judged" in str(note) for note in verdict.notes)
 

@@ -39,7 +39,7 @@ def test_velocities_along_one_line_have_signs_and_no_directions() -> None:
     right = "T = 1/2 m x'^2 + 1/2 n (2 x' + u')^2"
     assert plank().check(right, hint=0).right or not plank().check(right).mistakes
     told = first(plank().check(right.replace("+ u'", "- u'")))
-    assert told == "In the velocity of particle 'trolley', the sign of u' against the other rates is wrong."
+    assert told == "In the velocity of particle 'trolley', the sign of u' against x' is wrong."
 
 
 PROGRAM = """function yd = plank(t, y, F)

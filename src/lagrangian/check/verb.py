@@ -16,7 +16,7 @@ from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
-from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion
+from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
@@ -152,6 +152,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=sought)
         verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
+        verdict = _with_forces_put_in(derivation, answer, decides, verdict)
         verdict = _with_balances(derivation, answer, decides.lines, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
@@ -199,6 +200,15 @@ def _with_balances(
     if answer.read_without is None:
         return verdict
     return with_forces_of_below(truth, lines, read, verdict)
+
+
+def _with_forces_put_in(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
+    """The verdict on a wrong answer whose own balances were judged with their forces put in: of these as they stand."""
+    truth = truth_of(derivation)
+    if not decides.together or derivation.multipliers:
+        return verdict
+    lines = with_auxiliary(truth, check.lines_of(answer))
+    return with_wrong_balance(truth, filled(truth, lines), verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
@@ -263,8 +273,8 @@ def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]
 
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
-    lines = with_auxiliary(truth_of(derivation), check.lines_of(answer))
     names = [u.symbol for u in answer.unknown]
+    lines = with_auxiliary(truth_of(derivation), without_constants(check.lines_of(answer), names))
     if derivation.multipliers:  # any name beside accelerations may be a multiplier
         names = unused_in_motion(lines, names, [c.name for c in derivation.model.coordinates])
     free = len(derivation.model.coordinates) - len(derivation.multipliers)

@@ -319,7 +319,8 @@ def _marked(
 def _read(forces: Sequence[sp.Basic]) -> Text:
     """The note on how forces were read."""
     names = ", ".join(f"'{plain(x)}'" for x in forces)
-    return text(f"{names} {'was' if len(forces) == 1 else 'were'} taken as unknown forces and eliminated.")
+    read = "was taken as an unknown force" if len(forces) == 1 else "were taken as unknown forces"
+    return text(f"{names} {read} and eliminated.")
 
 
 def _is_of(note: Text, forces: Sequence[sp.Basic]) -> bool:
