@@ -55,8 +55,9 @@ def named_beside_multipliers(
             for k, f in zip(keys, verdict.findings, strict=True)
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
-    read, own = with_exchanged(truth, read, lines), where_held(truth, wrong)
-    judged = _following(truth, own, wrong, with_terms_put_in(truth, judge(read.lines)))
+    read = with_exchanged(truth, read, lines)
+    own = where_held(truth, wrong)
+    judged = _below(truth, own, wrong, with_terms_put_in(truth, judge(read.lines)))
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
@@ -83,24 +84,15 @@ def named_beside_multipliers(
     found = {k: _without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True)}
     findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
     findings = with_wrong_definitions(findings, named.blamed)
-    return replace(
-        verdict,
-        findings=findings,
-        mistakes=told,
-        alternatives=named.others,
-        notes=() if odd else read.notes,
-        sure=named.sure,
-    )
+    notes = () if odd else read.notes
+    return replace(verdict, findings=findings, mistakes=told, alternatives=named.others, notes=notes, sure=named.sure)
 
 
-def _following(
-    truth: Reference, own: OnConstraints | None, wrong: Sequence[WrongConstraint], judged: Findings
-) -> tuple[Finding, ...]:
-    """The findings, of which those below wrong constraints that hold with these follow from them; ``own`` is the system
-    with the wrong constraints in place of its own."""
+def _below(truth: Reference, own: OnConstraints | None, wrong: Sequence[WrongConstraint], judged: Findings) -> Findings:
+    """The findings, of which those follow that are right with the answer's own constraints."""
     judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
     judged = with_reduced(truth, wrong, judged)
-    return tuple(_below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND]))
+    return _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
 
 
 def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
