@@ -340,3 +340,19 @@ def test_two_sides_that_are_printed_with_an_equals_sign_are_an_equation(shown: s
     assert cart.check(program + shown).right
     assert not cart.check(program.replace("F - b", "F + b") + shown).right
     assert not cart.check(program.replace("F - b*x.diff(t)", "0*m") + shown).right
+
+
+def test_parameters_may_be_taken_from_a_table_in_a_list_of_names() -> None:
+    program = """import numpy as np
+def rhs(t, z, F, P):
+    x, th, xd, thd = z
+    M, m, l, J, b, g = (P[n] for n in ("M", "m", "l", "J", "b", "g"))
+    A = np.array([[M + m, m*l*np.cos(th)], [m*l*np.cos(th), J + m*l**2]])
+    f = np.array([F - b*xd + m*l*thd**2*np.sin(th), m*g*l*np.sin(th)])
+    acc = np.linalg.solve(A, f)
+    return [xd, thd, acc[0], acc[1]]
+"""
+    cart = derivation("cart-pole")
+    assert cart.check(program).right
+    assert not cart.check(program.replace("F - b", "F + b")).right
+    assert not cart.check(program.replace('("M", "m", ', '("m", "M", ')).right
