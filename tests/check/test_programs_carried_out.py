@@ -374,3 +374,19 @@ for q, Q in ((phi, Q_phi), (s, Q_s)):
     assert derivation.check(program.replace("2*c", "c")).right
     (mistake,) = derivation.check(program).mistakes
     assert "amper" in str(mistake.what)
+
+
+def test_parameters_may_be_taken_from_a_table_in_a_list_of_names() -> None:
+    program = """import numpy as np
+def rhs(t, z, F, P):
+    x, th, xd, thd = z
+    M, m, l, J, b, g = (P[n] for n in ("M", "m", "l", "J", "b", "g"))
+    A = np.array([[M + m, m*l*np.cos(th)], [m*l*np.cos(th), J + m*l**2]])
+    f = np.array([F - b*xd + m*l*thd**2*np.sin(th), m*g*l*np.sin(th)])
+    acc = np.linalg.solve(A, f)
+    return [xd, thd, acc[0], acc[1]]
+"""
+    cart = derivation("cart-pole")
+    assert cart.check(program).right
+    assert not cart.check(program.replace("F - b", "F + b")).right
+    assert not cart.check(program.replace('("M", "m", ', '("m", "M", ')).right

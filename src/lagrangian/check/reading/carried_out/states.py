@@ -232,7 +232,8 @@ def _argument(
     if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
         return Fields()
     indices = [x.slice for x in nodes if isinstance(x, ast.Subscript) and _is(x.value, name)]
-    if any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in indices):
+    listed_names = [x for x in nodes if isinstance(x, (ast.GeneratorExp, ast.ListComp)) and _takes_fields(x, name)]
+    if listed_names or any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in indices):
         return Fields()
     calls = [x for x in nodes if isinstance(x, ast.Call)]
     called = [x for x in calls if _is(x.func, name)]
@@ -257,6 +258,15 @@ def _argument(
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
         return State(name)
     return TIME if name == "t" else sp.Symbol(name)
+
+
+def _takes_fields(node: ast.GeneratorExp | ast.ListComp, name: str) -> bool:
+    """Whether parameters are taken from a table by their names: (p[x] for x in ("m", "l"))."""
+    of, names = node.elt, node.generators[0].iter
+    strings = isinstance(names, (ast.Tuple, ast.List)) and all(
+        isinstance(x, ast.Constant) and isinstance(x.value, str) for x in names.elts
+    )
+    return strings and isinstance(of, ast.Subscript) and _is(of.value, name)
 
 
 def _is(node: ast.expr, name: str) -> bool:
