@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from itertools import combinations
 
@@ -16,12 +17,13 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import CompiledExpressions
-from lagrangian.model import Body
+from lagrangian.model import Body, time
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
 MOST_PIECES = 10
 """The most pieces of T* of which all sums are compared with what is written."""
+_NUMBERED = re.compile(r"[\d₀-₉]\Z")
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
 
@@ -41,9 +43,12 @@ def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[in
         every = sp.Add(*values.values())
         if not values or (zero_everywhere(truth, every - truth.T) if kind == "kinetic" else _level(truth, every)):
             continue
+        counted = _counts_its_own(truth, lines, kind)
         for k, value in values.items():
             body = _owner(truth, lines[k], kind)
             if body is None or not _is_meant(truth, body, value, kind):
+                continue
+            if counted and _NUMBERED.search(lines[k].name or ""):
                 continue
             pieces = _kinetic(truth, body) if kind == "kinetic" else _potential(truth, body)
             of = [value] if kind == "kinetic" else [bounded.diff(value, c.symbol) for c in truth.model.coordinates]
@@ -51,6 +56,20 @@ def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[in
                 note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
                 found[k] = Finding(lines[k], Status.WRONG, note)
     return found
+
+
+def _counts_its_own(truth: Reference, lines: Sequence[AnsweredLine], kind: str) -> bool:
+    """Whether the numbers of T_1, T_2, … count parts of the answer's own and no bodies of the system: one of them is of
+    no body with this number, or has no letter of it."""
+    for x in lines:
+        if x.kind != "definition" or kinds_of(x.name or "") != (kind,) or not _NUMBERED.search(x.name or ""):
+            continue
+        body, value = owner_of(x.name or "", truth.model), in_names_of(truth, x)
+        if body is None or (
+            value is not None and not any(_is_meant(truth, b, value, kind) for b in truth.model.bodies)
+        ):
+            return True
+    return False
 
 
 def _owner(truth: Reference, line: AnsweredLine, kind: str) -> Body | None:
@@ -78,7 +97,7 @@ def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
     s = ingredients_of(truth.derivation)
     if kind == "kinetic":
         fits = any(bounded.diff(value, v).has(*s.v) for v in s.v)
-        letters = truth.put(s.kinetic(body)).free_symbols
+        letters = truth.put(s.kinetic(body)).free_symbols - {time}
     else:
         fits = s.moves(value) and not value.has(*s.v)
         letters = truth.put(s.expand(body.mass)).free_symbols
