@@ -153,3 +153,16 @@ end
     assert not verdict.right
     assert not any(f.line.kind == "T" for f in verdict.findings)
     assert any("the loop in line 8 adds to it" in str(note) for note in verdict.notes)
+
+
+def test_an_element_without_a_name_is_called_by_its_letters() -> None:
+    s = System("drum")
+    phi = s.coordinates("phi")
+    J, a, d = s.parameters("J a d")
+    P = s.inputs("P")
+    s.kinetic(J * phi.diff() ** 2 / 2)
+    s.torque(-P * a, on=phi)
+    s.damper(2 * d, deflection=phi)
+    told = s.derive().check("J*phi'' = P*a - 2*d*phi'").to_text()
+    assert "Torque P a has the wrong sign." in told
+    assert "orque 1" not in told

@@ -232,7 +232,7 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
                 match = _CLOSE.match(line)
             called = _COORDINATE.match(line) if form is _NUMBERED else None
             labelled = called is not None and (called["round"] or called["square"]) in numbers.named
-            if labelled and called["primes"] and words.is_name(called["round"]):
+            if called is not None and called["primes"] and words.is_name(called["round"]):
                 labelled = False
             match = called if labelled else match
             if form is _LABEL and (match is None or match.group().count("(") != match.group().count(")")):
