@@ -166,3 +166,12 @@ def test_an_element_without_a_name_is_called_by_its_letters() -> None:
     told = s.derive().check("J*phi'' = P*a - 2*d*phi'").to_text()
     assert "Torque P a has the wrong sign." in told
     assert "orque 1" not in told
+
+
+def test_a_spring_force_is_no_kinetic_energy() -> None:
+    right = "Spring force K = k x\n" + ROWS.format(a="alpha")
+    verdict = slider().check(right)
+    assert verdict.right
+    assert not any(f.line.kind == "T" for f in verdict.findings)
+    energy = slider().check("K = 1/2*M*x^2\nV = 1/2*k*x^2\nL = K - V\n" + ROWS.format(a="alpha"))
+    assert any(f.line.kind in ("T", "L") and not f.status.right for f in energy.findings)
