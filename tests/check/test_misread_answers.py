@@ -175,3 +175,18 @@ def test_a_spring_force_is_no_kinetic_energy() -> None:
     assert not any(f.line.kind == "T" for f in verdict.findings)
     energy = slider().check("K = 1/2*M*x^2\nV = 1/2*k*x^2\nL = K - V\n" + ROWS.format(a="alpha"))
     assert any(f.line.kind in ("T", "L") and not f.status.right for f in energy.findings)
+
+
+def test_what_turns_with_a_body_may_be_in_its_energy() -> None:
+    s = System("rack")
+    x = s.coordinates("x")
+    M, J, R = s.parameters("M J R")
+    F = s.inputs("F")
+    s.particle(M, at=s.point("A", (x, 0)), name="carriage")
+    s.kinetic(J * (x.diff() / R) ** 2 / 2, name="pinion")
+    s.force(F, deflection=x)
+    answer = "T_carriage = 1/2*(M + J/R^2)*x'^2\n(M + J/R^2)*x'' = 2*F"
+    found = s.derive().check(answer).findings
+    assert [f.status.right for f in found] == [True, False] or len(found) == 1
+    wrong = s.derive().check(answer.replace("1/2*(M + J/R^2)", "1/2*(M + 2*J/R^2)")).findings
+    assert not any(f.status.right for f in wrong)

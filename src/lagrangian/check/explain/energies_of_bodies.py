@@ -105,10 +105,13 @@ def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
 
 
 def _kinetic(truth: Reference, body: Body) -> list[list[sp.Expr]]:
-    """The energies of translations and rotations, those of a body first."""
+    """The energies of translations and rotations, those of a body first, and then those that are given: of a pinion
+    that turns with the carriage."""
     s = ingredients_of(truth.derivation)
     bodies = [body, *(b for b in s.bodies if b is not body)]
-    return [[truth.put(x)] for b in bodies for x in (s.translation(b), s.rotation(b)) if x != 0]
+    listed = [x for b in bodies for x in (s.translation(b), s.rotation(b))]
+    listed[2:2] = [s.kinetic(e) for e in truth.model.elements if e.kind == "kinetic"]
+    return [[truth.put(x)] for x in listed if x != 0]
 
 
 def _potential(truth: Reference, body: Body) -> list[list[sp.Expr]]:

@@ -37,9 +37,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             found.add("P")
         if moving[k]:
             continue
-        if str(named[0]) in ("K", "R") and listed and all(names.scope.meanings(x)[0] for x in listed):
-            if not any(_is_energy(x, s, str(named[0]), model) for x, s in zip(first, statements, strict=True)):
-                found.add(str(named[0]))  # the force of a spring, K = k (x - l sin θ), of which every name has a value
+        known = str(named[0]) in ("K", "R") and listed and all(names.scope.meanings(x)[0] for x in listed)
+        if known and not any(_is_energy(x, s, str(named[0]), model) for x, s in zip(first, statements, strict=True)):
+            found.add(str(named[0]))  # the force of a spring, K = k (x - l sin θ), of which every name has a value
         other = only_name(sides[1]) if len(sides) == 2 else None
         renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
         if kind in ("V", "L") and not renamed and any(names.changes(x) or key(x) in given for x in listed):
