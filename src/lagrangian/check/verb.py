@@ -213,7 +213,7 @@ def _computes_right(typed: check.Verdict, computed: check.Verdict) -> bool:
     right = lines(computed, False) - lines(computed, True)
     kinds = {kind for _, kind in lines(computed, True)}
     energies = {kind for _, kind in right if kind != "equation" and kind not in kinds}
-    return any(x in right or x[1] in energies for x in lines(typed, True))
+    return not computed.right and any(x in right or x[1] in energies for x in lines(typed, True))
 
 
 def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:
