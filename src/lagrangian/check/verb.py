@@ -156,7 +156,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = _with_balances(derivation, answer, decides.lines, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
-    if unsure and (program := _program(answer)) is not None:
+    program = None if verdict.right and not unsure else _program(answer)
+    if program is not None and (unsure or _computes_right(verdict, _judged(derivation, program)[1])):
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
@@ -245,6 +246,19 @@ def _gives_number(line: AnsweredLine) -> bool:
     """Whether a line equates one letter and a number."""
     letters = line.expr.free_symbols
     return line.kind == "equation" and len(letters) == 1 and bool(line.expr.diff(*letters).is_number)
+
+
+def _computes_right(typed: check.Verdict, computed: check.Verdict) -> bool:
+    """Whether a program computes what is right where a line is called wrong as it is typed: a loop adds to T."""
+
+    def lines(verdict: check.Verdict, wrong: bool) -> set[tuple[int, str]]:
+        found = {(f.line.number, f.line.kind) for f in verdict.findings if (f.status is check.Status.WRONG) == wrong}
+        return {x for x in found if x[1] in ("T", "V", "L", "equation")}
+
+    right = lines(computed, False) - lines(computed, True)
+    kinds = {kind for _, kind in lines(computed, True)}
+    energies = {kind for _, kind in right if kind != "equation" and kind not in kinds}
+    return not computed.right and any(x in right or x[1] in energies for x in lines(typed, True))
 
 
 def _of_comments(lines: set[tuple[int, str]]) -> set[tuple[int, str]]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
+from lagrangian.check.by_letters import called_by_letters
 from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.errors import listed
@@ -46,6 +48,7 @@ def report(verdict: Verdict, model: Model) -> Report:
         parts.append(Part(text("What went wrong"), tuple(_why(verdict))))
     if verdict.hint >= 3 and (found := tuple(_terms(verdict, model))):
         parts.append(Part(text("Term by term"), found))
+    parts = [replace(part, items=called_by_letters(part.items, model)) for part in parts]
     return Report(f"Your answer: {model.name}", model, tuple(parts), Verdict.to_dict(verdict))
 
 

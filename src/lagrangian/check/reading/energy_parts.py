@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import pairwise
 
 import sympy as sp
@@ -54,12 +54,18 @@ _NAME = re.compile(r"\\?[^\W\d½¼¾⅐-⅞⁰-⁹¹²³](?:\w|[\u0307\u0308]){0
 _FORMULA = re.compile(r"[\w\s.,+\-−–*·×/^()\[\]{}'’′²³½¼⅐-⅞¾\\|⋅∙\u0307]{2,300}")
 _OTHER = re.compile(
     r"damp|dissip|rayleigh|dämpf|amort|reib|fricti|loss|verlust|lagrang|power|leistung|work|arbeit|total|sum|gesamt"
-    r"|whole|check|probe|deriv|force|kraft|equation|gleichung|result|momentum|unit|term",
+    r"|whole|check|probe|deriv|force|kraft|equation|gleichung|result|momentum|unit|term"
+    r"|together|everything|zusammen|system|overall|where|with|hence|thus|then|case|before|after|old|new",
     re.IGNORECASE,
 )
 """Words of labels of other things, and of the energy of the whole."""
 _SMALL = frozenset(["the", "its", "for", "der", "die", "das", "des", "von", "and", "und", "part"])
 _STATED = re.compile(r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])")
+_LISTED = re.compile(
+    r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?"
+    r"(?P<label>[^\W\d_][\w-]{2,20}(?:[ ][\w-]{1,20}){0,3}?)[ \t]?:?[ \t]++(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])"
+)
+"""An energy behind the name of what has it: flyer  T = 1/2 J phi'^2."""
 _LATEX = re.compile(r"\\[A-Za-z(\[]|\$")
 _DEFINED = re.compile(r"([^\W\d]\w{0,24})[ \t]*+(?:(?:²|\^2)[ \t]*+)?=(?![=>])")
 _CELL = re.compile(r"\|")
@@ -71,12 +77,13 @@ def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[s
     """Return an answer in which such energies have a name: that of the body, or the first word in front of it.
 
     ``taken`` tells whether the system has a name. A T = … behind the name of one body, which has no mass or moment of
-    inertia of another, is the energy of this body.
+    inertia of another, is the energy of this body; in a list of such rows, each is that of what stands in front of it.
     """
     lines = list(re.finditer(r"[^\n]+", written.text))
     own = {key(m[1]) for m in _DEFINED.finditer(written.text)}
     latex = _LATEX.search(written.text) is not None
     parts = _Parts(model, lambda x: taken(x) or key(x) in own, own, latex=latex)
+    parts.listed = parts.rows_of_parts(line.group() for line in lines)
     return written.edited(edit for line in lines for edit in parts.named(line))
 
 
@@ -97,6 +104,8 @@ class _Parts:
         self.kind: str | None = None
         self.columns: list[str | None] = []
         self.body, self.indent = "", 0
+        self.listed = frozenset[str]()
+        """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.inertias = {b.name: _letters(b) for b in model.bodies}
 
     def named(self, line: re.Match[str]) -> Iterator[Edit]:
@@ -108,7 +117,10 @@ class _Parts:
             yield from self._in_table(text, at)
             return
         self.columns = []
-        if (stated := self._of_body(text)) is not None:
+        if text in self.listed and (row := _LISTED.match(text)) is not None:
+            kind = "T" if row["letter"][0] == "T" else "V"
+            yield at + row.start("label"), at + row.end("letter"), self._name(kind, row["label"])
+        elif (stated := self._of_body(text)) is not None:
             yield (at + stated[0], at + stated[1], stated[2])
         elif not self.latex and (found := self._in_list(text)) is not None:
             yield (at + found[0], at + found[0], f"{found[1]} = ")
@@ -214,6 +226,24 @@ class _Parts:
         if not others - mine or not mine & named or named & (others - mine):
             return None
         return *stated.span("letter"), self._name("T", self.body)
+
+    def rows_of_parts(self, lines: Iterable[str]) -> frozenset[str]:
+        """The rows that state T, or V, behind names of what has it, where each has only some of the letters of all."""
+        found = dict[str, dict[str, set[str]]]()
+        for text in lines:
+            row = _LISTED.match(text) if len(text) <= 2 * LONGEST else None
+            if row is None or _OTHER.search(row["label"]) or not self._speaks(row["label"]):
+                continue
+            named = {key(x) for x in _NAME.findall(text[row.end() :])}
+            mine = {p.name for p in self.model.parameters if key(p.name) in named}
+            found.setdefault(row["letter"][0], {})[text] = mine
+        rows = set[str]()
+        for listed in found.values():
+            every = set[str]().union(*listed.values())
+            parts = [text for text, mine in listed.items() if mine < every]
+            labels = {_LISTED.match(text)["label"] for text in listed}  # type: ignore[index]
+            rows.update(parts if len(parts) == len(listed) == len(labels) > 1 else ())
+        return frozenset(rows)
 
     # -- names -----------------------------------------------------------------------------------------------------
 

@@ -53,7 +53,8 @@ _ROUNDS = 4
 """How many marks of one kind may follow each other: (i) ⇒ from (2):"""
 _ENERGIES = frozenset(["T", "V", "U", "L", "D", "W"])
 _COORDINATE = re.compile(
-    r"\s*(?:\(\s?(?P<round>[^\W\d]\w{0,12})\s?\)|\[\s?(?P<square>[^\W\d]\w{0,12})\s?\])[.:]?(?P<gap>\s+)(?=[^\s*/^=+])"
+    r"\s*(?:\(\s?(?P<round>[^\W\d]\w{0,12})(?P<primes>['’′]{0,2})\s?\)|\[\s?(?P<square>[^\W\d]\w{0,12})\s?\])"
+    r"[.:]?(?P<gap>\s+)(?=[^\s*/^=+])"
 )
 _BROKEN = re.compile(r"(?<=[-+−–*·(=])[ \t]*+\n|\n[ \t]*+(?=[-+−–=])")
 """The end of a line where an equation goes on below it."""
@@ -152,7 +153,7 @@ def numbering(text: str, words: Words) -> Numbering:
     last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
     before, behind = (len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last))
     whole = _BROKEN.sub(" ", text).split("\n")
-    first_names = [m for line in whole if "=" in line and (m := _COORDINATE.match(line))]
+    first_names = [m for line in whole if "=" in line and (m := _COORDINATE.match(line)) and not m["primes"]]
     written = [m["round"] or m["square"] for m in first_names]
     apart = all(m["square"] or len(m["gap"]) > 1 for m in first_names) and len(set(written)) == len(written)
     far = apart and all(words.names.changes(x) or not words.is_name(x) or words.is_own(x) for x in written)
@@ -162,7 +163,8 @@ def numbering(text: str, words: Words) -> Numbering:
     lettered = all(len(x) == 1 and words.count(x) == 1 and not words.known(x) for x in written)
     marks = [m[1] for line in lines if (m := _LETTER_BEHIND.search(line[-30:]))]
     in_order = _in_order(marks)
-    marked = [m["round"] for line in text.split("\n") if (m := _COORDINATE.match(line)) and m["round"]]
+    bracketed = [m for line in text.split("\n") if (m := _COORDINATE.match(line)) and m["round"] and not m["primes"]]
+    marked = list(dict.fromkeys(m["round"] for m in bracketed))  # (D) differentiated: … is (D) once more
     told = len(written) > 1 and (named or lettered or far or _in_order(marked))
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
     behind_far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
@@ -230,6 +232,8 @@ def before(line: str, words: Words, numbers: Numbering) -> str:
                 match = _CLOSE.match(line)
             called = _COORDINATE.match(line) if form is _NUMBERED else None
             labelled = called is not None and (called["round"] or called["square"]) in numbers.named
+            if called is not None and called["primes"] and words.is_name(called["round"]):
+                labelled = False
             match = called if labelled else match
             if form is _LABEL and (match is None or match.group().count("(") != match.group().count(")")):
                 match = _label(line, words)

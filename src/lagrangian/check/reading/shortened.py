@@ -26,6 +26,8 @@ _SHORT = {
 _WHOLE = {short: word for word, listed in _SHORT.items() for short in listed} | {word: word for word in GREEK.values()}
 _WHOLE |= {"l": "ell", "ell": "ell"}
 _INDEXED = re.compile(r"([A-Za-z]+)(\d*)")
+_OF_ANGLE = re.compile(r"(?<!\w)(?:sin|cos|tan)[ ]?\([ ]?([^\W\d]\w{0,24}+)(?=[ ]?[-+−)])")
+_TWO_LETTERS = re.compile(r"([A-Za-z][a-z])_?(\d*)")
 
 
 class AnswerScope(Scope):
@@ -33,12 +35,14 @@ class AnswerScope(Scope):
 
     A shortened name is read if one name of the system alone can be meant, and if the answer does not define it:
     ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``. ℓ, which is the
-    letter l to Unicode, is ``ell`` where the system has no l.
+    letter l to Unicode, is ``ell`` where the system has no l. Two letters alone, al for alpha, are a name only where
+    the answer uses them as one: ``used``, or any if that is None, as in a program.
     """
 
     def __init__(self, symbols: Scope) -> None:
         self._letters: dict[tuple[str, str], list[str]] = {}
         self.taken: frozenset[str] = frozenset()
+        self.used: frozenset[str] | None = frozenset()
         super().__init__(symbols)
         for name in symbols:
             if (letter := _letter(name)) is not None:
@@ -53,14 +57,25 @@ class AnswerScope(Scope):
         return self._shortened(base), dots
 
     def _shortened(self, base: str) -> list[str]:
-        letter = _letter(base)
-        if letter is None or key(base) in self.taken or self._is_product(key(base)):
+        if key(base) in self.taken or self._is_product(key(base)):
             return []
+        letter = _letter(base)
+        if letter is None:
+            return self._begun(base)
         same = self._letters.get(letter, [])
         if same or letter[1] not in ("", "0") or letter[0] == "ell":
             return same if len(same) == 1 else []
         near = self._letters.get((letter[0], "" if letter[1] else "0"), [])
         return near if len(near) == 1 else []
+
+    def _begun(self, base: str) -> list[str]:
+        """The name that begins with these two letters, if the answer uses them as a name and it is the only one."""
+        match = _TWO_LETTERS.fullmatch(base)
+        if match is None or (self.used is not None and base not in self.used):
+            return []
+        stem, number = match[1], match[2]
+        begun = [x for (word, digits), x in self._letters.items() if word.startswith(stem) and digits == number]
+        return begun[0] if len(begun) == 1 and len(begun[0]) == 1 else []
 
     def _is_product(self, word: str) -> bool:
         """Whether a shortened name is two names of the system next to each other: al as a·l."""
@@ -68,6 +83,11 @@ class AnswerScope(Scope):
             super(AnswerScope, self).meanings(word[:k])[0] and super(AnswerScope, self).meanings(word[k:])[0]
             for k in range(1, len(word))
         )
+
+
+def of_angles(text: str) -> frozenset[str]:
+    """The names of which an answer takes a sine or a cosine: cos(al)."""
+    return frozenset(m[1] for m in _OF_ANGLE.finditer(text))
 
 
 def meant(written: str, names: Iterable[str]) -> list[str]:

@@ -102,6 +102,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     matlab = matlab and (loose is None or not loose.from_zero)
     bare = _MARKS.sub(lambda m: "" if "`" not in m.group() else "#", text)
     scope = AnswerScope(Scope(model.symbols))
+    scope.used = None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SyntaxWarning)

@@ -89,6 +89,8 @@ def _is_moving_product(word: str) -> bool:
 
 
 _SPELLED = frozenset(SPELLED.values())
+LONGEST_SHORT = 3
+"""The most letters of a Greek letter's name that may be a product: mu, eta, rho."""
 
 
 class Words:
@@ -225,8 +227,10 @@ class Words:
             return [word]
         if word in self._spoken:
             return [word]
-        if self._is_force(word) and (word[-1].isdigit() or word in _SPELLED or self.is_used(word)):
-            return [word]  # lam1 is no l a m1, and lambda no l a m b d a
+        if self._is_force(word) and (word[-1].isdigit() or not word.startswith("mu")):
+            return [word]  # lam1 is no l a m1
+        if len(word) > LONGEST_SHORT and word in _SPELLED:
+            return [word]  # lambda is no l a m b d a
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
