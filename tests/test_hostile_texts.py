@@ -31,7 +31,7 @@ from lagrangian.read.robots.markup import MarkupFile
 LONGEST = 50_000
 N = LONGEST if size.EVERY else LONGEST // 2 if size.FULL else LONGEST // 5
 """Characters of an answer: half of the longest among the tests that take long, the longest before a release."""
-MOST = 6_000_000 if size.EVERY else 4_000_000 if size.FULL else 250 * N
+MOST = min(6_000_000, 250 * N)
 """Calls of functions in which such an answer is read."""
 BLANK = " " * N
 BLANKS = " " * LONGEST
