@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -150,7 +150,7 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
     if not told and 1 < len(left_out) <= MOST_TOLD:
         numbers = sorted({balances.lines[i].number for i in left_out})
         listed = f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
-        names = [f for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
+        names = [cast("sp.Expr", f) for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
         force = text(*[x for f in names for x in (f, ", ")][:-1])
         what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
         brief = text(f"Lines {listed} do not agree: one of them is wrong.")
