@@ -153,3 +153,9 @@ def test_what_lines_do_not_agree_is_no_matter_of_energies() -> None:
 def test_two_wrong_balances_are_not_told_as_one() -> None:
     answer = changed(tuple(changed(CART, 3, "m l phi'' sin(phi) = Y - m g").split("\n")), 1, "M x'' = F + 3 X")
     assert all("line 3" not in x or "line 1" in x for x in said(pendulum(), answer))
+
+
+def test_an_odd_factor_is_no_reason() -> None:
+    row = "m l^2/3 phi'' + m l/2 x'' cos(phi) + m g l/2 sin(phi) = 0"
+    told = said(crank(), f"(M + m) x'' + m l/2 phi'' cos(phi) + 9/16 m l phi'^2 sin(phi) = 0\n{row}")
+    assert told and "phi'^2" in told[0] and " times" not in told[0], told

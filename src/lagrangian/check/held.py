@@ -36,11 +36,12 @@ class OnConstraints(Reference):
     def accelerations(self) -> dict[sp.Basic, Array]:
         """The true accelerations and multipliers at every state; NaN where they are not determined."""
         moving = [c.acceleration for c in self.model.coordinates]
-        unknown = [x for x in moving if x not in self.table]
+        unknown: list[sp.Basic] = [x for x in moving if x not in self.table]
         unknown += [m.symbol for m in self.derivation.multipliers.values()]
         size, count = self.states.size, len(unknown)
-        found = {x: np.full(size, np.nan) for x in (*moving, *unknown)}
-        rows, still = CompiledExpressions(list(map(self.put_in, self.rows))), dict.fromkeys(unknown, np.zeros(size))
+        found: dict[sp.Basic, Array] = {x: np.full(size, np.nan) for x in (*moving, *unknown)}
+        rows = CompiledExpressions(list(map(self.put_in, self.rows)))
+        still: dict[sp.Basic, Array] = dict.fromkeys(unknown, np.zeros(size))
         slopes = rows.slopes(unknown).at(self.states, still).reshape(len(self.rows), count, size).transpose(2, 0, 1)
         rest = rows.at(self.states, still).T
         for s in range(size) if count == len(self.rows) else ():

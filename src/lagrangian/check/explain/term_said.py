@@ -40,6 +40,8 @@ PLAIN = (
 )
 """Misconceptions whose words already say what stands in the equation."""
 
+LARGEST = 4
+"""The largest number in a factor with which a part of an equation may have been counted."""
 MOVING = (sp.Derivative, sp.sin, sp.cos)
 """What the sums of one term do not hold."""
 OF_A_SUM = {"sign_in_a_sum": Fraction(-2), "left_out_of_a_sum": Fraction(-1)}
@@ -67,7 +69,14 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
     change = told.mistake.change
     if change is not None and change.kind in OF_A_SUM and change.site.rows:
         return replace(mistake, what=text(*said))  # another way to say the same
+    if change is not None and change.kind == "part" and _is_odd(told.times):
+        return replace(mistake, what=text(*said))  # nobody counts something 17/8 times
     return with_reason(text(*said), mistake)
+
+
+def _is_odd(times: Fraction) -> bool:
+    """Whether a part that is counted so many times more has a factor of which no reason is known."""
+    return max(abs((1 + times).numerator), (1 + times).denominator) > LARGEST
 
 
 def with_reason(said: Text, mistake: Mistake) -> Mistake:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -129,7 +129,7 @@ def with_wrong_balance(
 
 
 @dataclass(frozen=True, eq=False)
-class Blamed:
+class WrongBalance:
     """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
     later lines that are; ``few``: its term alone tells it from others."""
 
@@ -150,7 +150,7 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
     if not told and 1 < len(left_out) <= MOST_TOLD:
         numbers = sorted({balances.lines[i].number for i in left_out})
         listed = f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
-        names = [f for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
+        names = [cast("sp.Expr", f) for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
         force = text(*[x for f in names for x in (f, ", ")][:-1])
         what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
         brief = text(f"Lines {listed} do not agree: one of them is wrong.")
@@ -163,7 +163,7 @@ def _of_derivatives(mistake: Mistake) -> bool:
     return any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
 
 
-def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> Blamed | None:
+def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> WrongBalance | None:
     """The line that is wrong; None if it may be several, and none of them would be right with a plain term."""
     every, left_out = range(len(balances.lines)), _left_out(balances)
     k = left_out[0] if len(left_out) == 1 else None
@@ -177,7 +177,7 @@ def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLi
         term = term_to_blame(truth, line.expr, values)
         if term is None and (best := plainest({0: mends(truth, line.expr, values, balances.forces)})) is not None:
             term = best[1]
-        return Blamed(k, line, term, tuple(false))
+        return WrongBalance(k, line, term, tuple(false))
     listed: dict[int, list[Mend]] = {}
     given: dict[int, dict[sp.Basic, Array]] = {}
     for i in left_out:
@@ -188,7 +188,7 @@ def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLi
         return None
     i, term = best
     false = tuple(x for x in later if not _is_true(truth, x, given[i]))
-    return Blamed(i, balances.lines[i], term, false, few=True)
+    return WrongBalance(i, balances.lines[i], term, false, few=True)
 
 
 def with_forces_of_below(
