@@ -338,9 +338,15 @@ def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
     back, forth = (sum(rest.has(x) for x in moving) for rest in rests)
     if back != forth:
         return -1 if back < forth else 1
-    back, forth = (any((a := rest.coeff(x)).is_number and a != 0 for x in moving) for rest in rests)
+    back, forth = (any(_is_bare(rest, x) for x in moving) for rest in rests)
     if back != forth:  # of ṡ − r θ̇ for ṡ + r θ̇ the sense of ṡ is that in which it is counted
         return 1 if back else -1
     values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
     back, forth = (float(np.abs(values[1] - sign * values[0]).sum()) for sign in (-1, 1))
     return -1 if back < forth else 1
+
+
+def _is_bare(rest: sp.Expr, x: sp.Expr) -> bool:
+    """Whether a rate or a coordinate stands in a sum with nothing but a number."""
+    factor = cast("sp.Expr", rest.coeff(x))
+    return bool(factor.is_number and factor != 0)
