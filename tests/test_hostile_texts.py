@@ -42,6 +42,8 @@ ANSWERS = {
     "a command before blanks": "\\newcommand" + BLANK + "x",
     "blanks behind an equation": "m = 1" + BLANK + "y",
     "newlines": "\n" * N + "y",
+    "sentences that take back": "x1'' = 0\n" + "I first had = " * (N // 14),
+    "functions that differentiate": "x1'' = 0\n" + "f[q_] := D[f[q]];\n" * (N // 18),
     "blanks in front": BLANK + "y",
     "blanks behind a label": "cart:" + BLANK + "1/2 m1 x1'^2",
     "blanks behind a name": "y" + BLANK + "z = 1",
