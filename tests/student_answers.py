@@ -12,7 +12,7 @@ POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 def right(written: str, name: str = "cart-pole") -> bool:
     """Whether an answer is judged right; one that cannot be read is not."""
     try:
-        return derivation(name).check(written).right
+        return derivation(name).check(written, hint=0).right
     except ParseError as error:
         assert error.place is not None
         return False

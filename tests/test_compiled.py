@@ -67,6 +67,7 @@ def test_forward_dynamics_solves_the_equations_that_people_read(name: str) -> No
     np.testing.assert_allclose(a, expected, rtol=1e-9, atol=1e-9 * max(1.0, float(np.abs(expected).max())))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "name",
     rest_slow(
@@ -304,6 +305,7 @@ def test_javascript_source_runs_in_node_and_agrees(tmp_path: pathlib.Path) -> No
     assert "theta1 [rad]" in path.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 def test_webassembly_is_exported_with_what_runs_it(tmp_path: pathlib.Path) -> None:
     s = system("furuta-pendulum")

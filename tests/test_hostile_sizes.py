@@ -59,6 +59,7 @@ def _or_a_word(make) -> object:  # type: ignore[no-untyped-def]
         return error
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_is_read_or_refused_in_a_bounded_number_of_calls(name: str) -> None:
     assert bounded.searched(_or_a_word, lambda: lg.loads(FILES[name]).model, calls=READING) is not None
@@ -113,6 +114,7 @@ def test_a_coordinate_that_moves_a_body_by_next_to_nothing_is_derived() -> None:
     assert _or_a_word(lg.loads(flat).derive) is not None
 
 
+@pytest.mark.slow
 def test_an_answer_to_long_equations_is_checked_in_a_bounded_number_of_calls(monkeypatch: pytest.MonkeyPatch) -> None:
     own = derivation("double-pendulum")
     assert not is_hard(own.model)  # what it is described by is short
@@ -131,6 +133,7 @@ def test_a_slope_of_a_maximum_of_many_is_found_without_proofs() -> None:
         assert ring.slope(value, model.coordinates[0].symbol)
 
 
+@pytest.mark.slow
 def test_the_direction_of_a_coordinate_with_long_slopes_is_not_said_after_a_bounded_number_of_calls() -> None:
     """A worksheet asks for it: its search took over a minute."""
     model = lg.loads(FILES["fractions"]).model

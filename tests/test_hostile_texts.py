@@ -14,6 +14,7 @@ import built_in
 import lagrangian as lg
 import size
 from effort import at_most
+from lagrangian.check.explain import beside_lengths
 from lagrangian.check.names import amounts_said
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
@@ -28,8 +29,10 @@ from lagrangian.quantities.source import Source
 from lagrangian.read.robots.markup import MarkupFile
 
 LONGEST = 50_000
-N = LONGEST if size.FULL else LONGEST // 5
-"""Characters of an answer; the longest are read among the tests that take long."""
+N = LONGEST if size.EVERY else LONGEST // 2 if size.FULL else LONGEST // 5
+"""Characters of an answer: half of the longest among the tests that take long, the longest before a release."""
+MOST = 6_000_000 if size.EVERY else 4_000_000 if size.FULL else 250 * N
+"""Calls of functions in which such an answer is read."""
 BLANK = " " * N
 BLANKS = " " * LONGEST
 CARTS = built_in.system("lecture-3b").model
@@ -117,7 +120,7 @@ ANSWERS = {
 @size.also_in_full
 @pytest.mark.parametrize("text", ANSWERS.values(), ids=ANSWERS)
 def test_an_answer_is_read_or_refused(text: str) -> None:
-    with at_most(min(6_000_000, 250 * N)):
+    with at_most(MOST):
         try:
             parsed = parse_answer(text, CARTS)
         except ParseError as error:
@@ -148,6 +151,8 @@ FORMS = {
     "_PROMPT": (sessions._PROMPT, "y" + BLANKS + "y"),
     "_DRAWN": (sketches._DRAWN, "w" + "-" * LONGEST),
     "_NUMBER of an amount": (amounts_said._NUMBER, "a" + "1" * LONGEST),
+    "_TWICE": (beside_lengths._TWICE, "2" + BLANKS + "y 2" + "y" * LONGEST),
+    "_HALF": (beside_lengths._HALF, "y" * LONGEST + BLANKS + r"/3 \frac{y" + BLANKS),
     "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANKS + "yy"),
 }
 

@@ -33,6 +33,7 @@ def in_node(script: str, *parts: str) -> str:
     return told.stdout
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.skipif(NODE is None, reason="there is no Node on this machine")
 @pytest.mark.parametrize("size", [0, 1, 11, 12, 13, 26, 4000])
 def test_what_is_packed_is_read_again(size: int) -> None:
@@ -51,6 +52,7 @@ def test_the_digits_of_a_page_mean_nothing_in_html() -> None:
     assert not re.search(r"[<&\"\s]", DIGITS)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.skipif(NODE is None, reason="there is no Node on this machine")
 @pytest.mark.parametrize("method", ["dop853", "gauss4"])
 def test_webassembly_comes_out_of_its_columns_as_it_was(method: str) -> None:

@@ -50,6 +50,7 @@ def page(language: str) -> list[str]:
     return re.findall(rf"^```{language}\n(.*?)^```", text, flags=re.M | re.S)
 
 
+@pytest.mark.slow
 def test_what_the_page_says_of_hints_runs(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     exec(compile("\n".join(page("python")[2:]), "schematic.md", "exec"), {})

@@ -133,6 +133,7 @@ def test_whoever_profiles_goes_on_seeing_every_call() -> None:
     assert seen.count("_short") == 1
 
 
+@pytest.mark.slow
 def test_a_profiler_of_the_standard_library_goes_on_afterwards() -> None:
     profiler = cProfile.Profile()
     profiler.enable()

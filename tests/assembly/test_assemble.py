@@ -36,7 +36,7 @@ def near(x: float, y: float) -> bool:
     return abs(math.remainder(x - y, 2 * math.pi)) < 1e-9
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("a", [0.3, 1.0, 2.5, -1.2])
 def test_a_four_bar_is_put_together_in_its_two_ways(a: float) -> None:
     found = four_bar().compile().assemblies({"a": a}, fixed="a")

@@ -80,6 +80,7 @@ def test_rows_of_an_expression_given_in_two_ways_are_spare():
     assert spare(s, {"x": 1.0, "y": 0.1}) == [({"root", "square"}, 1)]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("law", "start"),
     [
@@ -102,6 +103,7 @@ def test_a_row_without_a_slope_is_named(law, start):
         s.ensemble(1.0, initial={name: [value, value] for name, value in start.items()})
 
 
+@pytest.mark.slow
 def test_a_slope_that_is_small_everywhere_is_one():
     s = lg.System("wall")
     x, y = s.coordinates("x y")

@@ -65,7 +65,7 @@ TRUE = [
 @pytest.mark.parametrize("line", TRUE)
 @pytest.mark.parametrize("row", [ROW, LETTERS])
 def test_a_true_amount_is_right_beside_the_equation(row: str, line: str) -> None:
-    assert swing().check(f"{line}\n{row}").right
+    assert swing().check(f"{line}\n{row}", hint=0).right
 
 
 WRONG = [
@@ -96,19 +96,20 @@ def test_a_wrong_amount_is_told_by_its_number_and_is_no_equation(row: str, line:
     assert told[:-1] not in swing().check(f"{line}\n{row}", hint=2).to_text()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("line", ["m g l/2 = 1.5 * 0.55 g = 6.622", "m g l/2 = 1.5 * 0.45 g = 7.622"])
 def test_a_wrong_side_in_a_chain_of_amounts_is_wrong(line: str) -> None:
-    assert not swing().check(f"{line}\n{ROW}").right
+    assert not swing().check(f"{line}\n{ROW}", hint=0).right
 
 
 def test_a_true_amount_does_not_make_a_wrong_equation_right() -> None:
     for wrong in (ROW.replace("6.622", "7.622"), ROW.replace("6.622", "6.623"), ROW.replace("13.52", "13.53")):
         verdict = swing().check(f"m g l/2 = 6.622\n{wrong}")
         assert not verdict.right and not verdict.motion
-    assert not swing().check("m g l/2 = 6.622").right
+    assert not swing().check("m g l/2 = 6.622", hint=0).right
 
 
 def test_amounts_may_be_those_of_values_that_are_stated() -> None:
     row = LETTERS.replace("k a^2 sin(alpha)", "k a^2/2")
-    assert swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 16\n{row}").right
-    assert not swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 17\n{row}").right
+    assert swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 16\n{row}", hint=0).right
+    assert not swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 17\n{row}", hint=0).right

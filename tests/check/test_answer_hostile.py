@@ -90,7 +90,7 @@ LONGEST |= {"a chain of definitions upward"}
 
 
 @pytest.mark.thinned(8)
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(48)
 @pytest.mark.parametrize("name", rest_slow(HOSTILE, set(HOSTILE) - LONGEST))
 def test_hostile_answers_take_bounded_effort(name):
     try:

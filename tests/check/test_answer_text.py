@@ -221,10 +221,10 @@ def test_a_list_of_equations_below_other_lines_is_read() -> None:
 
 def test_one_bullet_below_a_heading_is_no_sign() -> None:
     text = "**Answer**\n\n- m L^2 theta'' + b theta' + m g L sin(theta) = 0"
-    assert built_in.derivation("pendulum").check(text).right
+    assert built_in.derivation("pendulum").check(text, hint=0).right
 
 
 def test_a_partial_derivative_that_is_no_line_of_its_own_is_no_fault() -> None:
     """The printed checklist names ∂T*/∂ξ without values: it is judged, whatever the coordinates are taken for."""
     derived = built_in.derivation("lecture-3b")
-    assert derived.check(derived.to_markdown(brief=True)).status
+    assert derived.check(derived.to_markdown(brief=True), hint=0).status

@@ -10,6 +10,7 @@ from functools import cache
 
 import pytest
 import sympy as sp
+from test_forces_between_bodies import wheel
 
 import lagrangian as lg
 
@@ -79,16 +80,16 @@ FLIES = "m l^2 theta'' + m g l sin(theta) = l F\nJ psi'' = d P - c F\n\n"
     ],
 )
 def test_what_inputs_hold_a_position(line: str, right: bool) -> None:
-    assert helicopter().check(FLIES + line).right is right
+    assert helicopter().check(FLIES + line, hint=0).right is right
 
 
 def test_what_inputs_hold_does_not_stand_for_an_equation_of_motion() -> None:
     rows = FLIES.replace("m l^2 theta'' + ", "")
-    assert not helicopter().check(rows + "At rest: F = m g sin(theta)").right
-    assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d").right
+    assert not helicopter().check(rows + "At rest: F = m g sin(theta)", hint=0).right
+    assert not helicopter().check(FLIES.replace("d P - c F", "d P + c F") + "At rest: P = c F/d", hint=0).right
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -117,7 +118,7 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
     assert right or (verdict.motion and verdict.first_wrong.line.number > 2)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("line", "right"),
     [
@@ -128,4 +129,12 @@ def test_positions_at_rest_and_checks_are_judged(line: str, right: bool) -> None
     ],
 )
 def test_rest_for_certain_parameters_alone(line: str, right: bool) -> None:
-    assert drum().check(f"{DRUM}\n{line}").right is right
+    assert drum().check(f"{DRUM}\n{line}", hint=0).right is right
+
+
+def test_forces_of_constraints_at_rest_are_a_remark() -> None:
+    rows = "(m + M) x'' = F - k x - H\nJ phi'' = R H\nx' = R phi'"
+    said = "Sanity: everything at rest -> F = k x, H = 0. OK!"
+    assert wheel().check(f"{rows}\n{said}").right
+    assert not wheel().check(f"{rows.replace('- H', '+ H')}\n{said}").right
+    assert not wheel().check(f"{rows.rpartition(chr(10))[0].replace('R H', 'H')}\n{said}").right

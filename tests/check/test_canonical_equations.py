@@ -29,8 +29,8 @@ def test_canonical_equations_are_equations_of_motion(sheet: str) -> None:
 @pytest.mark.parametrize("sheet", [MOMENTA + H + DERIVED, RATES + ROWS])
 def test_wrong_canonical_equations_stay_wrong(sheet: str) -> None:
     for now, wrong in (("p_theta^2/(m*r^3)", "-p_theta^2/(m*r^3)"), ("-m*g*r*sin", "m*g*r*sin")):
-        assert now in sheet and not derivation("elastic-pendulum").check(sheet.replace(now, wrong)).right
+        assert now in sheet and not derivation("elastic-pendulum").check(sheet.replace(now, wrong), hint=0).right
 
 
 def test_a_wrong_hamiltonian_is_found_by_its_derivatives() -> None:
-    assert not derivation("elastic-pendulum").check(MOMENTA + H.replace("- m*g*r", "+ m*g*r") + DERIVED).right
+    assert not derivation("elastic-pendulum").check(MOMENTA + H.replace("- m*g*r", "+ m*g*r") + DERIVED, hint=0).right

@@ -45,7 +45,7 @@ def test_measured_from_the_place_of_rest() -> None:
     s.gravity()
     s.spring(k, deflection=x)
     hanging = s.derive()
-    assert hanging.check("m*y'' + k*y = 0").status is Status.OTHER_COORDINATES
+    assert hanging.check("m*y'' + k*y = 0", hint=0).status is Status.OTHER_COORDINATES
     verdict = hanging.check("m*x'' + k*x = 0")
     assert not verdict.right
     assert verdict.mistake is not None and verdict.mistake.name == "gravity_forgotten"
@@ -67,7 +67,7 @@ def test_one_energy_alone_does_not_tell_a_relative_angle_from_a_wrong_one() -> N
     answer = (
         "V = m1*g*L_a*sin(theta1) + m2*g*(L_a + L_b)*sin(theta1) + m3*g*((L_a + L_b)*sin(theta1) + L_c*sin(theta2))"
     )
-    assert not derived("lecture-2").check(answer).right
+    assert not derived("lecture-2").check(answer, hint=0).right
 
 
 def test_wrong_in_other_coordinates_is_explained_there() -> None:

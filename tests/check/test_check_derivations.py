@@ -130,6 +130,7 @@ SEAT = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("wrong", "right", "said"),
     [
@@ -157,6 +158,7 @@ def test_a_force_that_is_right_elsewhere_is_not_explained() -> None:
     assert not verdict.right and not verdict.mistakes
 
 
+@pytest.mark.slow
 def test_letters_exchanged_in_springs_and_dampers_are_one_mistake() -> None:
     s = lg.System("beam")
     z, p = s.coordinates("z p")

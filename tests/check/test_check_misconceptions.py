@@ -10,6 +10,7 @@ import sympy as sp
 import built_in
 import lagrangian as lg
 from built_in import derivation as derived
+from lagrangian.check import Status, explained
 from lagrangian.check.explain import candidates, constraint_slips, misconceptions, said_wrongly, say, special_cases
 from lagrangian.check.explain.misconceptions import MISCONCEPTIONS, Ingredients
 from size import also_in_full, cases
@@ -204,3 +205,14 @@ def test_mistakes_are_tried_up_to_a_number_of_operations(monkeypatch: pytest.Mon
     checked = built_in.system("double-pendulum").check("m1*theta1'' = 0\nm2*theta2'' = 0")
     candidates.effects_of.cache_clear()
     assert "too long for all well-known mistakes to be tried" in " ".join(checked.to_text().split())
+
+
+def test_mistakes_are_not_sought_where_none_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    sought: list[str] = []
+    of_mistakes = explained.mistakes
+    monkeypatch.setattr(explained, "mistakes", lambda *args: sought.append("") or of_mistakes(*args))
+    wrong = f"{CART}\n{POLE.replace('(J + m*l^2)', 'J')}"
+    told = derived("cart-pole").check(wrong, hint=0)
+    assert told.status is Status.WRONG and not told.mistakes and not sought
+    assert told.to_dict() == {"right": False, "verdict": "wrong", "hint": 0}
+    assert derived("cart-pole").check(wrong, hint=1).mistakes and sought

@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import derivation
 
 
 @cache
@@ -42,9 +43,10 @@ def differing(answer: str) -> list[str]:
 
 
 def test_the_answer_is_right() -> None:
-    assert bar().check(ANSWER).right
+    assert bar().check(ANSWER, hint=0).right
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize(
     ("written", "instead", "said"),
     [
@@ -64,3 +66,47 @@ def test_one_wrong_term_is_told_alone(written: str, instead: str, said: str) -> 
 def test_two_wrong_terms_are_not_told_as_one() -> None:
     wrong = ANSWER.replace("= -k theta", "= -2 k theta").replace("+ c psi' - N a", "- c psi' - N a")
     assert not any("should be k*theta" in x or "c*psi' has" in x for x in differing(wrong)) or len(differing(wrong)) > 1
+
+
+def test_a_term_that_a_sum_of_right_equations_lacks_is_told() -> None:
+    sum_of_both = "(M + m + m l cos(theta)) x'' + (J + m l^2 + m l cos(theta)) theta'' - m l sin(theta) theta'^2"
+    pole = "m l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0"
+    answer = f"{sum_of_both} + b x' - m g l sin(theta) = F\n{pole}"
+    assert derivation("cart-pole").check(answer).right
+    verdict = derivation("cart-pole").check(answer.replace(" + b x'", ""))
+    assert [str(m.what) for m in verdict.mistakes] == ["In line 1, the term b*x' is missing."], verdict.to_text()
+
+
+def test_the_term_of_one_line_with_a_solved_force_is_told_beside_right_equations() -> None:
+    s = lg.System("roller")
+    x = s.coordinates("x")
+    m, J, R, k = s.parameters("m J R k")
+    s.kinetic((m + J / R**2) * x.diff() ** 2 / 2)
+    s.spring(k, deflection=x)
+    rows = "m x'' = -k x - H\n{} x''/R = R H\nH = J x''/R^2\n(m + J/R^2) x'' + k x = 0"
+    derived = s.derive()
+    assert derived.check(rows.format("J")).right
+    verdict = derived.check(rows.format("J R"))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [2], verdict.to_text()
+    assert verdict.mistakes and "line 2" in str(verdict.mistakes[0].what), verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    ("written", "told"),
+    [
+        ("(x' + l theta' cos(theta))^2", "l*cos(theta)*theta' + x'"),
+        ("(l theta' sin(theta) + 0)^2", ""),
+    ],
+)
+def test_a_sum_of_rates_that_is_not_squared_is_told(written: str, told: str) -> None:
+    energy = "T = 1/2 M x'^2 + 1/2 m [(x' + l theta' cos(theta))^2 + (l theta' sin(theta) + 0)^2] + 1/2 J theta'^2"
+    rows = "\n(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) = F - b x'"
+    rows += "\nm l x'' cos(theta) + (J + m l^2) theta'' - m g l sin(theta) = 0"
+    assert derivation("cart-pole").check(energy + rows).right
+    verdict = derivation("cart-pole").check(energy.replace(written, written.removesuffix("^2")) + rows)
+    assert not verdict.right
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [1]
+    assert ("is not squared" in str(verdict.mistakes[0].what)) == bool(told), verdict.to_text()
+    assert told in str(verdict.mistakes[0].what)
+    twice = energy.replace(written, written.removesuffix("^2")).replace("1/2 J", "J")
+    assert "sum" not in str(derivation("cart-pole").check(twice + rows).mistakes)

@@ -36,7 +36,7 @@ def findings(answer: str) -> list[bool]:
     return [f.status.right for f in wagon().check(answer).findings]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("said", "right"),
     [
@@ -50,7 +50,7 @@ def findings(answer: str) -> list[bool]:
 )
 def test_words_say_which_sign_of_a_multiplier_is_wrong(said: str, right: list[bool]) -> None:
     assert findings(f"{said}\n{ALONG}\n{WRONG}") == right
-    assert wagon().check(f"{said}\n{ALONG}\n{TURN}").right
+    assert wagon().check(f"{said}\n{ALONG}\n{TURN}", hint=0).right
 
 
 def test_of_two_lines_that_do_not_fit_neither_is_called_right() -> None:
@@ -63,20 +63,22 @@ def test_of_two_lines_that_do_not_fit_neither_is_called_right() -> None:
     assert "not right together with line 2" in str(verdict) and "was read as" not in str(verdict)
 
 
+@pytest.mark.slow
 def test_a_constraint_says_which_factor_of_its_multiplier_is_wrong() -> None:
     rows = f"{ALONG}\n{TURN.replace('R ', '')}"
     assert findings(rows) == [False, False]
     assert findings(f"x' = R phi'\n{rows}") == [True, True, False]
     assert findings(f"phi' = x'/R\n{rows}") == [True, False, False]  # a force or a torque
     assert findings(f"x' = R phi'\n{ALONG}\n{WRONG}") == [True, False, False]  # its sign is a choice
-    assert wagon().check(f"phi' = x'/R\n{ALONG}\n{TURN}").right
-    assert wagon().check(f"phi' = x'/R\n{ALONG.replace('lambda', 'lambda/R')}\n{TURN.replace('R ', '')}").right
+    assert wagon().check(f"phi' = x'/R\n{ALONG}\n{TURN}", hint=0).right
+    assert wagon().check(f"phi' = x'/R\n{ALONG.replace('lambda', 'lambda/R')}\n{TURN.replace('R ', '')}", hint=0).right
 
 
+@pytest.mark.slow
 def test_the_other_lines_say_which_sign_is_wrong() -> None:
     force = "lambda = (tau - J phi'')/R"
     assert findings(f"{ALONG}\n{WRONG}\n{force}")[:2] == [True, False]
-    assert not wagon().check(f"{ALONG.replace('lambda', '-lambda')}\n{TURN}\n{force}").right
+    assert not wagon().check(f"{ALONG.replace('lambda', '-lambda')}\n{TURN}\n{force}", hint=0).right
 
 
 @cache
@@ -92,14 +94,15 @@ def tractor() -> Derivation:
     return s.derive()
 
 
+@pytest.mark.slow
 def test_of_several_multipliers_the_one_that_does_not_fit_is_told() -> None:
     rows = "M x'' = F + A - B\nJ phi'' = -R A\nI psi'' = r B"
-    assert tractor().check(rows).right
+    assert tractor().check(rows, hint=0).right
     verdict = tractor().check(rows.replace("= r B", "= -r B"))
     (mistake,) = verdict.mistakes
     assert [f.clash for f in verdict.findings] == ["line 3", "", "line 1"] and mistake.element == "constraint 'small'"
     assert "B has the factor -1 in line 1, the equation of x, and -r in line 3" in str(mistake.what)
-    assert not tractor().check(rows.replace("- B", "+ B")).right
+    assert not tractor().check(rows.replace("- B", "+ B"), hint=0).right
 
 
 @pytest.mark.parametrize(

@@ -62,10 +62,10 @@ def test_words_behind_an_equation_that_may_change_it_are_told(said: str) -> None
 
 def test_a_force_is_right_with_another_coordinate_only_where_the_equations_use_that() -> None:
     force = "Q_theta = -(F - b x') l cos(theta)"
-    assert not CART.check(f"w = x + l sin(theta)\n{force}\n{ROWS}").right
+    assert not CART.check(f"w = x + l sin(theta)\n{force}\n{ROWS}", hint=0).right
     rows = "x2 = x1 + x2r\nm1 x1'' = k (x2 - x1) - F\nm2 x2'' = F - k (x2 - x1)"
-    assert CARTS.check(f"Q_1 = -F\nQ_2 = F\n{rows}").right
-    assert not CARTS.check(f"Q_1 = F\nQ_2 = F\n{rows}").right
+    assert CARTS.check(f"Q_1 = -F\nQ_2 = F\n{rows}", hint=0).right
+    assert not CARTS.check(f"Q_1 = F\nQ_2 = F\n{rows}", hint=0).right
 
 
 @pytest.mark.parametrize(
@@ -80,8 +80,8 @@ def test_a_force_is_right_with_another_coordinate_only_where_the_equations_use_t
 def test_formulas_of_the_lagrangian_energies_in_pairs_and_two_values_of_a_rate_are_judged(
     right: str, wrong: str
 ) -> None:
-    assert CART.check(f"{right}\n{ROWS}").right
-    assert not CART.check(f"{wrong}\n{ROWS}").right
+    assert CART.check(f"{right}\n{ROWS}", hint=0).right
+    assert not CART.check(f"{wrong}\n{ROWS}", hint=0).right
 
 
 def test_a_matrix_that_no_equation_uses_is_told() -> None:
@@ -110,8 +110,8 @@ def commented(rows: str, mark: str) -> str:
 def test_equations_that_only_comments_state_are_read(mark: str) -> None:
     (first, *_) = told(f"{ENERGIES}\n{commented(ROWS, mark)}")
     assert "was read, though it is a comment" in first
-    assert not CART.check(f"{ENERGIES}\n{commented(WRONG_ROWS, mark)}").right
-    assert not CART.check(commented(WRONG_ROWS, mark)).right
+    assert not CART.check(f"{ENERGIES}\n{commented(WRONG_ROWS, mark)}", hint=0).right
+    assert not CART.check(commented(WRONG_ROWS, mark), hint=0).right
     assert told(f"{ROWS}\n{commented(WRONG_ROWS, mark)}")  # where a line states them, a comment is none
 
 
@@ -119,10 +119,10 @@ def test_comments_in_brackets_behind_lines_and_over_several_lines_are_read() -> 
     for rows, is_right in ((ROWS, True), (WRONG_ROWS, False)):
         above, below = rows.splitlines()
         over = above.replace(" - m l theta'^2", "\n#    - m l theta'^2")
-        assert CART.check(f"{ENERGIES}\n(* the result:\n{rows} *)").right == is_right
-        assert CART.check(f"{ENERGIES}   # {above}\n# and {below}").right == is_right
-        assert CART.check(f"{ENERGIES}\n# of x:\n#  {over}\n# of theta:\n#  {below}").right == is_right
-    assert not CART.check(f"{ENERGIES}\n# ddx = (F - b*dx)/(M + m)").right
+        assert CART.check(f"{ENERGIES}\n(* the result:\n{rows} *)", hint=0).right == is_right
+        assert CART.check(f"{ENERGIES}   # {above}\n# and {below}", hint=0).right == is_right
+        assert CART.check(f"{ENERGIES}\n# of x:\n#  {over}\n# of theta:\n#  {below}", hint=0).right == is_right
+    assert not CART.check(f"{ENERGIES}\n# ddx = (F - b*dx)/(M + m)", hint=0).right
 
 
 def test_accelerations_that_a_function_returns_are_judged() -> None:
@@ -130,22 +130,22 @@ def test_accelerations_that_a_function_returns_are_judged() -> None:
     A = np.array([[M + m, m*l*np.cos(theta)], [m*l*np.cos(theta), J + m*l**2]])
     f = np.array([F - b*xd + m*l*np.sin(theta)*thetad**2, m*g*l*np.sin(theta)])
     return np.linalg.solve(A, f)"""
-    assert CART.check(program).right
-    assert not CART.check(program.replace("F - b*xd", "F + b*xd")).right
-    assert not CART.check(f"# T = 1/2*M*x'^2\n{program}".replace("m*g*l*", "-m*g*l*")).right
+    assert CART.check(program, hint=0).right
+    assert not CART.check(program.replace("F - b*xd", "F + b*xd"), hint=0).right
+    assert not CART.check(f"# T = 1/2*M*x'^2\n{program}".replace("m*g*l*", "-m*g*l*"), hint=0).right
 
 
 def test_matrices_that_no_equation_uses_lack_it() -> None:
     """A position that nothing uses takes nothing away from T* and V."""
     matrix, column = "A = [M + m, m l cos(theta); m l cos(theta), J + m l^2]", "f = [F + b x'; m g l sin(theta)]"
     for said in (matrix, column, f"{matrix}\n{column}"):
-        assert CART.check(f"{ENERGIES}\n{said}").status == "incomplete"
+        assert CART.check(f"{ENERGIES}\n{said}", hint=0).status == "incomplete"
     assert told(f"{ENERGIES}\nr_1 = (x, 0)")
-    assert not CART.check(f"{ENERGIES}\n{matrix}\n{column}\nA q'' = f").right
+    assert not CART.check(f"{ENERGIES}\n{matrix}\n{column}\nA q'' = f", hint=0).right
 
 
 def test_a_comment_that_cannot_be_read_refuses_no_answer_that_can() -> None:
     rows = "M = [m1, 0; m2, m2];\nf = [k*x2r - F; F - k*x2r];\n"
     answer = f"% carts: M(q)*qdd = f\nT = m1*x1d^2/2 + m2*(x1d + x2rd)^2/2;\nV = k*x2r^2/2;\n{rows}qdd = M\\f;\n"
-    assert derivation("lecture-3b").check(answer).right
-    assert not derivation("lecture-3b").check(answer.replace("F - k", "F + k")).right
+    assert derivation("lecture-3b").check(answer, hint=0).right
+    assert not derivation("lecture-3b").check(answer.replace("F - k", "F + k"), hint=0).right

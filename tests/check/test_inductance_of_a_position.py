@@ -49,4 +49,4 @@ $$ m \ddot x + \frac{{1}}{{2}} {SLOPE} \dot q^2 + k x = 0 $$
     ],
 )
 def test_an_inductance_and_its_slope_are_judged_as_such(answer: str, right: bool) -> None:
-    assert solenoid().check(answer).right is right
+    assert solenoid().check(answer, hint=0).right is right

@@ -61,6 +61,7 @@ def test_a_verdict_is_the_same_with_what_is_kept_and_without(name: str) -> None:
     assert [verdict(lg.example(name).derive(), x) for x in ANSWERS[name]] == first[: len(ANSWERS[name])]
 
 
+@pytest.mark.slow
 def test_an_answer_that_is_refused_as_too_long_is_refused_again(monkeypatch: pytest.MonkeyPatch) -> None:
     """The second time it would need a fifth of the steps: the small changes of the system are known."""
     monkeypatch.setattr(hardness, "WRITTEN", 0)

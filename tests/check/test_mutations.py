@@ -46,6 +46,7 @@ def told(name: str, count: int, seed: str) -> Counter[str]:
     return found
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", FEW)
 def test_a_few_mutations_are_found_and_nothing_false_is_told(name: str) -> None:
     assert told(name, 6, "few")["nothing"] <= 1

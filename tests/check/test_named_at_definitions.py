@@ -65,8 +65,9 @@ def _crane(r_c: str) -> str:
     return f"r_c = {r_c}\nT = 1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2) + 1/2 m_c (r'^2/4 + ({r_c})^2 psi'^2)"
 
 
+@pytest.mark.slow
 def test_a_wrong_distance_along_a_turning_jib() -> None:
-    assert crane().check(_crane("e + r/2")).right
+    assert crane().check(_crane("e + r/2"), hint=0).right
     told = _told(crane().check(_crane("e - r/2")), 1)
     assert "the component of the position of particle 'weight' along axes turned by ψ is e + ½ r, not e − ½ r" in told
 
@@ -74,10 +75,11 @@ def test_a_wrong_distance_along_a_turning_jib() -> None:
 V = "V = 1/2 k x^2 + m_b g R {}(psi)"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("more", ["", " + m g e sin(Omega t)"])
 def test_a_wrong_height_that_no_other_line_names(more: str) -> None:
     """What depends on time alone may be left out of V, and does not hide the mistake."""
-    assert dryer().check("h = R sin(psi)\n" + V.format("sin") + more).right
+    assert dryer().check("h = R sin(psi)\n" + V.format("sin") + more, hint=0).right
     told = _told(dryer().check("h = R cos(psi)\n" + V.format("cos") + more), 1)
     assert "is R sin ψ, not R cos ψ" in told and "potential energy" in told
 
@@ -88,7 +90,7 @@ def test_a_wrong_position_of_what_is_moved_in_a_prescribed_way() -> None:
         "+ 1/2 m_b R^2 psi'^2"
     )
     right = "x_m = x + e cos(Omega t), y_m = e sin(Omega t)\n" + T.format("-", "sin")
-    assert dryer().check(right).right
+    assert dryer().check(right, hint=0).right
     told = _told(dryer().check("x_m = x + e sin(Omega t), y_m = e cos(Omega t)\n" + T.format("+", "cos")), 1)
     assert "the x coordinate of particle 'lump' is x + e cos(Ω t), not x + e sin(Ω t)" in told
     assert "the y coordinate of particle 'lump' is e sin(Ω t), not e cos(Ω t)" in told
@@ -97,7 +99,7 @@ def test_a_wrong_position_of_what_is_moved_in_a_prescribed_way() -> None:
 def test_a_part_of_an_energy_is_judged_by_its_name() -> None:
     right = "x = R phi\nT_rot = 1/2 J x'^2/R^2\nT = 1/2 m x'^2 + 1/2 J x'^2/R^2\nV = 1/2 k x^2\n"
     right += "(m + J/R^2) x'' + k x = 0"
-    assert wheels().check(right).right
+    assert wheels().check(right, hint=0).right
     told = _told(wheels().check(right.replace("/R^2", "")), 2)
     assert "the kinetic energy of the rotation of rigid body 'wheel' is J ẋ²/(2 R²), not ½ J ẋ²" in told
 
@@ -113,7 +115,7 @@ def test_two_terms_that_are_missing_are_no_term_in_place_of_another() -> None:
     """Nobody wrote −m_c e ψ̇ ṙ where m_c (e + r/2) ψ̇ ṙ is missing."""
     T = "T = 1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2) + 1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2)"
     rate = "(J + m r^2 + m_c (e + r/2)^2) psi'' + 2 m r r' psi'"
-    assert crane().check(f"{T}\nd/dt dL/dpsi' = {rate} + m_c (e + r/2) r' psi'").right
+    assert crane().check(f"{T}\nd/dt dL/dpsi' = {rate} + m_c (e + r/2) r' psi'", hint=0).right
     verdict = crane().check(f"{T}\nd/dt dL/dpsi' = {rate}")
     told = " ".join(verdict.to_text().split())
     assert not verdict.right and "the term m_c (e + ½ r) ψ̇ ṙ is missing" in told and "stands where" not in told
@@ -129,7 +131,7 @@ def test_two_terms_that_are_missing_are_no_term_in_place_of_another() -> None:
 )
 def test_two_formulas_in_different_arrangements_are_told_by_the_term_that_differs(written: str, told: str) -> None:
     T = "1/2 J psi'^2 + 1/2 m (r'^2 + r^2 psi'^2)"
-    assert crane().check(f"T_w = 1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2)\nT = {T} + T_w").right
+    assert crane().check(f"T_w = 1/2 m_c (r'^2/4 + (e + r/2)^2 psi'^2)\nT = {T} + T_w", hint=0).right
     assert told in _told(crane().check(f"T_w = {written}\nT = {T} + T_w"), 1)
 
 
@@ -153,7 +155,7 @@ def trough() -> Derivation:
     return sys.derive()
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("D", "told", "hint"),
     [
@@ -169,7 +171,7 @@ def trough() -> Derivation:
 )
 def test_what_is_wrong_in_the_function_of_the_dampers(D: str, told: str, hint: str) -> None:
     energies = "T = 1/2 m x'^2 + 1/2 m y'^2\nV = 1/2 k (x - e sin(Omega t))^2\nD = "
-    assert trough().check(energies + "1/2 c x'^2 + 1/2 d (x' - y')^2").right
+    assert trough().check(energies + "1/2 c x'^2 + 1/2 d (x' - y')^2", hint=0).right
     verdict = trough().check(energies + D)
     text = " ".join(verdict.to_text().split())
     assert not verdict.right and told in text and "twice." not in text.replace("counts twice.", "")
@@ -178,12 +180,13 @@ def test_what_is_wrong_in_the_function_of_the_dampers(D: str, told: str, hint: s
 
 def test_hints_speak_of_no_derivative_of_an_energy_that_nobody_stated() -> None:
     row = "m x'' = -k (x - e sin(Omega t)) - c x' - d (x' - y'), m y'' = "
-    assert trough().check(row + "d (x' - y')").right
+    assert trough().check(row + "d (x' - y')", hint=0).right
     verdict = trough().check(row + "d (x' - y') + m y'^2")
     assert not verdict.right and verdict.mistakes
     assert not any("∂" in str(x) for m in verdict.mistakes for x in (m.what, m.why))
 
 
+@pytest.mark.slow
 def test_one_mistake_is_not_told_as_a_quantity_said_wrongly_twice() -> None:
     s = System("ladder")
     psi, theta = s.coordinates("psi theta")
@@ -197,7 +200,7 @@ def test_one_mistake_is_not_told_as_a_quantity_said_wrongly_twice() -> None:
     T += " + n (b^2 theta'^2 + (e + b cos(theta))^2 psi'^2)/2"
     answer = f"rho_1 = e + a cos(theta)\nrho_2 = e + b cos(theta)\n{T}\nQ_psi = tau - d psi'\nQ_theta = 0"
     derived = s.derive()
-    assert derived.check(answer).right
+    assert derived.check(answer, hint=0).right
     verdict = derived.check(answer.replace("- d psi'", "+ d psi'"))
     assert "bearing" in str(verdict.mistakes[0].what) and "sign" in str(verdict.mistakes[0].what)
     assert all("rho" not in f.line.text for f in verdict.findings if not f.status.right)
@@ -212,7 +215,7 @@ def test_a_coordinate_in_place_of_another_is_not_it_where_the_answer_relates_the
     answer = "I took the angle phi instead of x. Since it rolls, x = r*phi.\n\n"
     answer += "T = (J + m*r^2)*phi'^2/2\nV = -m*g*r*phi*sin(alpha)\n"
     derived = s.derive()
-    assert derived.check(answer).right
+    assert derived.check(answer, hint=0).right
     verdict = derived.check(answer.replace("sin(alpha)", "cos(alpha)"))
     wrong = [f.line.text for f in verdict.findings if not f.status.right]
     assert len(wrong) == 1

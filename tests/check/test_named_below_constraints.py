@@ -89,6 +89,8 @@ def test_the_wrong_term_of_a_squared_distance_is_named(strut: lg.Derivation) -> 
         (1, False, False), (2, False, True), (3, False, True), (4, False, True)
     ]  # fmt: skip
     assert not verdict.notes
+    chain = strut.check(STRUT.replace("l^2\nm x''", "l^2 = 0\nm x''"))
+    assert [f.line.number for f in chain.findings] == [1, 2, 3, 4] and chain.mistakes == verdict.mistakes
 
 
 def test_the_number_of_a_term_of_the_second_derivative_is_named(strut: lg.Derivation) -> None:
@@ -126,3 +128,66 @@ def test_a_wrong_term_of_virtual_displacements_is_named(strut: lg.Derivation) ->
     verdict = strut.check(lines)
     assert "x*cos(beta)*u' has the wrong sign" in str(verdict.mistakes[0].what), verdict.mistakes[0].what
     assert [(f.status.right, f.follows) for f in verdict.findings] == [(False, False), (False, True)]
+
+
+@pytest.fixture(scope="module")
+def press() -> lg.Derivation:
+    """A knee at the angle alpha drives a ram at the depth y = 2 l cos alpha; a rack and its pinion stand beside it."""
+    s = lg.System("press")
+    alpha, x, y = s.coordinates("alpha x y")
+    I, M, l_, d, m, J, R, k = s.parameters("I M l d m J R k")
+    P = s.inputs("P")
+    s.kinetic(I * alpha.diff() ** 2 / 2, name="knee")
+    s.particle(M, at=s.point("ram", (0, -y)), name="ram")
+    s.particle(m, at=s.point("C", (x, 0)), name="rack")
+    s.kinetic(J * x.diff() ** 2 / (2 * R**2), name="pinion")
+    s.spring(k=k, deflection=x - l_ * sp.sin(alpha), name="spring")
+    s.gravity()
+    s.damper(b=d, deflection=y, name="guide")
+    s.force(-P, deflection=y, name="work")
+    s.constraint(y - 2 * l_ * sp.cos(alpha), name="lower end")
+    return s.derive()
+
+
+PUT_IN = """(I + 4 M l^2 sin(alpha)^2) alpha'' + 4 M l^2 sin(alpha) cos(alpha) alpha'^2 + 4 d l^2 sin(alpha)^2 alpha' \
++ 2 M g l sin(alpha) - k l cos(alpha) (x - l sin(alpha)) = 2 P l sin(alpha)
+(m + J/R^2) x'' + k (x - l sin(alpha)) = 0"""
+
+
+def test_what_is_reduced_with_a_wrong_rate_follows(press: lg.Derivation) -> None:
+    rate = "y' = -2 l sin(alpha) alpha', δy = -2 l sin(alpha) δalpha"
+    assert press.check(f"{rate}\n{PUT_IN}").right
+    half = PUT_IN.replace("4 M", "M").replace("4 d", "d").replace("2 M", "M").replace("2 P", "P")
+    verdict = press.check(f"{rate.replace('2 l', 'l')}\n{half}")
+    told = [str(m.what) for m in verdict.mistakes]
+    assert len(told) == 1 and told[0].startswith("Line 1 is not the first derivative of constraint 'lower end'")
+    assert all(f.status.right or f.follows or f.line.number == 1 for f in verdict.findings)
+    other = press.check(f"{rate.replace('2 l', 'l')}\n{half.replace('P l', 'P')}")
+    assert [f.line.number for f in other.findings if not f.status.right and not f.follows] == [1, 2]
+
+
+def test_what_is_reduced_with_a_wrong_acceleration_follows(press: lg.Derivation) -> None:
+    start = "y = 2 l cos(alpha), y' = -2 l sin(alpha) alpha'\ny'' = -2 l sin(alpha) alpha''\n"
+    verdict = press.check(start + PUT_IN.replace("+ 4 M l^2 sin(alpha) cos(alpha) alpha'^2 ", ""))
+    assert [f.line.number for f in verdict.findings if not f.status.right and not f.follows] == [2]
+    assert [f.line.number for f in verdict.findings if f.follows] == [3]
+
+
+def test_names_of_multipliers_and_angles_are_no_products(press: lg.Derivation) -> None:
+    """lambda is no l a m b d a, al is alpha, and K of positions alone is a force."""
+    rows = """K = k (x - l sin(al))
+I al'' - K l cos(al) = 2 l sin(al) lambda
+(m + J/R^2) x'' + K = 0
+M y'' - M g + P + d y' = lambda"""
+    verdict = press.check(rows)
+    assert verdict.right and not any("Products" in str(n) for n in verdict.notes)
+    wrong = press.check(rows.replace("- M g", "+ M g"))
+    assert [f.line.number for f in wrong.findings if not f.status.right] == [4]
+
+
+def test_a_pinion_beside_its_rack_is_part_of_a_sum(press: lg.Derivation) -> None:
+    said = "T_rack = (m + J/R^2) x'^2/2\nT_ram = M y'^2/2\n"
+    wrong = PUT_IN.replace("+ k (x", "- k (x")
+    assert not any(f.line.kind == "definition" and not f.status.right for f in press.check(said + wrong).findings)
+    bad = press.check(said.replace("J/R^2", "J/R") + wrong)
+    assert [f.line.number for f in bad.findings if f.line.kind == "definition" and not f.status.right] == [1]

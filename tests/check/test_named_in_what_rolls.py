@@ -20,10 +20,10 @@ def _first(verdict: Verdict) -> str:
     return str(verdict.mistakes[0].what)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("force", ["F", "-F R", "F l"])
 def test_a_force_without_its_arm_is_told_as_such(force: str) -> None:
-    assert reel().check(f"x = R phi\nQ_phi = F R - c (phi' + psi')\n{TURN}\n{SWING}").right
+    assert reel().check(f"x = R phi\nQ_phi = F R - c (phi' + psi')\n{TURN}\n{SWING}", hint=0).right
     wrong = TURN.replace("F R", force)
     told = _first(reel().check(f"x = R phi\nQ_phi = {force} - c (phi' + psi')\n{wrong}\n{SWING}"))
     assert "orce 'F'" in told
@@ -31,6 +31,7 @@ def test_a_force_without_its_arm_is_told_as_such(force: str) -> None:
     assert {"F": "without its arm", "-F R": "wrong sign", "F l": "the factor is l; it should be R"}[force] in told
 
 
+@pytest.mark.slow
 def test_right_terms_of_what_rolls_are_not_called_wrong() -> None:
     """The band and the washer feel x/R + ψ: neither do these terms not belong there, nor is φ missing."""
     wrong = T.replace("1/2 J x'^2/R^2", "J x'^2/R^2")
@@ -41,6 +42,7 @@ def test_right_terms_of_what_rolls_are_not_called_wrong() -> None:
     assert [f.status.right for f in verdict.findings] == [True, False, True, False, True]
 
 
+@pytest.mark.slow
 def test_a_wrong_relation_is_no_equation_of_motion() -> None:
     verdict = reel().check(f"phi = -x/R\n{T}\n{V.replace('x/R', '-x/R')}\n{ALONG}\n{ARM}")
     assert not verdict.right
@@ -56,9 +58,10 @@ def test_rows_of_one_matrix_keep_their_own_verdicts() -> None:
     verdict = reel().check(matrix)
     assert not verdict.right
     assert sorted(f.status.right for f in verdict.findings if f.line.kind == "equation")[:2] == [False, True]
-    assert reel().check(matrix.replace("R l sin(psi), m l^2", "R l cos(psi), m l^2")).right
+    assert reel().check(matrix.replace("R l sin(psi), m l^2", "R l cos(psi), m l^2"), hint=0).right
 
 
+@pytest.mark.slow
 def test_a_height_may_be_counted_from_another_place() -> None:
     """The arm's mass is at R − l cos ψ above the floor; −l cos ψ, above the axle, is no mistake."""
     wrong = V.replace("-m g l", "m g l")

@@ -32,7 +32,7 @@ FORMS = {
 def right(written: str) -> bool:
     """Whether an answer is right; one that is refused is not."""
     try:
-        return derivation("cart-pole").check(written).right
+        return derivation("cart-pole").check(written, hint=0).right
     except ParseError:
         return False
 

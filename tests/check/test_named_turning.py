@@ -70,6 +70,7 @@ reaction = "gimbal"
 """).derive()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("along", "across", "said"),
     [

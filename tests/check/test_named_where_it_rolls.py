@@ -17,6 +17,7 @@ def check(*lines: str) -> lg.CheckedAnswer:
     return reel().check("\n".join(lines))
 
 
+@pytest.mark.slow
 def test_right_lines_beside_a_wrong_energy_are_right() -> None:
     verdict = check("phi = x/R", T.replace("J/R^2", "2 J/R^2"), V, ALONG.replace("J/R^2", "2 J/R^2"), ARM)
     assert [f.status.right for f in verdict.findings] == [True, False, True, False, True]
@@ -25,7 +26,7 @@ def test_right_lines_beside_a_wrong_energy_are_right() -> None:
     assert "should be J ẋ²/(2 R²)" in str(verdict) and "does not belong" not in str(verdict)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -40,6 +41,7 @@ def test_the_term_that_is_wrong_is_named_alone(right: str, wrong: str) -> None:
     assert len(verdict.mistakes) == 1 and len(verdict.findings[-1].differences) == 1
 
 
+@pytest.mark.slow
 def test_a_wrong_deflection_is_told_in_the_letters_of_the_answer() -> None:
     along, arm = ALONG.replace("x/R + psi", "x/R - psi"), ARM.replace("+ k (x/R + psi)", "- k (x/R - psi)")
     verdict = check("phi = x/R", T, V.replace("x/R + psi", "x/R - psi"), along, arm)
@@ -48,6 +50,7 @@ def test_a_wrong_deflection_is_told_in_the_letters_of_the_answer() -> None:
     assert "taken as ψ − x/R in place of x/R + ψ" in " ".join(str(verdict).split())
 
 
+@pytest.mark.slow
 def test_a_constant_in_an_energy_is_no_mistake() -> None:
     verdict = check("phi = x/R", T, V.replace("1/2 k", "k"))
     assert "cos" not in "".join(str(d.term) for f in verdict.findings for d in f.differences)
@@ -62,7 +65,7 @@ ROWS = [
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("above", [[T, *TURNED], TURNED, []])
 def test_what_follows_from_a_wrong_sense_of_rolling_is_no_mistake_of_its_own(above: list[str]) -> None:
     verdict = check("phi = -x/R", *above, *ROWS)
@@ -72,6 +75,7 @@ def test_what_follows_from_a_wrong_sense_of_rolling_is_no_mistake_of_its_own(abo
     assert check("phi = x/R", T, V, D, ALONG, ARM).right
 
 
+@pytest.mark.slow
 def test_another_mistake_beside_a_wrong_sense_of_rolling_is_told() -> None:
     verdict = check("phi = -x/R", T, *TURNED, ROWS[0], ROWS[1].replace("m g l", "m g"))
     assert [f.follows for f in verdict.findings if not f.status.right] == [False, True, True, True, False]
@@ -83,6 +87,7 @@ FORCED = (
 )
 
 
+@pytest.mark.slow
 def test_a_coordinate_in_another_beside_a_multiplier_is_right_in_a_wrong_answer() -> None:
     assert check("phi = x/R", FORCED, ARM).right
     verdict = check("phi = x/R", FORCED, ARM.replace("m g l", "m g"))
@@ -92,6 +97,7 @@ def test_a_coordinate_in_another_beside_a_multiplier_is_right_in_a_wrong_answer(
     assert [f.status.right for f in wrong.findings] == [True, True, False, True]
 
 
+@pytest.mark.slow
 def test_right_lines_are_right_beside_one_that_nothing_explains() -> None:
     verdict = check("phi = x/R", ALONG.replace("m l cos(psi) psi''", "m l sin(2 psi) psi'' + 3 M J x"), ARM)
     assert [f.status.right for f in verdict.findings] == [True, False, True]
@@ -105,7 +111,7 @@ def test_a_square_keeps_its_constant() -> None:
     assert "½ k s² should be ½ k (s − s₀)²" in str(sys.derive().check("T = m s'^2/2\nV = k s^2/2"))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
@@ -124,6 +130,7 @@ NUMBERS = """M + m + J/R^2 = 0.05 + 0.03 + 0.05 = 0.13, k/R = 0.02
 0.00045 x'' cos(psi) + 0.00000675 psi'' + 0.0005 x' + 0.00001 psi' + 0.02 x + 0.0004 psi + 0.0044145 sin(psi) = 0"""
 
 
+@pytest.mark.slow
 def test_values_that_are_worked_out_stand_beside_equations_in_numbers() -> None:
     def judged(answer: str) -> tuple[bool, list[bool]]:
         verdict = reel_with(**VALUES).check(answer)

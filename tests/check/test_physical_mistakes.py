@@ -142,7 +142,7 @@ def strut() -> Mechanism:
 STRUT = "m*x'' + K*x - n*k*(y - n*x) - n*c*(y' - n*x') = 0\nM*y'' + k*(y - n*x) + c*(y' - n*x') = 0"
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("old", "new", "kind"),
     [

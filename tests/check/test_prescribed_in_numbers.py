@@ -68,7 +68,7 @@ def test_values_that_are_rounded(answer: str) -> None:
     assert not any(f.status.value == "wrong" for f in verdict.findings), verdict.to_text()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(
     "answer",
     [
@@ -86,7 +86,7 @@ def test_values_that_are_rounded(answer: str) -> None:
     ],
 )
 def test_wrong_numbers_stay_wrong(answer: str) -> None:
-    assert not plank().check(answer).right
+    assert not plank().check(answer, hint=0).right
 
 
 @pytest.mark.sampled(3)
@@ -131,9 +131,10 @@ value = "k*theta^2/2"
 GROWS = "(10 + 5 s^2) theta'' + 4 s theta' + 30 theta = 0"
 
 
+@pytest.mark.slow
 def test_a_length_by_name_beside_its_rate_in_numbers() -> None:
     arm = loads(LONGER).derive()
     said = "s = 2 + 0.4 t\nT = 5 theta'^2 + 2.5 (0.16 + s^2 theta'^2)\nV = 15 theta^2\n"
-    assert arm.check(said + GROWS).right
-    assert not arm.check(said + GROWS.replace("4 s", "5 s")).right
-    assert not arm.check(said + GROWS.replace("4 s", "2 s")).right
+    assert arm.check(said + GROWS, hint=0).right
+    assert not arm.check(said + GROWS.replace("4 s", "5 s"), hint=0).right
+    assert not arm.check(said + GROWS.replace("4 s", "2 s"), hint=0).right

@@ -45,7 +45,7 @@ def motor() -> Derivation:
     ],
 )
 def test_the_letter_of_a_current_is_the_rate_of_the_charge(written: str) -> None:
-    assert motor().check(written).right
+    assert motor().check(written, hint=0).right
 
 
 def test_a_mistake_beside_a_current_is_named_alone() -> None:
@@ -67,12 +67,12 @@ def test_a_letter_of_a_speed_is_read_beside_a_mistake() -> None:
 def test_a_current_is_one_of_the_coordinates_beside_one_of_the_answer() -> None:
     """psi = 2 phi in place of phi, and q, of which only the current is written: Q_psi is Ξ_phi/2."""
     rows = "L i' + R i + K psi'/2 = u\nJ psi''/4 = K i/2 - b psi'/4"
-    assert motor().check(f"psi = 2 phi\nQ_psi = K i/2 - b psi'/4\n{rows}").right
-    assert not motor().check(f"psi = 2 phi\nQ_psi = K i - b psi'/2\n{rows}").right
+    assert motor().check(f"psi = 2 phi\nQ_psi = K i/2 - b psi'/4\n{rows}", hint=0).right
+    assert not motor().check(f"psi = 2 phi\nQ_psi = K i - b psi'/2\n{rows}", hint=0).right
 
 
 def test_a_letter_that_the_answer_explains_is_no_current() -> None:
     below = "L q'' + R q' + K phi' = u\nJ phi'' + b phi' = i q'"
-    assert motor().check(f"{below}\ni = K").right
-    assert not motor().check(f"{below}\ni = 2 K").right
-    assert motor().check("L q'' + i q' + K phi' = u\nJ phi'' + b phi' = K q'").right  # i is R
+    assert motor().check(f"{below}\ni = K", hint=0).right
+    assert not motor().check(f"{below}\ni = 2 K", hint=0).right
+    assert motor().check("L q'' + i q' + K phi' = u\nJ phi'' + b phi' = K q'", hint=0).right  # i is R

@@ -29,7 +29,7 @@ def spring() -> Derivation:
 def right(answer: str) -> bool:
     """Whether an answer is judged right; one that is refused is not."""
     try:
-        return spring().check(answer).right
+        return spring().check(answer, hint=0).right
     except ParseError:
         return False
 
@@ -83,10 +83,11 @@ ENTRIES = (
 )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "answer", [BARRED, SLASHED, SLASHED.translate(str.maketrans("/\\", "||")), f"{ENTRIES}, with M q'' = f."]
 )
 def test_matrices_between_bars_and_slashes_are_read(answer: str) -> None:
     judge = built_in.derivation("cart-pole")
-    assert judge.check(answer).right
-    assert not judge.check(answer.replace("m g l", "m g")).right
+    assert judge.check(answer, hint=0).right
+    assert not judge.check(answer.replace("m g l", "m g"), hint=0).right

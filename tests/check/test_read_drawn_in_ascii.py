@@ -31,12 +31,12 @@ def test_what_sympy_draws_without_unicode_is_read(form: str) -> None:
         return f"{drawn(e1, form != 'pieces')}{'' if form == 'stacked' else chr(10)}\n{drawn(e2, form != 'pieces')}"
 
     judge = derivation("cart-pole")
-    assert judge.check(answer(1)).right
-    assert not judge.check(answer(-1)).right
+    assert judge.check(answer(1), hint=0).right
+    assert not judge.check(answer(-1), hint=0).right
 
 
 def test_a_drawing_that_is_cut_does_not_go_on_from_a_whole_one_above() -> None:
     judge = derivation("elastic-pendulum")
     first, second = (sp.Eq(e.lhs - e.rhs, 0) for e in judge.equations)
-    assert judge.check(f"{drawn(first, False)}\n\n{drawn(second, False)}").right
-    assert not judge.check(f"{drawn(first, False)}\n\n{drawn(sp.Eq(second.lhs + 1, 0), False)}").right
+    assert judge.check(f"{drawn(first, False)}\n\n{drawn(second, False)}", hint=0).right
+    assert not judge.check(f"{drawn(first, False)}\n\n{drawn(sp.Eq(second.lhs + 1, 0), False)}", hint=0).right

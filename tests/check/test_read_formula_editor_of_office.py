@@ -49,6 +49,7 @@ INDEXED = """(M + m)*x_tt + m*l*u_tt*cos(u) - m*l*u_t^2*sin(u) + b*x_t = F
 (J + m*l^2)*u_tt + m*l*x_tt*cos(u) - m*g*l*sin(u) = 0"""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("said", ["u = theta", "x: cart, u = theta, dots: x_t, x_tt, u_t, u_tt", ""])
 def test_t_is_an_index_of_an_own_coordinate(said: str) -> None:
     assert right(f"{said}\n{INDEXED}")
@@ -60,7 +61,7 @@ NAMED = """x2 = (F - b x1 - m l p2 cos p + m l p1^2 sin p)/(M + m)
 p2 = [m g l sin p - m l x2 cos p]/(J + m l^2)"""
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "said",
     [

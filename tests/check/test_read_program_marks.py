@@ -16,7 +16,7 @@ RIGHT_SIDE = "f = [F - b*x' + m*l*theta'^2*sin(theta);\n     m*g*l*sin(theta)];\
 
 def right(written: str, name: str = "cart-pole") -> bool:
     """Whether an answer is judged right."""
-    return derivation(name).check(written).right
+    return derivation(name).check(written, hint=0).right
 
 
 def twins(written: str, old: str, new: str, name: str = "cart-pole") -> None:
@@ -82,7 +82,7 @@ def test_units_behind_numbers_are_no_products_of_parameters_and_degrees_belong_t
     wrong = derivation("rolling-cylinder").check(row.replace("sin 20°", "cos 20°")).to_text()
     assert "should be" in wrong or "sin(" in wrong
     assert "0.349" not in wrong
-    assert derivation("rolling-cylinder").check("2 m x'' − 2 m g sin(alpha) + 2 J/R^2 x'' = 0").right
+    assert derivation("rolling-cylinder").check("2 m x'' − 2 m g sin(alpha) + 2 J/R^2 x'' = 0", hint=0).right
 
 
 @pytest.mark.parametrize(
@@ -193,9 +193,9 @@ def test_maple_indexes_parameters_in_brackets() -> None:
     system.spring(k_a, deflection=y - x)
     masses = system.derive()
     rows = "eq1 := m[1]*diff(x(t), t, t) = k[a]*(y(t) - x(t));\neq2 := m[2]*diff(y(t), t, t) = -k[a]*(y(t) - x(t));"
-    assert masses.check(rows).right
-    assert not masses.check(rows.replace("m[2]", "m[1]")).right
-    assert not masses.check(rows.replace("= k[a]", "= -k[a]")).right
+    assert masses.check(rows, hint=0).right
+    assert not masses.check(rows.replace("m[2]", "m[1]"), hint=0).right
+    assert not masses.check(rows.replace("= k[a]", "= -k[a]"), hint=0).right
 
 
 def test_a_letter_is_what_a_program_declares_it_as() -> None:
@@ -207,8 +207,8 @@ def test_a_letter_is_what_a_program_declares_it_as() -> None:
     s.spring(k, deflection=x)
     program = "m, g, al, c = sp.symbols('m g alpha k')\nV = -m*g*x*sp.sin(al) + c*x**2/2\nT = m*x'**2/2\n"
     d = s.derive()
-    assert d.check(program).right
-    assert not d.check(program.replace("sin(al)", "sin(c)")).right
-    assert not d.check(program.replace("'m g alpha k'", "'m alpha g k'")).right
+    assert d.check(program, hint=0).right
+    assert not d.check(program.replace("sin(al)", "sin(c)"), hint=0).right
+    assert not d.check(program.replace("'m g alpha k'", "'m alpha g k'"), hint=0).right
     rates = "z = dynamicsymbols('x')\nzd = dynamicsymbols('x', 1)\n"
-    assert d.check(rates + program.replace("x'", "zd").replace("m*g*x", "m*g*z").replace("c*x", "c*z")).right
+    assert d.check(rates + program.replace("x'", "zd").replace("m*g*x", "m*g*z").replace("c*x", "c*z"), hint=0).right

@@ -95,6 +95,7 @@ def test_equations_in_numbers_behind_the_same_in_letters_are_judged_with_values(
     assert verdict.mistakes
 
 
+@pytest.mark.slow
 def test_values_of_a_list_and_the_value_of_the_system_for_a_letter_in_no_list_are_put_in_together() -> None:
     sheet = (
         "m = 0,5 kg; L_0 = 0,6 m; k = 30 N/m\n" + SPRING.replace(" - 0,5 r θ'^2", " - m r θ'^2").split("\n0,5 r^2")[0]

@@ -97,6 +97,7 @@ def test_verification_reads_the_pages_back_and_notices_a_fraction_turned_over(mo
     assert unread.holds is None and "not read back" in unread.figure
 
 
+@pytest.mark.slow
 def test_a_page_in_html_is_read_back_and_a_changed_formula_noticed() -> None:
     for name in ("duffing", "kapitza-pendulum"):
         own = derivation(name)

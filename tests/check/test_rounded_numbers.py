@@ -95,24 +95,28 @@ def strut() -> Derivation:
     return loads(STRUT).derive()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("head", ["", STATED])
 def test_a_rounded_number_may_stand_for_a_root_of_roots(head: str) -> None:
-    assert slope().check(head + ROWS).right
+    assert slope().check(head + ROWS, hint=0).right
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("other", ["50.989", "50.991", "50.890", "51.990", "60.990"])
 @pytest.mark.parametrize("head", ["", STATED])
 def test_another_digit_is_wrong(head: str, other: str) -> None:
-    assert not slope().check(head + ROWS.replace("50.990", other)).right
-    assert not slope().check(head + ROWS.replace("285.546", "285.547")).right
+    assert not slope().check(head + ROWS.replace("50.990", other), hint=0).right
+    assert not slope().check(head + ROWS.replace("285.546", "285.547"), hint=0).right
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("right", "less"), [("8.292", "8.29"), ("0.6889", "0.689"), ("1.8126 ", "1.812616 ")])
 def test_numbers_may_be_rounded_beside_multipliers(right: str, less: str) -> None:
-    assert strut().check(HELD).right
-    assert strut().check(HELD.replace(right, less)).right
+    assert strut().check(HELD, hint=0).right
+    assert strut().check(HELD.replace(right, less), hint=0).right
 
 
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
@@ -128,7 +132,7 @@ def test_numbers_may_be_rounded_beside_multipliers(right: str, less: str) -> Non
     ],
 )
 def test_another_digit_is_wrong_beside_multipliers(right: str, wrong: str) -> None:
-    assert not strut().check(HELD.replace(right, wrong)).right
+    assert not strut().check(HELD.replace(right, wrong), hint=0).right
 
 
 def test_roots_and_sines_of_whole_numbers_have_fifty_digits() -> None:

@@ -46,7 +46,7 @@ m \ddot y + c (y - x) - m g &= 0
 """
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("first", "more", "wrong"),
     [

@@ -52,6 +52,7 @@ def told(derivation: lg.Derivation, answer: str) -> list[str]:
     return [x.split(". ")[0].rstrip(".") for x in found.lstrip("─ ").split("line ")[1:]]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("row", "said"),
     [
@@ -71,7 +72,7 @@ SLIDE = "m x'' - m (e + x cos(alpha)) cos(alpha) psi'^2 + k x - c (y - x) - b (y
 LOAD = "n y'' + c (y - x) + b (y' - x') = 0"
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("right", "wrong", "said"),
     [

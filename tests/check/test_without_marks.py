@@ -14,7 +14,7 @@ from student_answers import CART, POLE, right
 MARKED = ["(x) {}", "x   {}", "2  {}", "{} N", "{}   x", "{} -- Newton for cart and pole", "{}  [cart, N]"]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("mark", MARKED)
 def test_a_mark_that_may_be_a_factor_is_left_out_where_only_that_is_right(mark: str) -> None:
     verdict = derivation("cart-pole").check(f"{mark.format(CART)}\n{POLE}")

@@ -181,6 +181,7 @@ def test_every_mistake_begins_with_the_same_word_and_says_what_would_be_right(
 # -- what is written, and where --------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("ending", "mark"),
     [("txt", "T*"), ("md", "$"), ("tex", r"\documentclass"), ("html", "<!DOCTYPE html>"), ("json", '"schema": 1')],
@@ -209,6 +210,7 @@ WRITING: dict[str, tuple[list[str], str]] = {
 }
 
 
+@pytest.mark.sampled(11)
 @pytest.mark.parametrize("verb", WRITING)
 def test_nothing_is_overwritten_unless_forced(
     capsys: pytest.CaptureFixture[str], folder: Path, tmp_path: Path, verb: str
@@ -252,6 +254,7 @@ JSON_KEYS: dict[str, tuple[list[str], set[str]]] = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("verb", JSON_KEYS)
 def test_every_verb_gives_data(capsys: pytest.CaptureFixture[str], folder: Path, verb: str) -> None:
     line, keys = JSON_KEYS[verb]

@@ -236,6 +236,7 @@ def test_every_function_by_hand(c_function):
     np.testing.assert_allclose([call(row, p)["f"] for row in q], want, rtol=1e-12)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.skipif(not HOST.triple.startswith("x86_64"), reason="these are generations of x86-64")
 @pytest.mark.parametrize(("cpu", "lanes", "fma"), [("x86-64", 2, False), ("x86-64-v3", 4, True)])
 def test_older_processors(cpu, lanes, fma):

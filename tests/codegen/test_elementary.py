@@ -174,7 +174,7 @@ RANGES = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", RANGES)
 def test_other_functions_are_within_a_few_ulp(name, lanes_target):
     low, high, bound = RANGES[name]

@@ -437,6 +437,7 @@ def test_few_states_are_broadcast_against_as_many_as_lanes(kernel, parameters):
             kernel(q[:2], v, None, p)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("p", [np.array(9.81), np.ones((3, 4)), np.ones((0, 5)), np.ones((2, 5))])
 def test_wrong_parameters_are_named_before_anything_looks_at_them(p):
     looked = compile(PENDULUM, optional=OPTIONAL, keep=False)

@@ -39,7 +39,7 @@ SHAPES = [
 ]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("lanes", [2, 4, 8])
 @pytest.mark.parametrize(("sizes", "outputs"), SHAPES)
 def test_packed_rows_are_the_same_numbers(sizes, outputs, lanes):

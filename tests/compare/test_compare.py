@@ -228,6 +228,7 @@ DIFFERENT = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", rest_slow(DIFFERENT, list(DIFFERENT)[::4]))
 def test_systems_that_differ_and_where_first(case: str) -> None:
     one, other, expected = DIFFERENT[case]

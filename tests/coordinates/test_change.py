@@ -256,6 +256,7 @@ def test_what_floats_is_carried_along_and_stays_as_it_is() -> None:
         s.in_coordinates({"base_x": "u + q"})
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("change", [{"x2": "x1 + x2"}, {"x2": "x1 + d"}])
 def test_a_feedback_of_the_file_is_written_in_the_new_coordinates(change: dict[str, str]) -> None:
     """Two carts and F = −k x2 − b x2' on the second: the same motion, whichever coordinate says where x2 is."""

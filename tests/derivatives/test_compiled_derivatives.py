@@ -172,6 +172,7 @@ def test_allowed_changes_of_a_linkage_at_rest_have_the_poles_of_its_linear_model
     assert np.allclose(np.sort_complex(np.linalg.eigvals(T.T @ A @ T)), wanted, rtol=1e-8, atol=1e-8)
 
 
+@pytest.mark.slow
 def test_a_step_of_a_linkage_has_the_derivatives_of_the_discrete_map() -> None:
     dyn = built_in.system("four-bar").compile()
     n = len(dyn.coordinates)

@@ -297,7 +297,7 @@ def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
     assert (d.minimal is None) == (not any("without multipliers" in w for w in words))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("notation", ["lecture", "physics", "robotics"])
 def test_every_format_shows_it(notation: Any) -> None:
     """The rows, the multiplier's meaning and the equations without it, in all formats and notations."""

@@ -157,7 +157,7 @@ INTEGRALS: dict[str, tuple[list[Given], list[Any], list[Any]]] = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", INTEGRALS)
 def test_integrals(name: str) -> None:
     rows, coordinates, expected = INTEGRALS[name]

@@ -245,6 +245,7 @@ def operations(form: Form) -> int:
     return int(sp.count_ops(whole.xreplace(names)))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("n", "relative", "most"),
     [(2, False, 48), (2, True, 62), (3, False, 124), (3, True, 240), (4, False, 240), (4, True, 561)],

@@ -16,7 +16,7 @@ def test_every_example_with_constraints_has_an_oracle() -> None:
 
 
 @pytest.mark.thinned(2)
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", rest_slow(CONSTRAINED, set(CONSTRAINED) - LARGE))
 def test_accelerations_and_multipliers_are_those_of_dense_matrices(name: str) -> None:
     system = built_in.system(name)

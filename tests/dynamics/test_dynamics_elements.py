@@ -121,7 +121,7 @@ def space():
 MODELS = [cart_and_pole, springs_and_dampers, driven_pivot, raw_energies, space]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("build", rest_slow(MODELS, set(MODELS) - {space}), ids=lambda f: f.__name__)
 def test_both_routes_against_euler_lagrange_by_sympy(build):
     model = build()

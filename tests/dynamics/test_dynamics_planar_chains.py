@@ -54,6 +54,7 @@ def test_cost_a_link_is_constant(relative, limit):
     )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("relative", "limit"), [(False, 33), (True, 35)])
 def test_cost_a_link_with_a_torque_and_a_damper_on_every_coordinate(relative, limit):
     for n in (8, 64):

@@ -11,6 +11,7 @@ from lagrangian.graph import Graph, Output, Program, count_operations, count_pro
 SEVEN = [(Z, Y), (Y, Z), (Y, X), (X, Z), (Z, Y), (Y, X), (X, Z)]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(5))
 def test_random_chains_against_newton_and_euler(seed):
     links = random_links(5, seed)

@@ -280,6 +280,7 @@ def test_names_and_order():
     assert s["base_origin"] is s["base"].origin
 
 
+@pytest.mark.slow
 def test_exported_python_and_c_agree_with_the_engine(tmp_path):
     s = two_bodies()
     compiled = s.compile()

@@ -75,6 +75,7 @@ def rods(seed, *, cart=(), branches, relative):
     return s.model
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("relative", [False, True])
 @pytest.mark.parametrize("branches", [False, True])
 @pytest.mark.parametrize("cart", ["", "x", "y", "xy"])

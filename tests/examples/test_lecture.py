@@ -63,6 +63,7 @@ def two_link(relative: bool) -> tuple[sp.Expr, sp.Expr]:
     return T, sum(m * g * y for m, (_, y) in zip(masses, places, strict=True))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "relative"), [("lecture-2", True), ("lecture-2-absolute", False)])
 def test_example_2(name: str, relative: bool) -> None:
     d = derivation(name)

@@ -21,6 +21,7 @@ def run(name: str) -> dict:
     return runpy.run_path(str(FOLDER / f"{name}.py"), run_name="example")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "script", rest_slow(SCRIPTS, set(SCRIPTS) - {FOLDER / "ilqr_acrobot.py"}), ids=lambda path: path.stem
 )

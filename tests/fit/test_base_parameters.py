@@ -25,6 +25,7 @@ def agrees(s, base):
     assert np.abs(found - expected).max() < 1e-12 * max(1.0, np.abs(expected).max())
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("make", "count", "of"),
     [
@@ -43,6 +44,7 @@ def test_published_counts_and_the_inverse_dynamics(make, count, of) -> None:
         agrees(s, base)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("links", [1, 2, 3])
 def test_a_chain_in_general_position_has_one_and_seven_more_a_link(links: int) -> None:
     source = np.random.default_rng(links)

@@ -30,6 +30,7 @@ def swings(noise: float = 0.0, seed: int = 1, t: Any = T) -> dict[str, Any]:
     return {"t": t, **{name: run[name] + noise * rng.normal(size=len(t)) for name in ("theta1", "theta2")}}
 
 
+@pytest.mark.slow
 def test_a_line_has_the_estimate_and_covariance_of_linear_regression() -> None:
     """numpy.polyfit solves the same problem, with σ² = Σ r²/(N − 2)."""
     values = 0.3 + 0.8 * T + 0.05 * np.random.default_rng(2).normal(size=21)
@@ -268,6 +269,7 @@ def test_units_of_values_that_are_asked_about_are_checked() -> None:
         found.contains({"L": "1 s"})
 
 
+@pytest.mark.slow
 def test_a_fit_names_unknowns_and_units_as_they_are_written_in_formulas() -> None:
     """A length L is no Lagrangian, and the unit V no potential energy, whatever letters the page needs for these."""
     system = lg.System("coil")
@@ -293,6 +295,7 @@ FAR = {"t": T, "theta1": 40 * T**2 + 5, "theta2": -30 * np.cos(9 * T)}
 """Angles that no double pendulum has."""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("most", [1, 7, 60])
 def test_the_evaluations_of_all_searches_together_are_limited(monkeypatch: pytest.MonkeyPatch, most: int) -> None:
     """The unknowns cannot be told apart either. A few more evaluations belong to the start and to the estimate."""

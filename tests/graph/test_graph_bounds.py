@@ -79,7 +79,7 @@ def test_no_zero_and_no_turn_where_the_bounds_say_so(count: int) -> None:
     assert cleared > 8 * count / 2 and steadied > 8 * count / 2
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", SMOOTH + HALF + INNER)
 def test_bounds_of_every_function_are_nearly_met_on_short_stretches(name: str) -> None:
     """A zero 1e-4 from the centre is known not to be nearer than 0.99e-4, and nothing is said beyond 1.01e-4."""

@@ -94,7 +94,7 @@ def test_what_is_stored_of_the_double_pendulum_is_what_mpmath_gives():
     assert np.abs(exact - SWING["end"]).max() < 1e-14
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", RUNGE_KUTTA)
 @pytest.mark.parametrize("size", [5, 12])
 def test_long_vectors_in_loops_and_short_ones_in_registers_are_right(name, size):

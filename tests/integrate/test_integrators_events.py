@@ -99,6 +99,7 @@ def test_an_event_at_the_start_is_no_event(name):
     assert np.abs(found.event_time[:, 0] - np.pi).max() < 1e-7
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", METHODS)
 def test_two_walls_of_a_corner_are_both_met(name):
     motion = problem(lambda s: [s["vx"], s["vy"], 0 * s["x"], 0 * s["x"]], x=("x", "y", "vx", "vy"))

@@ -142,6 +142,7 @@ def test_solvers_that_cannot_be_are_refused():
         Solver(problem(lambda s: [s["x"]], x=("x", "y")))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", METHODS)
 def test_a_motion_without_inputs_or_parameters_runs(name):
     solver = Solver(kepler(), name)

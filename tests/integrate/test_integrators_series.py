@@ -51,7 +51,7 @@ def computed(t, rule):
     return rule(t, lambda name, *arguments: names.get(name, getattr(mpmath, name, None))(*arguments))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", RULES)
 def test_the_series_of_every_operation_is_right(name):
     rule = RULES[name]

@@ -47,7 +47,7 @@ def angle(t, start=2.0):
     return 2 * np.arcsin(k * cn / dn)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", MADE)
 def test_rows_hold_for_100_seconds(name, method):
@@ -312,7 +312,7 @@ def by_scipy(name, method, times, projection, **options):
     )
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("method", SCIPY)
 @pytest.mark.parametrize("name", MADE)
 def test_solvers_of_scipy_keep_the_rows(name, method):

@@ -140,7 +140,7 @@ def test_what_friction_and_forces_take_is_said() -> None:
 CONSERVATIVE = ["lecture-3a", "double-pendulum", "elastic-pendulum", "spherical-pendulum", "spinning-top", "wedge"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", [*CONSERVATIVE, "two-carts", "bead-on-hoop"])
 def test_rates_vanish_by_the_forward_dynamics_and_runs_keep_them(name: str) -> None:
     system = built_in(name)

@@ -82,7 +82,7 @@ def test_poles_of_an_overdamped_oscillator_are_real() -> None:
     assert np.allclose(found.damping_ratios, 1)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "name", ["lecture-1", "acrobot", "cart-pole", "quarter-car", "three-masses", "furuta-pendulum"]
 )

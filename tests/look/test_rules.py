@@ -191,6 +191,7 @@ def test_a_long_chain_is_no_coil_and_its_letters_do_not_meet() -> None:
         assert a + w <= c or c + u <= a or b + h <= d or d + v <= b
 
 
+@pytest.mark.slow
 def test_letters_without_room_are_left_out_and_told() -> None:
     stage = Kinematics(built_in.system("pendulum").model)
     board = Board(stage, Motions(stage), np.array([0.5]), stage.parameters(), PLANE)

@@ -23,6 +23,7 @@ from lagrangian.page.placing import axes, places
 from lagrangian.page.scene import Scene
 
 
+@pytest.mark.slow
 def test_examples_in_space_are_listed() -> None:
     assert [name for name in names() if built_in.system(name).model.dimension == 3] == list(SPACE)
 

@@ -146,7 +146,7 @@ INERTIAS = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("inertia", INERTIAS.values(), ids=INERTIAS)
 @pytest.mark.parametrize("value", [2.0, 1e-3, -0.4, -50.0])
 def test_many_calls_with_new_values_are_held_to_it_too(inertia, value: float) -> None:

@@ -149,6 +149,7 @@ def test_how_a_search_failed_is_said_in_words_of_its_own() -> None:
     assert both.message.endswith("contradicts itself, or no unknown changes it")
 
 
+@pytest.mark.slow
 def test_the_evaluations_and_the_time_of_a_search_that_must_reach_something_are_limited(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

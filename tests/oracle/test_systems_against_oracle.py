@@ -81,7 +81,7 @@ def derived_residual(case: Case, q: Any, v: Any, a: Any, u: Any, t: float) -> li
     return [float((e.lhs - e.rhs).xreplace(put).evalf()) for e in d.equations]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("family", rest_slow(FAMILIES, set(FAMILIES) - {"floating"}))
 def test_random_systems_agree_with_the_oracle(family: str, seed: int) -> None:

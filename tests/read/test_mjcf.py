@@ -110,6 +110,7 @@ MEMBERS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", list(MEMBERS))
 def test_the_same_as_mujoco(name):
     mujoco = pytest.importorskip("mujoco")

@@ -38,6 +38,7 @@ def applied(system, v, u):
     return found
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", list(ROBOTS))
 def test_the_same_as_pinocchio(name):
     pin = pytest.importorskip("pinocchio")
@@ -93,6 +94,7 @@ def test_names_that_are_taken_or_reserved_are_changed():
     assert [c.name for c in again.model.coordinates] == [c.name for c in system.model.coordinates]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["inverted pendulum", "gripper", "quadruped", "mobile arm"])
 def test_a_robot_saved_as_a_model_file_is_the_same_system(name):
     system = lg.loads(ROBOTS[name])

@@ -105,12 +105,14 @@ def test_a_motion_without_sizes_is_drawn_as_large_as_there_is_room(size: float) 
     assert np.ptp(motion.at[:, handle], axis=0) == pytest.approx([2 * SWING, 0.0], abs=0.5)
 
 
+@pytest.mark.slow
 def test_a_wheel_that_rolls_in_space_is_written_in_few_numbers() -> None:
     """The ellipse of a wheel changes with its lean alone, not with its turn: in between frames it does not shrink."""
     _, animation = animated("rolling-disc", samples=401)
     assert len(animation.to_svg()) < 90_000
 
 
+@pytest.mark.slow
 def test_the_ground_is_as_wide_as_the_frame() -> None:
     _, animation = animated("cart-pole")
     root = parsed(animation.to_svg())

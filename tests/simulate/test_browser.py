@@ -46,7 +46,7 @@ def refused(system: lg.System, method: str) -> str:
 
 
 @pytest.mark.thinned(7)
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("case", rest_slow(CASES, QUICK))
 def test_a_run_is_that_of_machine_code(case: str, tmp_path: Path) -> None:
     name, method = case.split()
@@ -128,6 +128,7 @@ def test_two_lanes_give_the_numbers_of_one(method: str, tmp_path: Path) -> None:
 # Events, tables, conditions ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "gauss4"])
 def test_a_ball_bounces_when_it_should(method: str, tmp_path: Path) -> None:
     s = ball(e=0.5)
@@ -171,7 +172,7 @@ PULSES = {
 }
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("method", ["dop853", "rk4"])
 @pytest.mark.parametrize("kind", PULSES)
 def test_a_short_pulse_is_not_jumped_over(kind: str, method: str, tmp_path: Path) -> None:

@@ -52,6 +52,7 @@ deflection = "x"
 """
 
 
+@pytest.mark.slow
 def test_a_summary_says_when_friction_sticks(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     """A block at 2 m/s that brakes with μ g = 5 m/s² rests after 0.4 s."""
     path = tmp_path / "block.toml"

@@ -43,7 +43,7 @@ def test_a_summary_on_the_terminal(folder: pathlib.Path, capsys: pytest.CaptureF
     assert f"theta1 = {place['theta1']:.6g}, m2 = {place['m2']:.6g}" in said.out
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.zarr"])
 def test_files(folder: pathlib.Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     given = ("arm.toml", "m2~normal(1,0.1)", "--draws", "20", "--seed", "4", "--output-of", "max theta1", *FAST)

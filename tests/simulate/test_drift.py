@@ -60,7 +60,7 @@ def angle(t):
     return 2 * np.arcsin(k * cn / dn)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "tsit5", "rk4", "DOP853", "Radau", "BDF", "LSODA"])
 def test_every_sample_satisfies_the_constraints(method):
     run = SYSTEM.simulate(5.0, **RELEASED, method=method, step=0.01 if method == "rk4" else None)
@@ -224,7 +224,7 @@ def test_a_reset_that_breaks_a_constraint_fails_a_run_of_many():
     assert np.isnan(runs["final x"]).all() and "breaks a constraint" in str(runs)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("method", "step"), [("dop853", None), ("tsit5", None), ("rk4", 0.01), ("Radau", None)])
 def test_a_parallelogram_passes_where_it_is_flat(method, step):
     turning = {"a": 1.0, "b": 0.0, "c": 1.0, "a'": 3.0, "b'": 0.0, "c'": 3.0}

@@ -42,6 +42,7 @@ def tension(run: lg.Trajectory) -> np.ndarray:
     return MASS * GRAVITY * cosine + MASS * speed**2 / LENGTH
 
 
+@pytest.mark.slow
 def test_an_event_named_like_a_row_is_where_its_force_vanishes() -> None:
     """Thrown up at v₀, the bob is free where v²/l = g sin of its height: v₀² − 2 g (y − y₀) = g y, for l as a rope."""
     speed = 7.0
@@ -80,6 +81,7 @@ def test_tables_and_pictures_hold_them_with_units(run: lg.Trajectory) -> None:
     assert axes.lines[0].get_ydata() == pytest.approx(run["rod"])
 
 
+@pytest.mark.slow
 def test_the_unit_of_an_expressions_multiplier_is_energy_or_power_per_unit_of_it() -> None:
     s = lg.System("disc")
     x, phi = s.coordinates("x phi")
@@ -91,6 +93,7 @@ def test_the_unit_of_an_expressions_multiplier_is_energy_or_power_per_unit_of_it
     assert data["multiplier.no slip"].attrs["units"] == "N"
 
 
+@pytest.mark.slow
 def test_names_that_are_no_row_say_which_there_are(run: lg.Trajectory) -> None:
     s = lg.System("pinned twice")
     x, y = s.coordinates("x y")
@@ -138,6 +141,7 @@ def test_a_row_that_is_spelled_wrong_is_suggested(asked):
     assert "Did you mean 'rod'?" in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_symbol_that_is_spelled_wrong_is_not_taken_for_a_row():
     run = built_in.system("four-bar").simulate(0.01)
     name = run.states[0]

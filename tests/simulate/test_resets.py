@@ -19,6 +19,7 @@ def ball() -> lg.System:
     return system
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("options", [{}, {"method": "taylor"}, {"method": "gauss4", "step": 0.01}, {"method": "RK45"}])
 def test_a_reset_to_no_number_ends_the_run_before_it(ball: lg.System, options) -> None:
     y = ball["y"]

@@ -56,7 +56,7 @@ def test_a_terminal_event_ends_the_run_there(method: str) -> None:
     assert run["y"][-1] == pytest.approx(0.5, abs=1e-10)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("direction", "wanted"), [(0, [1, 3, 5]), (1, [3]), (-1, [1, 5])])
 def test_crossings_are_found_in_the_direction_asked_for(method: str, direction: int, wanted: list[int]) -> None:
@@ -131,7 +131,7 @@ def test_what_the_last_impact_takes_is_accounted_for(method: str) -> None:
     assert float(run.audit) < 1e-9
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("method", [*METHODS, "LSODA", "BDF", "RK23", "gauss4", "rk4"])
 def test_no_crossing_between_the_places_a_step_is_judged_at_is_lost(method: str) -> None:
     """sin(30 t) has 28 zeros in (0, 3]; the amplitude less 1e-5 is passed twice within 9 ms of a step of some 0.5 s."""
@@ -244,7 +244,7 @@ def test_a_gap_between_two_numbers_inside_a_step_is_no_crossing(method: str) -> 
     assert run.status == -10 and run["q"][-1] == pytest.approx(0.01, abs=1e-4)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("method", ALL)
 def test_an_event_at_the_edge_comes_before_what_has_no_value_beyond_it(method: str) -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)

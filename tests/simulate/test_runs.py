@@ -58,6 +58,7 @@ def test_a_driven_oscillator_follows_its_closed_form() -> None:
     assert run["F"] == pytest.approx(A * np.sin(W * t), abs=1e-12)
 
 
+@pytest.mark.slow
 def test_a_cart_pole_follows_equations_written_by_hand() -> None:
     s = example("cart-pole")
     p = {q.name: float(q.value or 0.0) for q in s.model.parameters}
@@ -108,7 +109,7 @@ def test_the_examples_without_supply_are_listed() -> None:
     assert [n for n in free if n not in supplied] == list(CONSERVATIVE)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("name", CONSERVATIVE)
 def test_conservative_examples_hold_their_energy_over_a_hundred_seconds(name: str) -> None:
     """To 1e-9 relative at the default tolerances."""
@@ -124,7 +125,7 @@ def test_conservative_examples_are_many() -> None:
     assert len(CONSERVATIVE) >= 10
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", ["kapitza-pendulum", "duffing", "quarter-car", "crane", "acrobot"])
 def test_driven_and_damped_examples_balance_their_power(name: str) -> None:
     s = example(name)

@@ -49,6 +49,7 @@ def test_a_cart_that_a_damper_stops_against_its_closed_solution() -> None:
     np.testing.assert_allclose(found["F", "F"], 1.0)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("hold", "method"), [("linear", "dop853"), ("hold", "dop853"), ("hold", "tsit5")])
 def test_every_value_of_a_table_has_its_own_column(hold: str, method: str) -> None:
     """The cart is linear, so that the difference of two runs is the derivative."""

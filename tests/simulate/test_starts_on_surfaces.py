@@ -26,7 +26,7 @@ def options(method: str) -> dict[str, Any]:
     return {"step": 0.01} if method == "gauss4" else {}
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_thrown_at_the_floor_from_the_floor_bounces_at_once(method: str) -> None:
     s, y = ball()
@@ -37,7 +37,7 @@ def test_a_ball_thrown_at_the_floor_from_the_floor_bounces_at_once(method: str) 
     np.testing.assert_allclose(run["y"], run.t - 9.81 * run.t**2 / 2, atol=1e-9)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("speed", [-1.0, 0.0])
 def test_a_floor_ends_a_run_that_begins_on_it(method: str, speed: float) -> None:
@@ -48,6 +48,7 @@ def test_a_floor_ends_a_run_that_begins_on_it(method: str, speed: float) -> None
     assert run.t[-1] < 1e-9
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_at_rest_on_the_floor_does_not_fall_through(method: str) -> None:
     s, y = ball()

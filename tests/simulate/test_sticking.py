@@ -62,7 +62,7 @@ def last_stop(start: float, friction: float = C) -> tuple[float, float]:
     return t, angle
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "RK45", "Radau", "LSODA"])
 def test_a_run_that_sticks_ends_where_it_sticks_and_names_the_torque(pendulum: lg.System, method: str) -> None:
     run = pendulum.simulate(20.0, theta=0.5, method=method)
@@ -75,6 +75,7 @@ def test_a_run_that_sticks_ends_where_it_sticks_and_names_the_torque(pendulum: l
     assert "value = -c*tanh(theta'/eps1)" in run.message
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["rk4", "gauss4"])
 def test_steps_of_one_length_end_at_the_first_sample_that_sticks(pendulum: lg.System, method: str) -> None:
     beat = lg.event(sp.sin(pendulum.t), name="beat")
@@ -86,6 +87,7 @@ def test_steps_of_one_length_end_at_the_first_sample_that_sticks(pendulum: lg.Sy
     assert "torque 'pivot'" in run.message and "it sticks, and steps jump to and fro" in run.message
 
 
+@pytest.mark.slow
 def test_what_rests_exactly_where_a_force_jumps_does_not_stick(pendulum: lg.System) -> None:
     assert pendulum.simulate(1.0, method="rk4", step=0.01).success
     assert pendulum.simulate(1.0, theta=1.0, params={"c": 0.0}, method="rk4", step=0.01).success

@@ -103,6 +103,7 @@ def test_a_sweep_is_every_combination_and_every_sample(oscillator: lg.System) ->
     assert other.coordinates["x"][1].tolist() != x0.tolist()
 
 
+@pytest.mark.slow
 def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
     system = built_in.system("double-pendulum")
     bits = set()
@@ -348,6 +349,7 @@ def test_one_run_is_an_ensemble_too(oscillator: lg.System) -> None:
         runs["final y"]
 
 
+@pytest.mark.slow
 def test_frames_that_float() -> None:
     system = lg.System("satellite")
     hull = system.floating_frame("hull")

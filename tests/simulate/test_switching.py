@@ -41,7 +41,7 @@ def travelled(force: float, first: float, last: float, end: float) -> float:
     return a * tau**2 / 2 + a * tau * (end - last)
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     "pulse",

@@ -24,6 +24,7 @@ def held(derivation: Any) -> bool:
     return all(c.holds for c in checks) and sum("prime field" in c.figure for c in checks) >= PROOFS
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "chaplygin-sleigh", "rolling-disc", "ladder"])
 def test_every_line_is_proved_with_its_rows(name: str) -> None:
     d = derive_structured(built_in.system(name).model)

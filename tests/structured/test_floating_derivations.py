@@ -137,6 +137,7 @@ def test_what_cannot_be_derived_says_why() -> None:
     assert all(c.holds for c in s.derive().verified)  # an energy that was given is one more term of T*
 
 
+@pytest.mark.slow
 def test_where_and_shares_add_up() -> None:
     d = arm().derive()
     found = d.where(d.equations[6].lhs)

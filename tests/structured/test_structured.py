@@ -71,6 +71,7 @@ def test_arms_chains_and_platforms_are_proved(make: Any) -> None:
     assert proved(derive_structured(make().model))
 
 
+@pytest.mark.slow
 def test_quantities_stand_before_what_needs_them_in_every_chain() -> None:
     d = derive_structured(robots.crooked_chain(4).model)
     known = {p.symbol for p in d.model.parameters}
@@ -120,6 +121,7 @@ def test_every_example_that_can_be_written_in_names_is_proved() -> None:
     assert [n for n in names if not proved(derive_structured(built_in.system(n).model))] == []
 
 
+@pytest.mark.slow
 def test_names_are_unique_used_and_in_order(puma_lines: Any) -> None:
     d = puma_lines
     known: set[sp.Basic] = set()

@@ -50,6 +50,7 @@ def test_a_number_written_into_a_description_is_named() -> None:
 CALLS = ("forward", "inverse", "mass_matrix", "bias", "energy", "derivatives")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", CALLS)
 def test_parameters_of_compiled_calls_are_bounded_like_declared_ones(method: str) -> None:
     compiled = built_in.system("cart-pole").compile()

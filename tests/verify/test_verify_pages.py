@@ -37,6 +37,7 @@ def altered(part: str, change: Callable[[str], str], page: str) -> str:
     return page.replace(packed, dense(json.dumps(listed, ensure_ascii=False).encode()))
 
 
+@pytest.mark.slow
 @needs_node
 def test_the_page_of_a_system_with_an_input_and_a_damper_holds() -> None:
     found = checks(built_in.system("cart-pole"))
@@ -55,6 +56,7 @@ def twice(key: str) -> Callable[[str], str]:
     return change
 
 
+@pytest.mark.sampled(5)
 @needs_node
 @pytest.mark.parametrize(
     ("part", "change", "expected"),

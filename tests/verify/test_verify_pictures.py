@@ -28,6 +28,7 @@ def held(name: str) -> list[bool | None]:
     return [check.holds for check in drawn.drawn_checks(model, states_of(model))]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "name", ["cart-pole", "two-carts", "rolling-disc"], ids=["to scale", "not to scale", "in space"]
 )

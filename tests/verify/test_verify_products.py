@@ -179,7 +179,7 @@ def compiled_crane() -> tuple[Any, ...]:
     return functions, model, list(random_states(model, functions.program("forward"), 1, 1))
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(18)
 @pytest.mark.parametrize("wanted", FAULTS)
 def test_a_fault_in_derivatives_and_in_steps_is_noticed(
     wanted: str, compiled_crane: tuple[Any, ...], monkeypatch: pytest.MonkeyPatch
@@ -243,6 +243,7 @@ def energies() -> lg.System:
     return s
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("doubled_coupling")
 def test_a_wrong_mass_matrix_is_noticed_by_derive_and_verify() -> None:
     found = energies().derive()
@@ -291,7 +292,7 @@ def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pyt
     assert DERIVED_ENERGIES in failing(dust().derive().verified)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.usefixtures("functions_alone")
 @pytest.mark.parametrize(
     "name", ["forward", "inverse", "mass_matrix", "bias", "potential_force", "coriolis_matrix", "rates", "rhs"]
@@ -331,7 +332,7 @@ def flawed(sources: Callable[..., dict[str, str]], old: str, new: str) -> Callab
     return wrong
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("language", "old", "new", "noticed"),
     [
@@ -383,6 +384,7 @@ def test_without_a_compiler_the_c_source_is_said_not_to_be_checked(monkeypatch: 
     assert check.holds is None and "Node was not found" in check.figure
 
 
+@pytest.mark.slow
 def test_a_wrong_linearization_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     plain = jacobians.jacobian
 
@@ -438,6 +440,7 @@ def run_checks(model: Any) -> list[Check]:
     return list(recorded_runs.recorded_runs(model, Compiled(model), state))
 
 
+@pytest.mark.slow
 def test_a_run_and_its_files_hold() -> None:
     assert [check.holds for check in run_checks(crane().model)] == [True, True]
 

@@ -48,6 +48,7 @@ def two_masses(small: float) -> lg.System:
     return s
 
 
+@pytest.mark.slow
 def test_a_mass_of_a_picogramme_beside_a_kilogramme_is_no_trouble() -> None:
     s = two_masses(1e-12)
     assert not s.notices

@@ -27,6 +27,7 @@ def colour(text: str) -> list[int]:
     return [int(text[k : k + 2], 16) for k in (1, 3, 5)]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("dark", [False, True])
 def test_the_image_has_the_bodies_where_the_picture_has_them(dark: bool) -> None:
     shown = picture("double-pendulum")

@@ -14,12 +14,13 @@ pytest.importorskip("uvicorn")
 from served_app import TOKEN, Served, served
 
 from lagrangian.web.guard import MAX_BODY, MAX_HEAD
+from lagrangian.web.pool import PoolLimits
 from lagrangian.web.serve import CONNECTIONS
 
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[Served]:
-    with served(body_seconds=0.5) as found:
+    with served(PoolLimits(workers=1, spare=0), body_seconds=0.5) as found:  # one process starts: no job is long
         yield found
 
 

@@ -63,7 +63,7 @@ def check_pieces(sections: list[dict[str, str]]) -> None:
         assert "<style" not in section["html"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", ["lecture-3b", "cart-pole", "four-bar", "lecture-2"])
 @pytest.mark.parametrize("notation", ["lecture", "robotics"])
 def test_a_derivation_is_that_of_the_command(
@@ -88,7 +88,7 @@ ANSWERS = {
 }
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(15)
 @pytest.mark.parametrize("hint", range(4))
 @pytest.mark.parametrize("case", ANSWERS)
 def test_a_verdict_is_that_of_the_command(
@@ -139,6 +139,7 @@ def messages(app: Served, data: Any) -> list[Any]:
     return [json.loads(line) for line in app.ask("sweep", data).text.splitlines()]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("axes", [["k=2:8:5"], ["k=2:8:4", "x=0:1:3"], ["m=1:2:41"]], ids=str)
 def test_a_sweep_is_that_of_the_command_and_comes_row_by_row(
     kind_app: Served, capsys: pytest.CaptureFixture[str], tmp_path: Path, axes: list[str]
@@ -248,6 +249,7 @@ def test_examples_are_those_of_the_package(kind_app: Served) -> None:
     assert found["opened"] is None
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["lecture-3b", "cart-pole", "four-bar", "spinning-top"])
 def test_a_schematic_is_that_of_the_system(kind_app: Served, name: str) -> None:
     found = kind_app.ask("look", {"model": examples.text(name)}).json()
@@ -303,7 +305,7 @@ def test_a_bad_file_is_told_at_its_line(kind_app: Served, case: str) -> None:
     assert column is None or error["column"] == column
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(24)
 @pytest.mark.parametrize("case", CONSTRAINTS)
 def test_a_bad_constraint_is_told(kind_app: Served, case: str) -> None:
     text, code, fragment = CONSTRAINTS[case]

@@ -168,6 +168,7 @@ def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: 
         assert main(["worksheet", "-e", "pendulum", *wrong]) == 2
 
 
+@pytest.mark.slow
 def test_a_sheet_is_held_against_its_model_file_and_what_differs_is_found() -> None:
     made, own = sheet("pendulum", None), derivation("pendulum")
     questions = {name: made.question(name) for name in ("markdown", "html")}
@@ -187,6 +188,7 @@ def _another_value(sheet: str) -> str:
     return re.sub(r"(\d)( m/s|&#xa0;m/s)", lambda m: f"{(int(m[1]) + 1) % 10}{m[2]}", sheet, count=1)
 
 
+@pytest.mark.slow
 def test_the_command_verifies_its_sheets_and_fails_with_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

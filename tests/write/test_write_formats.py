@@ -159,7 +159,7 @@ def test_unknown_notation_and_narrow_width_are_refused(derivations):
         to_text(derivations["example 1"], width=10)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("width", [40, 50, 80, 200])
 @pytest.mark.parametrize("notation", NOTATIONS)
 def test_no_line_is_wider_than_the_terminal(derivations, width, notation):

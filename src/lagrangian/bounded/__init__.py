@@ -9,6 +9,7 @@ the answer does not depend on how fast or how busy a machine is.
 """
 
 from lagrangian.bounded.effort import count_operations
+from lagrangian.bounded.garbage import rarely_collected
 from lagrangian.bounded.operations import operations
 from lagrangian.bounded.parts import rebuilt, replaced
 from lagrangian.bounded.questions import answered, hard
@@ -48,6 +49,7 @@ __all__ = [
     "letters",
     "names",
     "operations",
+    "rarely_collected",
     "rebuilt",
     "replaced",
     "searched",

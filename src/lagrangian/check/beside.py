@@ -29,6 +29,7 @@ from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
+from lagrangian.read.letters import key
 
 _D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
 _SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
@@ -42,29 +43,43 @@ def beside(
     """The lines, with those that are not judged as statements, and notes that say so.
 
     Only if the equations of all motions are there: θ = 0 where the answer goes on to equilibria, and the equations for
-    small angles that follow from them. Equations for small angles alone are a mistake.
+    small angles that follow from them. Equations for small angles alone are a mistake. Wrong equations of all motions
+    are as many as there are coordinates, and one of the wrong lines is left.
     """
     equations = [line for line in lines if line.kind == "equation"]
     wrong = [line for line, row in zip(equations, comparison.rows, strict=True) if row.kind is Kind.WRONG]
     said = [line for line in lines if line.kind == "identity" and not line.expr.has(sp.Derivative)]
     values = [line for line in said if rests(truth, line.expr, said="rest" in line.beside)]
-    if not (wrong or values) or comparison.rank < truth.n:
+    complete = comparison.rank >= truth.n
+    if not (wrong or values) or not (complete or len(_of_motion(truth, equations)) >= truth.n):
         return lines, ()
-    aside = {id(line): why for line in wrong if (why := _place(truth, line, wrong))}
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    moving = {key(x.name) for x in lines if x.kind == "definition" and x.name and x.expr.has(*accelerations)}
+    placed = [line for line in wrong if not line.names & moving]  # m x″ = N with N = m x″ + m g is about every motion
+    aside = {id(line): why for line in placed if (why := _place(truth, line, wrong))}
     aside |= {id(line): AT_REST for line in values}
     places = {line.number for line in wrong if id(line) in aside}  # for θ = π/2 and θ′ = 0
     aside |= {
         id(line): "it is about one motion" for line in wrong if line.number in places and is_rate(truth, line.expr)
     }
-    others = [line for line in wrong if id(line) not in aside]
+    others = [line for line in wrong if id(line) not in aside and (complete or line.beside)]
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
     aside |= {id(line): why for line in wrong if id(line) not in aside and (why := _remark(truth, line))}
+    left = _of_motion(truth, [line for line in equations if id(line) not in aside])
+    if not complete and (len(left) < truth.n or all(id(line) in aside for line in wrong)):
+        return lines, ()
     kept = [replace(line, kind="statement") if id(line) in aside else line for line in lines]
     told = [f"'{line.text}' was not judged: {aside[id(line)]}." for line in lines if id(line) in aside]
-    untrue = [line for line in wrong if id(line) not in aside and only_places(truth, line.expr)]
+    untrue = [line for line in placed if id(line) not in aside and only_places(truth, line.expr)]
     told += [f"'{line.text}' is not true: neither of every motion nor of a position at rest." for line in untrue]
     return kept, tuple(text(note) for note in dict.fromkeys(told))
+
+
+def _of_motion(truth: Reference, lines: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The equations of motion among some lines, without those that words call a remark."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    return [line for line in lines if not line.beside and line.expr.has(*accelerations)]
 
 
 def _place(truth: Reference, line: AnsweredLine, wrong: Sequence[AnsweredLine]) -> str | None:

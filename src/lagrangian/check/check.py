@@ -20,7 +20,6 @@ from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
-from lagrangian.check.coordinates.stated import in_stated_coordinates
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
@@ -28,7 +27,6 @@ from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
-from lagrangian.check.explain.own_terms import foreign_names
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
@@ -47,10 +45,15 @@ from lagrangian.check.own_coordinates import off_constraints, right_in_own_coord
 from lagrangian.check.reference import Reference, truth_of
 from lagrangian.check.rounded import unrounded, with_prescribed_unrounded
 from lagrangian.check.stated_apart import with_energies_apart, with_forces_apart, without_first_parts
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.check.virtual_work import judged_with_work
+from lagrangian.check.wrong_in_own_coordinates import (
+    wrong_in,
+    wrong_in_stated_coordinates,
+    wrong_without_constraints,
+)
 from lagrangian.derive import Derived
-from lagrangian.page.formula import Text, text
+from lagrangian.page.formula import text
 
 _log = logging.getLogger(__name__)
 
@@ -65,7 +68,7 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, 
     """Return what is right and what is wrong in an answer, line by line and as a whole.
 
     Lines are checked in order. Equality is decided in normal form or, if there is none, with 50 digits. Without
-    ``explain``, mistakes are not sought.
+    ``explain``, mistakes are not sought; at ``hint`` 0, which tells none, only those that decide what is right.
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
@@ -99,7 +102,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     general = untrue_in_general(truth, written)
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
-    if not verdict.right:
+    if not verdict.right and hint:
         verdict = in_own_names(truth, written, with_wrong_terms(truth, written, verdict) if explain else verdict)
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
@@ -144,14 +147,14 @@ def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int
     verdict = energies_on_rows(truth, read.lines, verdict, hint)
     if not verdict.right:
         verdict = on_branch(truth, read.lines, hint) or right_in_own_coordinates(truth, read.lines, hint) or verdict
-    if not explain:
+    if not explain or not hint:
         return verdict
     if (off := off_constraints(truth, read.lines, verdict)) is not None:
         return off
     own = without_other_forces(truth, *with_virtual_displacements(truth, read.lines, verdict, judge), judge)
     named = named_beside_multipliers(truth, own.lines, own.verdict, lambda x: judged_lines(truth, x).findings)
     named = with_rows_put_in(truth, own.lines, named)
-    return _free(truth, own.lines, named) or with_special_case(truth, named)
+    return wrong_without_constraints(truth, own.lines, named) or with_special_case(truth, named)
 
 
 def _valued(
@@ -209,7 +212,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     """The verdict on an answer whose names are known; with ``explain``, also the mistakes that explain it."""
     lines, told = unrounded(truth, spelling.lines)
     spelling = replace(spelling, lines=lines, notes=(*spelling.notes, *told))
-    judged = judged_lines(truth, spelling.lines, compared=explain)
+    judged = judged_lines(truth, spelling.lines, compared=explain and hint > 0)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     verdict = replace(verdict, motion=judged.motion)
     if judged.status.right or judged.status is Status.INCOMPLETE:
@@ -240,7 +243,7 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
         if not change.plain and not explain:
             continue
         if not change.plain or not (new or _tells(spelling.lines)):
-            findings = verdict.findings if explain else judged_lines(truth, spelling.lines).findings
+            findings = verdict.findings if explain and verdict.hint else judged_lines(truth, spelling.lines).findings
             named = mistakes(truth, spelling.lines, findings)
             if named.certain or too_long(truth):
                 note = text("It would be right with ", *change.words.parts, ".")
@@ -292,7 +295,7 @@ def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spe
 def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer with its own coordinates: the system is converted to these and compared again."""
     if not new_names(truth, spelling.lines):
-        return _own_coordinates(truth, spelling, verdict)
+        return wrong_in_stated_coordinates(truth, spelling, verdict)
     change = likeliest(truth, spelling.lines)
     true = 0 if change is None else QuickTest(truth, spelling.lines).true_lines(change)
     if (rates := likeliest_speeds(truth, spelling.lines, true + 1)) is not None:
@@ -306,7 +309,7 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
         return None
     own = {c.name for c in truth.model.coordinates}
     told = without_relations(relations(list(change.table), spelling.lines), change.put, spelling.lines)
-    return _in_these(
+    return wrong_in(
         other, [x for x in told if x.kind != "definition" or x.name not in own], change, spelling.notes, verdict
     )
 
@@ -315,88 +318,10 @@ def _renamed(truth: Reference, change: ProposedChange, spelling: Spelling, verdi
     """The verdict on a wrong answer that only gives coordinates other names, in these names."""
     own = [line for line in spelling.lines if line.kind != "definition"]
     lines = [replace(line, expr=change.put(line.expr)) for line in own]
-    found = _in_these(truth, lines, change, spelling.notes, verdict)
+    found = wrong_in(truth, lines, change, spelling.notes, verdict)
     if found is None:
         return None
     names, written = OwnNames(change.table), dict(zip(map(id, lines), own, strict=True))
     findings = [replace(names.finding(f), line=written.get(id(f.line), f.line)) for f in found.findings]
     told, others = (tuple(map(names.mistake, x)) for x in (found.mistakes, found.alternatives))
     return replace(found, findings=tuple(findings), mistakes=told, alternatives=others)
-
-
-def _free(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
-    """The verdict on a wrong answer in coordinates in which the constraints hold, if its mistakes are found so.
-
-    Right equations with multipliers, from which a wrong one was reduced, are left out if nothing else explains it.
-    """
-    if verdict.status is not Status.WRONG or any(m.name.startswith("constraint_") for m in verdict.mistakes):
-        return None
-    used = tuple(lines)
-    own = without_constraints(truth, used)
-    if own is None and not verdict.mistakes:
-        used = _without_right_rows(truth, lines, verdict)
-        own = without_constraints(truth, used)
-    if own is None:
-        return None
-    keys, of_line = keys_of([f.line for f in verdict.findings]), dict(zip(map(id, lines), keys_of(lines), strict=True))
-    wrong = {key for key, f in zip(keys, verdict.findings, strict=True) if f.status is Status.WRONG}
-    stated = [of_line[id(x)] for x in used if x.kind not in ("definition", "statement")]
-    moved = dict(zip(stated, (x for x in own.lines if x.kind != "definition"), strict=True))
-    unjudged = {key: x.expr == 0 for key, x in moved.items() if x.kind == "statement"}
-    if any(not unjudged.get(key, True) for key in wrong):
-        return None
-    found = _in_these(own.truth, own.lines, own.change, (), verdict)
-    if found is None or not (found.mistakes or found.count_right > verdict.count_right):
-        return None
-    judged = {id(f.line): f for f in found.findings}
-    there = {key: judged[id(x)] for key, x in moved.items() if id(x) in judged}
-    held = text("true where the constraints hold")
-    there |= {
-        key: replace(f, status=Status.RIGHT, note=held)
-        for key, f in zip(keys, verdict.findings, strict=True)
-        if unjudged.get(key)
-    }
-    blamed = [f for f in found.findings if f.line.kind == "definition"]
-    told = {f.line.number for f in blamed}
-    findings = [there.get(key, f) for key, f in zip(keys, verdict.findings, strict=True)]
-    findings = [f for f in findings if f.line.kind != "definition" or f.line.number not in told]
-    findings = sorted([*findings, *blamed], key=lambda f: f.line.number)
-    return replace(found, findings=tuple(findings), notes=(text("Read ", *own.change.words.parts, "."),))
-
-
-def _without_right_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> tuple[AnsweredLine, ...]:
-    """The lines without right equations that have a multiplier: a name that the system does not have."""
-    right = {(f.line.number, f.line.text) for f in verdict.findings if f.status.right and f.line.kind == "equation"}
-    forces = {m.symbol for m in truth.derivation.multipliers.values()}
-    forced = [x for x in lines if x.expr.has(*forces) or foreign_names(truth, x.expr)]
-    return tuple(x for x in lines if (x.number, x.text) not in right or not any(x is y for y in forced))
-
-
-def _own_coordinates(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
-    """The verdict on a wrong answer in coordinates that it defines, if its mistakes are found in these."""
-    if (own := in_stated_coordinates(truth, spelling.lines)) is None:
-        return None
-    found = _in_these(own.truth, own.lines, own.change, spelling.notes, verdict)
-    return found if found is not None and found.mistakes else None
-
-
-def _in_these(
-    other: Reference, lines: Sequence[AnsweredLine], change: ProposedChange, notes: Sequence[Text], verdict: Verdict
-) -> Verdict | None:
-    """The verdict on lines in the coordinates of another reference; None if they are right there."""
-    judged = judged_lines(other, lines)
-    if judged.status.right:  # equal only in double precision
-        return None
-    named = mistakes(other, lines, judged.findings)
-    note = text("Your coordinates were read ", *change.words.parts, ".")
-    return Verdict(
-        judged.status,
-        with_wrong_definitions(judged.findings, named.blamed),
-        named.told,
-        named.others,
-        change=change.table,
-        notes=(*notes, note),
-        hint=verdict.hint,
-        sure=named.sure,
-        motion=judged.motion,
-    )

@@ -18,9 +18,11 @@ from lagrangian.page.formula import text
 
 
 def explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
-    """The verdict, with the mistakes that explain the answer."""
-    named = mistakes(truth, spelling.lines, judged.findings)
+    """The verdict, with the mistakes that explain the answer, unless its hint level tells none."""
     notes = (*verdict.notes, *(not_there(truth.model, name) for name in new_names(truth, spelling.lines)))
+    if verdict.hint == 0:
+        return replace(verdict, notes=notes)
+    named = mistakes(truth, spelling.lines, judged.findings)
     if too_long(truth) or not truth.tried_all:
         every = "" if too_long(truth) else "all "
         said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."

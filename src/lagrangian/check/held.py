@@ -6,13 +6,15 @@ An answer may write y″ or r φ″ for the same thing, and may have put one int
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
-from lagrangian.derive.sampling import CompiledExpressions, States
+from lagrangian.derive.sampling import Array, CompiledExpressions, States
 from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
 
@@ -29,6 +31,25 @@ class OnConstraints(Reference):
         self.states = States(truth.model, truth.states.motions, sides=truth.sides)
         for x, values in zip(table, CompiledExpressions(list(table.values())).at(self.states), strict=True):
             self.states.fix(x, values)
+
+    @cached_property
+    def accelerations(self) -> dict[sp.Basic, Array]:
+        """The true accelerations and multipliers at every state; NaN where they are not determined."""
+        moving = [c.acceleration for c in self.model.coordinates]
+        unknown = [x for x in moving if x not in self.table]
+        unknown += [m.symbol for m in self.derivation.multipliers.values()]
+        size, count = self.states.size, len(unknown)
+        found = {x: np.full(size, np.nan) for x in (*moving, *unknown)}
+        rows, still = CompiledExpressions(list(map(self.put_in, self.rows))), dict.fromkeys(unknown, np.zeros(size))
+        slopes = rows.slopes(unknown).at(self.states, still).reshape(len(self.rows), count, size).transpose(2, 0, 1)
+        rest = rows.at(self.states, still).T
+        for s in range(size) if count == len(self.rows) else ():
+            if np.isfinite(slopes[s]).all() and np.linalg.cond(slopes[s]) < 1e12:
+                for x, value in zip(unknown, np.linalg.solve(slopes[s], -rest[s]), strict=True):
+                    found[x][s] = value
+        others = [x for x in moving if x in self.table]
+        values = CompiledExpressions([self.table[x] for x in others]).at(self.states, found)
+        return found | dict(zip(others, values, strict=True))
 
     def put_in(self, expr: sp.Expr) -> sp.Expr:
         """An expression in the other coordinates alone."""

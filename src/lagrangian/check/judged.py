@@ -13,7 +13,7 @@ from lagrangian.check.coordinates.chart import of_unknown, with_own_quantities
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.difference import Likeness, differences, likeness, nearest, paired, voted
 from lagrangian.check.explain.after_definitions import follow_from_definitions
-from lagrangian.check.explain.after_derivatives import follow_from_derivatives
+from lagrangian.check.explain.after_derivatives import follow_from_derivatives, with_right_derivatives
 from lagrangian.check.explain.consequences import follow_from_above
 from lagrangian.check.explain.energies_of_bodies import untrue_of_bodies
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, note_on
@@ -83,7 +83,7 @@ def judged_lines(
     aside = (*called, *aside, *named)
     if change is None:
         findings = with_effective_potential(truth, findings, motion=of_equations(truth, comparison).right)
-        findings = follow_from_derivatives(truth, right_together(truth, findings))
+        findings = follow_from_derivatives(truth, right_together(truth, with_right_derivatives(truth, findings)))
         findings = follow_from_definitions(
             truth, findings, lambda x, own: judged_lines(x, own, compared=False).findings
         )

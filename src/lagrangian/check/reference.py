@@ -10,6 +10,7 @@ from typing import Any, cast
 import mpmath
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.branches import Branch, natural, sides_of
@@ -215,9 +216,17 @@ def truth_of(derivation: Derived) -> Reference:
     return Reference(derivation)
 
 
+def _may_hold_time(part: sp.Basic) -> bool:
+    """Whether a smallest part of an expression is one that time may be in."""
+    return isinstance(part, (sp.Symbol, AppliedUndef, sp.Derivative))
+
+
 def without_time(truth: Reference, V: sp.Expr) -> sp.Expr:
     """A potential energy without what depends on time alone, such as m g e sin Ωt, which changes no equation."""
-    moving = {x: sp.Dummy() for c in truth.model.coordinates for x in (c.symbol, c.rate)}
+    own = {x for c in truth.model.coordinates for x in (c.symbol, c.rate)}
+    if not any(x == time or (x not in own and time in x.free_symbols) for x in bounded.each(V) if _may_hold_time(x)):
+        return V
+    moving = {x: sp.Dummy() for x in own}
     if time not in V.xreplace(moving).free_symbols:
         return V
     return sp.Add(*[x for x in sp.Add.make_args(bounded.expand(V)) if x.has(*moving)])

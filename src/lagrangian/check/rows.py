@@ -15,15 +15,19 @@ from typing import Any
 import mpmath
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, CompiledExpressions, States
+from lagrangian.errors import ModelError
 from lagrangian.records import dataclass
 
 DOUBLE_TOLERANCE = 1e-8
 """The relative size below which a double may be zero; a decision based on it is confirmed exactly."""
+VISIBLE = 1e-6
+"""The size above which a value of what may be 0 is no rounding."""
 EXACTLY = mpmath.mpf(10) ** -30
 EXACT_STATES = 4
 """The number of states at which 50 digits are compared."""
@@ -83,6 +87,18 @@ def small(values: Array, scale: Array | float) -> bool:
     return bool(np.isfinite(values).all() and (np.abs(values) <= DOUBLE_TOLERANCE * np.maximum(scale, 1e-300)).all())
 
 
+def differs_somewhere(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether an expression, which may have names of the answer's own, is seen at the states not to be 0: then nobody
+    needs to multiply it out."""
+    if any(not isinstance(d.expr, AppliedUndef) for d in expr.atoms(sp.Derivative)):
+        return False
+    try:
+        values = CompiledExpressions([expr]).at(truth.states)[0]
+    except ModelError:
+        return False
+    return bool((np.abs(values[np.isfinite(values)]) > VISIBLE).any())
+
+
 def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
     """Whether an expression vanishes identically: in normal form, otherwise with 50 digits at several states."""
     if expr == 0:
@@ -90,7 +106,7 @@ def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
     compiled = CompiledExpressions([expr])
     values = compiled.at(truth.states)[0]
     values = values[np.isfinite(values)]
-    if not len(values) or np.abs(values).max() > 1e-6:
+    if not len(values) or np.abs(values).max() > VISIBLE:
         return False
     form = truth.form(expr)
     if form is not None and (form.is_zero or not form.opaque()):

@@ -11,6 +11,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.coordinates.chart import OF_COORDINATES, chart, system_coordinates
 from lagrangian.check.difference import differences, likeness
 from lagrangian.check.held import OnConstraints, held
@@ -275,17 +276,6 @@ def _of_coordinate(kind: str, by: By, L: sp.Expr, force: Callable[[Any], sp.Expr
         return momentum
     rate = bounded.diff(momentum, time)
     return rate if kind == "p-rate" else rate - own.slope(name, 0, slope)
-
-
-def whole_force(truth: Reference, i: int) -> sp.Expr:
-    """Ξ_i − ∂V/∂ξ_i: all forces on a coordinate."""
-    return truth.Xi[i] - bounded.diff(truth.V, truth.model.coordinates[i].symbol)
-
-
-def holds_potential(truth: Reference, i: int, force: sp.Expr) -> bool:
-    """Whether a force on a coordinate has letters that only those with a potential have there: g or k, no length."""
-    storing = bounded.letters(whole_force(truth, i) - truth.Xi[i]) - bounded.letters(truth.Xi[i] + truth.T)
-    return bool(storing & {p.symbol for p in truth.model.parameters} & bounded.letters(force))
 
 
 def _forces(truth: Reference, Xi: Sequence[sp.Expr]) -> Callable[[Any], sp.Expr]:

@@ -10,12 +10,13 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian import check
+from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
-from lagrangian.check.explain.wrong_balance import with_forces_of_below
-from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion
+from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
+from lagrangian.check.lines import filled
+from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
@@ -49,6 +50,7 @@ class CheckedAnswer(Written, check.Verdict):
         return cut(f"<CheckedAnswer, {self.model.name}: {self.status.value}>")
 
 
+@bounded.rarely_collected()
 def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 
@@ -142,13 +144,16 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
     decides = own[-1]
-    verdict = check.check(derivation, decides.lines, hint=hint)
+    sought = hint or int(_needs_mistakes(answer, decides.lines))
+    verdict = replace(check.check(derivation, decides.lines, hint=sought), hint=hint)
     again = without_marks(answer, verdict, lambda read: _judged(derivation, read))
     if again is not None:
         answer, decides = again.answer, again.decides
-        verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=hint)
+        verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=sought)
+        verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
-        verdict = _with_forces_of_below(derivation, answer, decides.lines, verdict)
+        verdict = _with_forces_put_in(derivation, answer, decides, verdict)
+        verdict = _with_balances(derivation, answer, decides.lines, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
     program = None if verdict.right and not unsure else _program(answer)
@@ -156,6 +161,13 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
+    if not answer.program and len(_open(verdict)) > 1 and (program := _program(answer)) is not None:
+        try:
+            other = _of_readings(derivation, program, hint)
+        except ParseError:
+            other = verdict
+        if 0 < len(_open(other)) < len(_open(verdict)):
+            return other
     if asked:
         lines = without_names_of_equations(decides.lines, asked)
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
@@ -164,19 +176,40 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
     return _told(verdict, answer, decides.notes)
 
 
-def _with_forces_of_below(
-    derivation: Derived, answer: Answer, lines: Sequence[AnsweredLine], verdict: check.Verdict
+def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether the mistakes of a wrong answer decide how it is read: whether it has names that nothing explains, or
+    lines that may be misread."""
+    marked = answer.read_marked is not None and bool(answer.marked_rows())
+    return marked or bool(answer.unknown) or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
+
+
+def _with_balances(
+    derivation: Derived, answer: Answer, judged: Sequence[AnsweredLine], verdict: check.Verdict
 ) -> check.Verdict:
-    """The verdict on a wrong answer, in which forces that it solves from its own balances are read as unknown."""
+    """The verdict on a wrong answer with its balances that were not ``judged``, and in which forces that it solves from
+    these are read as unknown."""
 
     def read(numbers: frozenset[int]) -> tuple[Sequence[AnsweredLine], dict[str, sp.Expr]]:
         assert answer.read_without is not None
         found = answer.read_without(numbers)
         return check.lines_of(found), {u.name: u.symbol for u in found.unknown}
 
+    truth = truth_of(derivation)
+    lines = with_auxiliary(truth, check.lines_of(answer))
+    if any(all(x.text != y.text for y in judged) for x in lines if x.kind == "equation"):
+        verdict = with_wrong_balance(truth, filled(truth, lines), verdict)
     if answer.read_without is None:
         return verdict
-    return with_forces_of_below(truth_of(derivation), lines, read, verdict)
+    return with_forces_of_below(truth, lines, read, verdict)
+
+
+def _with_forces_put_in(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
+    """The verdict on a wrong answer whose own balances were judged with their forces put in: of these as they stand."""
+    truth = truth_of(derivation)
+    if not decides.together or derivation.multipliers:
+        return verdict
+    lines = with_auxiliary(truth, check.lines_of(answer))
+    return with_wrong_balance(truth, filled(truth, lines), verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
@@ -189,6 +222,11 @@ def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int,
     return {(x.number, x.text) for x in wrong if x.beside and not x.beside & cases}
 
 
+def _open(verdict: check.Verdict) -> list[check.Finding]:
+    """The findings that are wrong and follow from none."""
+    return [f for f in verdict.findings if f.status is check.Status.WRONG and not f.follows]
+
+
 def _program(answer: Answer) -> Answer | None:
     """The reading in which an answer is a program that is carried out, if it is one and was not read so."""
     try:
@@ -198,9 +236,16 @@ def _program(answer: Answer) -> Answer | None:
 
 
 def _misread(verdict: check.Verdict) -> bool:
-    """Whether a line that only takes an entry of a state, v = y(3), is called wrong: it says nothing of the motion."""
-    wrong = (f.line.text for f in verdict.findings if f.status is check.Status.WRONG)
-    return any(_ENTRY.fullmatch(x) for x in wrong)
+    """Whether a line that only takes an entry of a state, v = y(3), or gives a constant a value, m = 2, is called
+    wrong: it says nothing of the motion."""
+    wrong = [f.line for f in verdict.findings if f.status is check.Status.WRONG]
+    return any(_ENTRY.fullmatch(x.text) or _gives_number(x) for x in wrong)
+
+
+def _gives_number(line: AnsweredLine) -> bool:
+    """Whether a line equates one letter and a number."""
+    letters = line.expr.free_symbols
+    return line.kind == "equation" and len(letters) == 1 and bool(line.expr.diff(*letters).is_number)
 
 
 def _computes_right(typed: check.Verdict, computed: check.Verdict) -> bool:
@@ -242,8 +287,8 @@ def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]
 
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
-    lines = with_auxiliary(truth_of(derivation), check.lines_of(answer))
     names = [u.symbol for u in answer.unknown]
+    lines = with_auxiliary(truth_of(derivation), without_constants(check.lines_of(answer), names))
     if derivation.multipliers:  # any name beside accelerations may be a multiplier
         names = unused_in_motion(lines, names, [c.name for c in derivation.model.coordinates])
     free = len(derivation.model.coordinates) - len(derivation.multipliers)

@@ -12,10 +12,10 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.stated import holds_potential, whole_force
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.read.letters import key

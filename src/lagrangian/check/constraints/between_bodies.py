@@ -20,6 +20,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model.rows import pressing_rows
 from lagrangian.page.formula import Text
+from lagrangian.read.letters import key
 
 STATES = 3
 """Random states at which it is seen whether a line says more than the constraints."""
@@ -47,7 +48,21 @@ def _without_forces_between(truth: Reference, lines: Sequence[AnsweredLine]) -> 
         return None
     moving = [has for line, has in zip(found.lines, found.held, strict=True) if has and _says_more(truth, line)]
     kept = frozenset[sp.Basic]().union(*found.held) - frozenset[sp.Basic]().union(*moving)
+    kept -= frozenset[sp.Basic]().union(*_confirmed(truth, lines, found)) if kept else kept
     return without_forces(truth, lines, kept) if kept else found
+
+
+def _confirmed(truth: Reference, lines: Sequence[AnsweredLine], found: Eliminated) -> Iterator[frozenset[sp.Basic]]:
+    """The forces of lines in which another one stands that the answer gives a value, and that stands in an equation of
+    motion as well: J z″/r = (S₂ − S₁) r beside S₁ = … and m s″ = m g − S₁."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    stated = {key(str(x.name)) for x in lines if x.kind == "definition" and x.expr.has(*accelerations)}
+    for line, has in zip(found.lines, found.held, strict=True):
+        own = stated & line.names
+        if has and own:
+            others = (x for x in found.lines if x is not line and own & x.names and x.kind == "equation")
+            if any(_says_more(truth, x) for x in others):
+                yield has
 
 
 def _stated(truth: Reference, lines: Sequence[AnsweredLine]) -> int:

@@ -21,8 +21,8 @@ from lagrangian.check.coordinates.relations import solutions
 from lagrangian.check.coordinates.stated import InStatedCoordinates
 from lagrangian.check.coordinates.tried import ProposedChange
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.rows import differs_somewhere, zero_everywhere
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine
 from lagrangian.coordinates import Carrier, Change
 from lagrangian.derive import derive
 from lagrangian.derive.sampling import CompiledExpressions
@@ -60,6 +60,23 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
             every = {x for line in lines for x in bounded.letters(line.expr)}
             unknown = every - other.names - own
             return InStatedCoordinates(other, tuple(_moved(truth, lines, change, table, unknown)), change)
+    return None
+
+
+def with_constraints_put_in(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Reference, ProposedChange] | None:
+    """A system with one constraint that is linear in a coordinate, without that which fewest lines have, and what this
+    is in the others."""
+    rows, model = rows_of(truth.model), truth.model
+    place = integrated(truth, rows[0]) if len(rows) == 1 else None
+    if place is None:
+        return None
+    slopes = {c: bounded.diff(place, c.symbol) for c in model.coordinates}
+    gone = [c for c, a in slopes.items() if a != 0 and not a.has(*truth.derivation.coordinates)]
+    for c in sorted(gone, key=lambda c: sum(x.expr.has(c.symbol) for x in lines)):
+        table: dict[sp.Expr, sp.Expr] = {c.symbol: bounded.expand(c.symbol - place / slopes[c])}
+        other = _reference(truth, table, [x for x in model.coordinates if x is not c])
+        if other is not None:
+            return other, ProposedChange(table, _words(table), True)
     return None
 
 
@@ -217,12 +234,41 @@ def _moved(
                 yield replace(line, kind="statement")
             continue
         moved = replace(line, expr=change.put(line.expr))
+        if line.kind in OWN_DERIVATIVES and not _is_zero(truth, moved.expr):
+            moved = replace(line, expr=change.put(_as_put_in(truth, lines, line, table)))
         holds = line.kind in ("equation", "identity") and _is_zero(truth, moved.expr)
         yield replace(moved, kind="statement", expr=sp.S.Zero) if holds else moved
 
 
+def _as_put_in(
+    truth: Reference, lines: Sequence[AnsweredLine], line: AnsweredLine, table: dict[sp.Expr, sp.Expr]
+) -> sp.Expr:
+    """A derivative of the answer's own T* or V as one of what it is with the coordinates that go put in: below
+    V = … − M g z and z = l − s − r θ, ∂V/∂θ has M g r."""
+    energies = {x.kind: x.expr for x in lines if x.kind in ("T", "V")}
+    own = energies.get("V" if line.kind == "V-slope" else "T")
+    c = next((c for c in truth.model.coordinates if c.name == line.name), None)
+    if own is None or c is None or line.kind == "D-slope":
+        return line.expr
+    more: sp.Expr = sp.S.Zero
+    for gone in (x for x in truth.model.coordinates if x.symbol in table):
+        value = table[gone.symbol]
+        rate = bounded.diff(value, time)
+        by_rate = bounded.diff(own, gone.rate)
+        if line.kind in ("T-p", "T-rate"):
+            more += by_rate * bounded.diff(rate, c.rate)
+        else:
+            more += bounded.diff(own, gone.symbol) * bounded.diff(value, c.symbol) + by_rate * bounded.diff(
+                rate, c.symbol
+            )
+    more = bounded.diff(more, time) if line.kind == "T-rate" else more
+    return line.expr + more if line.kind in ("T-p", "T-slope") else line.expr - more
+
+
 def _is_zero(truth: Reference, expr: sp.Expr) -> bool:
     """Whether an expression is 0 when it is written out, or everywhere, as h/cos² θ − h − h tan² θ."""
+    if differs_somewhere(truth, expr):
+        return False
     if sp.expand_trig(expr).expand() == 0:
         return True
     return not _others(truth, expr) and zero_everywhere(truth, expr)

@@ -3,6 +3,7 @@
 X - x - e cos φ = 0      X = x + e cos φ        a constraint of its own, with multipliers in its equations
 ẋ = R φ̇                  φ = x/R                rolling: the constant does not matter where only rates of φ stand
 θ̇ = p/(m l²)             p = m l² θ̇             a momentum that only Hamilton's equations explain
+r ω = R φ̇                ω = R φ̇/r              rolling, told by speeds
 
 The line is then a definition, and the others are judged with the name written out.
 """
@@ -29,6 +30,8 @@ MOST, LONGEST = 8, 80
 """The largest number of such names, and of operations of a line that determines one."""
 _RATE = re.compile(r"(.{1,24})['’′]|([^\u0307]\u0307.{0,24})|\\dot(?![a-z])(.{1,24})|d(.{1,24})/ ?dt|(.{1,24}?)_?dot")
 """The left side of a line that is the rate of a name."""
+_SPEEDS = ("omega", "Omega", "w", "v")
+"""What names of speeds begin with."""
 _SET = re.compile(r"[\s\\{}$\u0307]")
 
 
@@ -39,7 +42,8 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     """
     found = {x for line in lines for x in line.expr.atoms(AppliedUndef) if x.args == (time,)}
     known = truth.names | {d.symbol for d in truth.model.definitions}
-    unknown = {x for x in found if x not in known and not is_placeholder(x)}
+    unknown: set[Any] = {x for x in found if x not in known and not is_placeholder(x)}
+    unknown |= {x for line in lines for x in line.expr.free_symbols - known if key(str(x)).startswith(_SPEEDS)}
     out = list(lines)
     if truth.derivation.multipliers or len(unknown) > MOST:
         return tuple(out)
@@ -47,11 +51,11 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
         solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
         if solved is None:
             break
-        k, name, value = cast("tuple[int, AppliedUndef, sp.Expr]", solved)
+        k, name, value = cast("tuple[int, Any, sp.Expr]", solved)
         unknown -= {name}
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
-        out[k] = replace(out[k], kind="definition", name=str(name.func), expr=value)
+        out[k] = replace(out[k], kind="definition", name=_called(name), expr=value)
         out = [
             x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
             for j, x in enumerate(out)
@@ -59,29 +63,35 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     return tuple(out)
 
 
-def _rated(line: AnsweredLine, name: AppliedUndef) -> bool:
+def _called(name: Any) -> str:
+    """The letters of a name, which may be a function of time."""
+    return str(name.func) if isinstance(name, AppliedUndef) else str(name)
+
+
+def _rated(line: AnsweredLine, name: Any) -> bool:
     """Whether a line states the rate of a name, which was not known when it was read: p' = -k x."""
-    if line.kind != "definition" or line.name != str(name.func):
+    if line.kind != "definition" or line.name != _called(name):
         return False
     rate = _RATE.fullmatch(normalize("NFD", line.text.partition("=")[0]).strip())
     return rate is not None and key(_SET.sub("", next(filter(None, rate.groups())))) == key(str(line.name))
 
 
-def _put(expr: sp.Expr, name: AppliedUndef, value: sp.Expr) -> sp.Expr:
+def _put(expr: sp.Expr, name: Any, value: sp.Expr) -> sp.Expr:
     return cast("sp.Expr", expr.xreplace({name: value}).doit())
 
 
-def _determined(
-    lines: Sequence[AnsweredLine], k: int, unknown: set[AppliedUndef]
-) -> tuple[int, AppliedUndef, sp.Expr] | None:
+def _determined(lines: Sequence[AnsweredLine], k: int, unknown: set[Any]) -> tuple[int, Any, sp.Expr] | None:
     """The name that a line determines, and its value."""
     line = lines[k]
-    inside = line.expr.atoms(AppliedUndef) & unknown
+    inside = bounded.letters(line.expr) & unknown
     rates = line.expr.atoms(sp.Derivative)
     if line.kind not in ("equation", "identity") or len(inside) != 1 or bounded.operations(line.expr) > LONGEST:
         return None
     name: Any = inside.pop()
     others = [x.expr for j, x in enumerate(lines) if j != k]
+    if name.is_Symbol:
+        value = _solved(line.expr, name) if rates else None
+        return None if value is None or any(d.derivative_count > 1 for d in rates) else (k, name, value)
     used = any(x.has(name) for x in others) or any(_rated(x, name) for x in lines)
     if any(d.derivative_count > 1 for d in rates) or not used:
         return None

@@ -9,14 +9,17 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.align import alignments
 from lagrangian.check.reference import Reference
-from lagrangian.check.stated import index_of, right_value
-from lagrangian.check.verdict import DERIVED, Finding, Status
+from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.stated import StatedQuantity, dissipation, given, index_of, right_value
+from lagrangian.check.verdict import DERIVED, OWN_DERIVATIVES, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import time
+from lagrangian.page.formula import text
 
 SMALL = 1e-9
 """The relative size of a difference that is rounding."""
@@ -36,6 +39,36 @@ def follow_from_derivatives(truth: Reference, findings: Sequence[Finding]) -> li
         if np.isfinite(P).all() and any(_has(truth, f, P, i, r) for i, r in above):
             follow.add(id(f))
     return [replace(f, follows=True) if id(f) in follow else f for f in findings]
+
+
+def with_right_derivatives(truth: Reference, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings, with derivatives as right that are those of the right T*, V or D, beside a wrong one of these."""
+    own = given(truth, [f.line for f in findings])
+    wrong = {f.line.kind for f in findings if f.status is Status.WRONG} & {"T", "V", "D"}
+    return [_right_derivative(truth, f, own) if f.line.kind[:1] in wrong else f for f in findings]
+
+
+def _right_derivative(truth: Reference, finding: Finding, own: StatedQuantity) -> Finding:
+    line = finding.line
+    i = index_of(truth, line.name)
+    if line.kind not in OWN_DERIVATIVES or finding.status is not Status.WRONG or i is None:
+        return finding
+    c = truth.model.coordinates[i]
+    energy = line.kind[0]
+    mine, right = {
+        "T": (own.T, truth.T),
+        "V": (own.V, truth.V),
+        "D": (own.D, dissipation(truth)),
+    }[energy]
+    rest = (sp.S.Zero if mine is None else mine) - right
+    by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
+    rest = bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)
+    stated = -line.expr if line.kind in ("T-p", "T-slope") else line.expr  # what it has too much beside its own energy
+    if not zero_everywhere(truth, stated + rest):
+        return finding
+    letter = "T*" if energy == "T" else energy
+    note = text(f"the derivative of the right {letter}, not of yours")
+    return replace(finding, status=Status.RIGHT, note=note)
 
 
 def _is_open(finding: Finding) -> bool:

@@ -65,9 +65,12 @@ def beside(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
     """What is right, as what is written and the few terms that this lacks, if these are few: (h θ̇ + ṡ)² + s² θ̇²."""
     ring: SumRing = s.kept("ring", lambda: SumRing(s.model))
     try:
-        lacking = ring.fold(minus(ring.of(bounded.expand(right)), ring.of(bounded.expand(written))))
+        own = ring.of(bounded.expand(written))
+        lacking = ring.fold(minus(ring.of(bounded.expand(right)), own))
     except TooLong:
         return right
+    if any(own.get(m) == -c for m, c in lacking.items()):
+        return right  # what is too much is not shown as taken away again
     found = cast("sp.Expr", written + ring.expr(lacking))
     plain = all(not isinstance(f, sp.Pow) or not f.base.is_Add for x in sp.Add.make_args(written) for f in x.args)
     closer = plain or len(lacking) == 1 or bounded.operations(found) < bounded.operations(right)
@@ -95,7 +98,7 @@ def moving_part(s: Ingredients, right: sp.Expr, written: sp.Expr) -> sp.Expr:
     sums = [k for k, f in enumerate(factors) if isinstance(f, sp.Add)]
     if len(sums) != 1:
         return right
-    factors[sums[0]] = sp.Add(*[x for x in factors[sums[0]].args if x.has(*moving) or not x.has(time)])
+    factors[sums[0]] = sp.Add(*[x for x in sp.Add.make_args(factors[sums[0]]) if x.has(*moving) or not x.has(time)])
     return cast("sp.Expr", sp.Mul(*factors))
 
 

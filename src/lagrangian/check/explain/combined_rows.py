@@ -25,6 +25,8 @@ from lagrangian.records import dataclass
 
 MOST_TERMS, MOST_LETTERS = 60, 12
 """The most terms of a line that are tried, and the most letters that may be a factor."""
+MOST_PRODUCTS = 400
+"""The most products of a term and an arm that a line may lack."""
 NEAR = 1e-8
 """The relative difference of values that is rounding."""
 NUMBERS: tuple[tuple[float, sp.Expr], ...] = (
@@ -61,7 +63,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
             continue
         note = (
             finding.note
-            if _stands_in(wrong.term, finding.line)
+            if wrong.factor == sp.oo or _stands_in(wrong.term, finding.line)
             else text("after substituting what other lines say of its names")
         )
         differences = (difference(on, wrong, finding.coordinate),)
@@ -74,14 +76,14 @@ def _put_in_from(
 ) -> Finding | None:
     """The finding for the definition from which a wrong term was put in: its name stands in the line, in which a letter
     of the term does not. None if there is none, or several."""
-    if _stands_in(wrong.term, line):
+    if wrong.factor == sp.oo or _stands_in(wrong.term, line):
         return None
     found: list[Finding] = []
     for x in lines:
         if x.kind != "definition" or x.name is None or key(x.name) not in key(line.text):
             continue
         value = truth.expand(x.expr)
-        own = _own_terms(value) if terms(value) <= MOST_TERMS else []
+        own = own_terms_of(value) if terms(value) <= MOST_TERMS else []
         there = [t for t in own if _quotient(truth, wrong.term, t)]
         found += [
             Finding(x, Status.WRONG, differences=(difference(truth, replace(wrong, term=t), None),)) for t in there
@@ -126,7 +128,7 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     """
     if terms(expr) > MOST_TERMS:
         return None
-    own = _own_terms(expr)
+    own = own_terms_of(expr)
     if not 2 < len(own) <= MOST_TERMS:
         return None
     powers = [(t, f) for t in own for c in truth.model.coordinates for f in _powers(t, c.rate)]
@@ -135,15 +137,16 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
         return None
     outside = _outside(truth, values)
     wrong, across = outside[0], dict(zip(own, outside[1:], strict=False))
-    found = _in_factors(truth, wrong, across)
+    found = in_factors(truth, wrong, across)
     for (term, factor), right in zip(powers, outside[1 + len(own) :], strict=True):
         share = _share(wrong, across[term] - right)
         if share is not None and np.allclose(share, 1, rtol=NEAR):
             found.append((1, WrongTerm(term, factor)))
     found.sort(key=lambda x: x[0])
-    if not found or (len(found) > 1 and found[0][0] == found[1][0]):
-        return None
-    return found[0][1]
+    if not found:
+        right = _right_terms(truth)
+        return _lacking(right, wrong, _outside(truth, CompiledExpressions(right).at(truth.states))) if right else None
+    return None if len(found) > 1 and found[0][0] == found[1][0] else found[0][1]
 
 
 def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
@@ -152,15 +155,9 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
     that without accelerations is wrong: a moment or a force. By a number, it may be either.
     """
-    own = _own_terms(expr) if terms(expr) <= MOST_TERMS else []
-    if not 1 < len(own) <= MOST_TERMS:
-        return None
-    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
-    if not np.isfinite(found).all():
-        return None
-    listed = sorted(_in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
+    wrong, listed = _wrong_factors(truth, expr, values)
     if not listed:
-        return _missing(truth, found[0], values)
+        return None if wrong is None else _missing(truth, wrong, values)
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
@@ -169,17 +166,54 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     return best[0] if len(best) == 1 else None
 
 
+def _wrong_factors(
+    truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]
+) -> tuple[Array | None, list[tuple[int, WrongTerm]]]:
+    """What is wrong in a line along the right motion, and its terms that have a wrong factor, the plainest first."""
+    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return None, []
+    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
+    if not np.isfinite(found).all():
+        return None, []
+    listed = in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
+    return found[0], sorted(listed, key=lambda x: x[0])
+
+
 def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:
     """The term of a right equation, or all those with one parameter, that a line lacks along the right motion."""
+    right = _right_terms(truth)
+    for some in (right, _with_arms(truth, right, values)) if right else ():
+        found = _lacking(some, wrong, CompiledExpressions(some).at(truth.states, values))
+        if found is not None:
+            return found
+    return None
+
+
+def _right_terms(truth: Reference) -> list[sp.Expr]:
+    """The terms of the right equations, and all those with one parameter together; none if there are many."""
     listed: set[sp.Expr] = set()
     for row in truth.rows:
         own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
         groups = [[cast("sp.Expr", t) for t in own if t.has(p.symbol)] for p in truth.model.parameters]
         listed.update(t for group in groups if group for t in (*group, _together(group)))
-    right = sorted(listed, key=sp.default_sort_key)
-    if not 0 < len(right) <= MOST_TERMS:
-        return None
-    found = CompiledExpressions(right).at(truth.states, values).reshape(len(right), *wrong.shape)
+    return sorted(listed, key=sp.default_sort_key) if len(listed) <= MOST_TERMS else []
+
+
+def _with_arms(truth: Reference, right: Sequence[sp.Expr], values: Mapping[sp.Basic, Array]) -> list[sp.Expr]:
+    """Terms without accelerations, and forces, times a letter, a sine or a cosine: b ṡ r, N sin α."""
+    moving = [c.acceleration for c in truth.model.coordinates]
+    forces = [cast("sp.Expr", x) for x in values if x not in moving]
+    angles = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos)}
+    arms = [*(p.symbol for p in truth.model.parameters), *sorted(angles, key=sp.default_sort_key)]
+    bare = [t for t in right if not t.has(*moving)][: MOST_TERMS // 2]
+    products = [t * a for t in (*bare, *forces) for a in arms if not t.has(a)]
+    return [*forces, *cast("list[sp.Expr]", products)][:MOST_PRODUCTS]
+
+
+def _lacking(right: Sequence[sp.Expr], wrong: Array, values: Array) -> WrongTerm | None:
+    """The only one of some terms, given with their values, that is, but for its sign, what a line lacks."""
+    found = values.reshape(len(right), *wrong.shape)
     shares = ((t, _share(wrong, x)) for t, x in zip(right, found, strict=True))
     signed = [(t, share.mean()) for t, share in shares if share is not None and np.allclose(abs(share), 1, rtol=NEAR)]
     lacking = {cast("sp.Expr", -t if sign > 0 else t) for t, sign in signed}
@@ -191,7 +225,7 @@ def _together(group: Sequence[sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", sp.factor_terms(sp.Add(*group))) if len(group) > 1 else group[0]
 
 
-def _in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
+def in_factors(truth: Reference, wrong: Array, across: Mapping[sp.Expr, Array]) -> list[tuple[int, WrongTerm]]:
     """The terms that are wrong by a factor, if all others are right, each with how far-fetched the factor is."""
     listed = list(_factors(truth))
     found: list[tuple[int, WrongTerm]] = []
@@ -210,7 +244,7 @@ def _powers(term: sp.Expr, rate: sp.Expr) -> list[sp.Expr]:
     return [rate] if power == 1 else [1 / rate] if power == 2 else []
 
 
-def _own_terms(expr: sp.Expr) -> list[sp.Expr]:
+def own_terms_of(expr: sp.Expr) -> list[sp.Expr]:
     """The terms of an equation: multiplied out, as they are written, and those of sums in them, each once."""
     found: dict[sp.Expr, sp.Expr] = {}
     written = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]

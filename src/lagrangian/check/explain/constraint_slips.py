@@ -173,7 +173,7 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
 
 def _of_displacements(truth: Reference, said: Sequence[Any]) -> tuple[Any, ...]:
     """Words with δξ for ξ̇, or with a remark where a rate stands in a longer term."""
-    rates = {c.rate: Variation(c.symbol) for c in truth.model.coordinates}
+    rates: dict[Any, Any] = {c.rate: Variation(c.symbol) for c in truth.model.coordinates}
     put = [rates.get(x, x) if isinstance(x, sp.Expr) else x for x in said]
     longer = any(isinstance(x, sp.Expr) and x.has(*rates) for x in put)
     return ("with rates in place of displacements, " if longer else "", *put)

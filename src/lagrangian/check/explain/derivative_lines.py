@@ -24,7 +24,6 @@ from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Text, Total, text
 
 WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
-WHY_INSIDE = text("What stands in a sine or cosine is differentiated, too: the derivative of cos Ωt is −Ω sin Ωt.")
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
 STEP_OF = {"T": 2, "V": 3}
@@ -105,21 +104,17 @@ def of_derivative_of(
     found = [replace(m, why=WHY_FUNCTION) if m.name == "sine_cosine" else m for m in told]
     if (slip := slip_in(truth, line, lines)) is None:
         return found, tuple(others)
-    more = [_told_there(truth, line, lines, findings, m) for m in found[1:]]
+    more = [_of_own_line(truth, m, lines, findings) for m in found[1:]]
     return [_with_slip(found[0], slip), *more], tuple(m for m in others if m.name not in RESTATED)
 
 
-def _told_there(
-    truth: Reference,
-    first: AnsweredLine,
-    lines: Sequence[AnsweredLine],
-    findings: Sequence[Finding],
-    mistake: Mistake,
+def _of_own_line(
+    truth: Reference, mistake: Mistake, lines: Sequence[AnsweredLine], findings: Sequence[Finding]
 ) -> Mistake:
-    """A further mistake of an equation, told in the derivative of its coordinate where that is wrong as well."""
-    wrong = [f.line for f in findings if f.line.kind == first.kind and f.status is Status.WRONG and not f.follows]
-    line = next((x for x in wrong if x is not first and x.name == mistake.coordinate), None)
-    slip = slip_in(truth, line, lines) if line is not None else None
+    """A mistake in the equation of a coordinate, told in the wrong derivative of this coordinate if there is one."""
+    wrong = (f.line for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind in DERIVED)
+    own = [x for x in wrong if x.name == mistake.coordinate] if mistake.coordinate is not None else []
+    slip = slip_in(truth, own[0], lines) if len(own) == 1 and _is_of_equation(mistake) else None
     return mistake if slip is None else _with_slip(mistake, slip)
 
 
@@ -129,14 +124,14 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
         return slip
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr) and not x.is_Symbol]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
-        of_equation = any(isinstance(x, str) and "the equation of" in x for x in mistake.what.parts)
-        return _of_element(slip, mistake) if of_equation else mistake  # the derivative is where it stands
-    return _of_element(slip, mistake) if slip.why is WHY_INSIDE else with_reason(slip.what, mistake)
+        why = mistake.why if slip.why is WHY else slip.why
+        return replace(mistake, what=slip.what, why=why, brief=slip.brief) if _is_of_equation(mistake) else mistake
+    return with_reason(slip.what, mistake)
 
 
-def _of_element(slip: Mistake, mistake: Mistake) -> Mistake:
-    """A wrong term of a derivative with the element of the mistake that it is."""
-    return replace(slip, element=mistake.element, why=mistake.why if mistake.why is WHY_FUNCTION else slip.why)
+def _is_of_equation(mistake: Mistake) -> bool:
+    """Whether the words of a mistake say that it is in an equation, in which a derivative was put."""
+    return any(isinstance(x, str) and x.endswith(" the equation of ") for x in mistake.what.parts)
 
 
 def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> Mistake | None:
@@ -157,16 +152,23 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     words = str(first)
     brief = text("A term of ", title, " is not right.")
     what = text("In ", title, ": " if words.startswith("In ") else ", ", words[:1].lower() + words[1:], *others)
-    return Mistake(name, what, _why(*pair), 5, None, truth.model.coordinates[i].name, brief)
+    return Mistake(name, what, _why(title, *pair), 5, None, truth.model.coordinates[i].name, brief)
 
 
-def _why(written: sp.Expr, right: sp.Expr) -> Text:
-    """Why a term of a derivative by time is another: the sign of that of a sine or cosine of time, or what is in it."""
-    inside = [x.args[0] for x in right.atoms(sp.sin, sp.cos) if x.args[0].has(time)]
-    if written == -right and inside:
+def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
+    """Why a term of a derivative is wrong: an inner derivative by the time that is missing, or a sine's wrong sign."""
+    functions = right.atoms(sp.sin, sp.cos)
+    if right == 0 or written == 0 or not functions:
+        return WHY
+    quotient = bounded.cancel(right / written)
+    rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
+    if quotient == -1 and (not isinstance(title, Total) or any(x != 0 and right.has(x) for x in rates.values())):
         return WHY_FUNCTION
-    factors = [a for x in inside for a in sp.Mul.make_args(x) if a != time]
-    return WHY_INSIDE if written != 0 and any(bounded.cancel(right / written / a) == 1 for a in factors) else WHY
+    for f, inner in rates.items() if isinstance(title, Total) else ():
+        if inner not in (0, 1) and bounded.expand(quotient - inner) == 0:
+            angle = cast("sp.Expr", f.args[0])
+            return text("The chain rule: sine and cosine of ", angle, " have the inner derivative ", inner, ".")
+    return WHY
 
 
 def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mistake]:

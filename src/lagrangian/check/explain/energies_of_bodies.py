@@ -21,9 +21,9 @@ from lagrangian.model import Body, time
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 
+_NUMBERED = re.compile(r"[TVUK]_?\{?\d\}?")
 MOST_PIECES = 10
 """The most pieces of T* of which all sums are compared with what is written."""
-_NUMBERED = re.compile(r"[\d₀-₉]\Z")
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
 
@@ -43,33 +43,32 @@ def untrue_of_bodies(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[in
         every = sp.Add(*values.values())
         if not values or (zero_everywhere(truth, every - truth.T) if kind == "kinetic" else _level(truth, every)):
             continue
-        counted = _counts_its_own(truth, lines, kind)
+        listed = {k for k in values if _NUMBERED.fullmatch(lines[k].name or "")}
+        if any(_is_of_another(truth, lines[k], values[k], kind) for k in listed):
+            values = {k: value for k, value in values.items() if k not in listed}  # T_2 is the second in a list
         for k, value in values.items():
             body = _owner(truth, lines[k], kind)
             if body is None or not _is_meant(truth, body, value, kind):
                 continue
-            if counted and _NUMBERED.search(lines[k].name or ""):
-                continue
-            pieces = _kinetic(truth, body) if kind == "kinetic" else _potential(truth, body)
-            of = [value] if kind == "kinetic" else [bounded.diff(value, c.symbol) for c in truth.model.coordinates]
-            if not _is_sum(truth, of, pieces):
+            if not _is_sum(truth, *_in_pieces(truth, body, value, kind)):
                 note = text(f"it is neither the {kind} energy of {body.title} nor a part of it")
                 found[k] = Finding(lines[k], Status.WRONG, note)
     return found
 
 
-def _counts_its_own(truth: Reference, lines: Sequence[AnsweredLine], kind: str) -> bool:
-    """Whether the numbers of T_1, T_2, … count parts of the answer's own and no bodies of the system: one of them is of
-    no body with this number, or has no letter of it."""
-    for x in lines:
-        if x.kind != "definition" or kinds_of(x.name or "") != (kind,) or not _NUMBERED.search(x.name or ""):
-            continue
-        body, value = owner_of(x.name or "", truth.model), in_names_of(truth, x)
-        if body is None or (
-            value is not None and not any(_is_meant(truth, b, value, kind) for b in truth.model.bodies)
-        ):
-            return True
-    return False
+def _in_pieces(truth: Reference, body: Body, value: sp.Expr, kind: str) -> tuple[list[sp.Expr], list[list[sp.Expr]]]:
+    """A value and the energies of which it may be a sum, or the slopes of both."""
+    if kind == "kinetic":
+        return [value], _kinetic(truth, body)
+    return [bounded.diff(value, c.symbol) for c in truth.model.coordinates], _potential(truth, body)
+
+
+def _is_of_another(truth: Reference, line: AnsweredLine, value: sp.Expr, kind: str) -> bool:
+    """Whether what a number calls the energy of a body is a sum of energies, and has no letter of this body."""
+    body = _owner(truth, line, kind)
+    if body is None or _is_meant(truth, body, value, kind):
+        return False
+    return _is_sum(truth, *_in_pieces(truth, body, value, kind))
 
 
 def _owner(truth: Reference, line: AnsweredLine, kind: str) -> Body | None:
@@ -97,21 +96,21 @@ def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
     s = ingredients_of(truth.derivation)
     if kind == "kinetic":
         fits = any(bounded.diff(value, v).has(*s.v) for v in s.v)
-        letters = truth.put(s.kinetic(body)).free_symbols - {time}
+        letters = truth.put(s.kinetic(body)).free_symbols
     else:
         fits = s.moves(value) and not value.has(*s.v)
         letters = truth.put(s.expand(body.mass)).free_symbols
-    return fits and bool(letters & value.free_symbols or (truth.values and kind == "kinetic"))
+    return fits and bool((letters & value.free_symbols) - {time} or (truth.values and kind == "kinetic"))
 
 
 def _kinetic(truth: Reference, body: Body) -> list[list[sp.Expr]]:
-    """The energies of translations and rotations, those of a body first, and then those that are given: of a pinion
-    that turns with the carriage."""
+    """The energies of translations and rotations, those of a body first, and of elements that are none."""
     s = ingredients_of(truth.derivation)
     bodies = [body, *(b for b in s.bodies if b is not body)]
-    listed = [x for b in bodies for x in (s.translation(b), s.rotation(b))]
-    listed[2:2] = [s.kinetic(e) for e in truth.model.elements if e.kind == "kinetic"]
-    return [[truth.put(x)] for x in listed if x != 0]
+    others = [s.kinetic(e) for e in s.model.elements if e.kind == "kinetic"]  # a pinion beside its rack
+    return [
+        [truth.put(x)] for x in (*(p for b in bodies for p in (s.translation(b), s.rotation(b))), *others) if x != 0
+    ]
 
 
 def _potential(truth: Reference, body: Body) -> list[list[sp.Expr]]:

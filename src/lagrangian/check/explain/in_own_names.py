@@ -12,8 +12,9 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.coordinates.renamed import each_formula
+from lagrangian.check.explain.terms_alone import term_mistake
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, TermDifference, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import time
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Text
@@ -22,6 +23,9 @@ from lagrangian.records import dataclass
 
 MOST_NAMES, LONGEST_VALUE, LONGEST_FORMULA = 20, 60, 400
 """The most names that are put in, the most operations of the value of one, and those of a formula that is searched."""
+
+ALONE = " in one equation alone"
+"""What is said of a mistake that one equation alone shows."""
 
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
 _APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
@@ -57,12 +61,24 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
     told = _Told(own_names(truth, lines, wrong), _differences(lines))
     if not told.names and not told.differences:
         return verdict
-    return replace(
+    named = replace(
         verdict,
         findings=tuple(map(told.finding, verdict.findings)),
         mistakes=tuple(map(told.mistake, verdict.mistakes)),
         alternatives=tuple(map(told.mistake, verdict.alternatives)),
     )
+    return _by_own_term(lines, named)
+
+
+def _by_own_term(lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict, in which a mistake in the energy of one equation alone, of an answer without energies, is told by
+    the one term in which that differs: R S for 2 R S."""
+    roots = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    far = len(verdict.mistakes) == 1 and ALONE in str(verdict.mistakes[0].what)
+    if not far or any(x.kind in ("T", "V", "L") for x in lines) or len(roots) != 1 or len(roots[0].differences) != 1:
+        return verdict
+    mistake = term_mistake(roots[0], roots[0].differences[0])
+    return replace(verdict, mistakes=(mistake,), alternatives=(), sure=True)
 
 
 def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[AnsweredLine]) -> tuple[OwnName, ...]:

@@ -11,6 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.align import Alignment, alignments
+from lagrangian.check.explain.beside_lengths import by_lengths
 from lagrangian.check.explain.beyond_lines import beyond
 from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, blamed_also
 from lagrangian.check.explain.changes.pool import Pool, pool_of
@@ -196,7 +197,8 @@ def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
 
 def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: set[sp.Basic]) -> list[Explanation]:
     """The likeliest explanations whose words quote only what was written."""
-    return [e for e in by_sums(pool, found, lines)[:MOST_TOLD] if _is_said(pool.truth, e, quotable)]
+    likely = by_lengths(pool, by_sums(pool, found, lines), lines)
+    return [e for e in likely[:MOST_TOLD] if _is_said(pool.truth, e, quotable)]
 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
@@ -372,7 +374,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
     chosen = [(narrowed(pool, t, kinds), under) for t, under in wide]
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
-    every = [with_term(pool, t, a, in_words(pool.truth, t, a)) for t, a in chosen]
+    every = [with_term(pool, t, a, in_words(pool.truth, t, a), kinds) for t, a in chosen]
     every[0], others = of_either(pool.truth, every[0], chosen[0], others)
     told = _once(moved_elsewhere(pool, chosen, every), ())
     listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]

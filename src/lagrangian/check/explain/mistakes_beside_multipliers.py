@@ -19,7 +19,7 @@ from lagrangian.check.explain.constraint_slips import WrongConstraint, wrong_con
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.mistakes import NamedMistakes, mistakes
 from lagrangian.check.explain.put_in_terms import with_terms_put_in
-from lagrangian.check.held import held
+from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -56,10 +56,8 @@ def named_beside_multipliers(
         )
         return replace(verdict, findings=found, mistakes=tuple(x.mistake for x in wrong if not x.follows))
     read = with_exchanged(truth, read, lines)
-    judged, own = with_terms_put_in(truth, judge(read.lines)), where_held(truth, wrong)
-    judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
-    judged = with_reduced(truth, wrong, judged)
-    judged = _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
+    own = where_held(truth, wrong)
+    judged = _below(truth, own, wrong, with_terms_put_in(truth, judge(read.lines)))
     true = [f.line for f in verdict.findings if f.status.right]
     named = _named(truth, read.lines, judged, true) if own is None else mistakes(own, read.lines, judged, true)
     of_constraints = beside_constraints(truth, lines, wrong, judged, read.mistakes)
@@ -86,14 +84,15 @@ def named_beside_multipliers(
     found = {k: _without_forces(truth, better.get(k, f)) for k, f in zip(keys, verdict.findings, strict=True)}
     findings = tuple(_as_above(f, found[again[k]] if again.get(k) in found else None) for k, f in found.items())
     findings = with_wrong_definitions(findings, named.blamed)
-    return replace(
-        verdict,
-        findings=findings,
-        mistakes=told,
-        alternatives=named.others,
-        notes=() if odd else read.notes,
-        sure=named.sure,
-    )
+    notes = () if odd else read.notes
+    return replace(verdict, findings=findings, mistakes=told, alternatives=named.others, notes=notes, sure=named.sure)
+
+
+def _below(truth: Reference, own: OnConstraints | None, wrong: Sequence[WrongConstraint], judged: Findings) -> Findings:
+    """The findings, of which those follow that are right with the answer's own constraints."""
+    judged = judged if own is None else with_consequences(truth, own, wrong[0].finding.line.number, judged)
+    judged = with_reduced(truth, wrong, judged)
+    return _below_constraints(truth, judged, [x.finding.line for x in wrong if x.order == SECOND])
 
 
 def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
@@ -101,8 +100,13 @@ def _with_left_sides(lines: Lines, findings: Findings) -> tuple[Finding, ...]:
     found = list(findings)
     judged = [f.line for f in findings if f.line.kind == "equation" and f.status is Status.WRONG]
     roots = [bounded.expand(x.expr) for x in judged if not x.expr.has(sp.Derivative)]
+    said = {(x.number, x.text) for x in judged}  # f = … = 0 is one statement
     for line in lines if roots else ():
-        if line.kind == "definition" and bounded.expand(line.expr) in {*roots, *(-x for x in roots)}:
+        if (
+            line.kind == "definition"
+            and (line.number, line.text) not in said
+            and bounded.expand(line.expr) in {*roots, *(-x for x in roots)}
+        ):
             found = inserted(found, Finding(line, Status.WRONG))
     return tuple(found)
 

@@ -18,6 +18,7 @@ from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.rates_apart import rates_apart, turned
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_TERM
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
@@ -244,10 +245,11 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
         return replace(
             told(share.of, [share.right], [share.written], (share.right,), (share.written,)), apart=share.ending
         )
-    of, right, own = _narrowed(q, q.right if sign > 0 else _turned(q.right), written, sign)
+    of, right, own = _narrowed(q, q.right if sign > 0 else turned(q.right), written, sign)
     right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
     right = folded(s, right)
-    apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else ()
+    apart = rates_apart(right, own) if q.kind in OF_RATES else ()
+    apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else apart
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
     return replace(told(of, [right], [own], (right,), (own,)), apart=apart)
 
@@ -336,16 +338,9 @@ def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
     back, forth = (sum(rest.has(x) for x in moving) for rest in rests)
     if back != forth:
         return -1 if back < forth else 1
+    back, forth = (any((a := rest.coeff(x)).is_number and a != 0 for x in moving) for rest in rests)
+    if back != forth:  # of ṡ − r θ̇ for ṡ + r θ̇ the sense of ṡ is that in which it is counted
+        return 1 if back else -1
     values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
     back, forth = (float(np.abs(values[1] - sign * values[0]).sum()) for sign in (-1, 1))
     return -1 if back < forth else 1
-
-
-def _turned(expr: sp.Expr) -> sp.Expr:
-    """The negative of an expression, with the sign inside of its sum: ((R − r) φ̇ − R ψ̇)/r."""
-    factors = list(sp.Mul.make_args(expr))
-    for k, f in enumerate(factors):
-        if isinstance(f, sp.Add) and sp.S.NegativeOne not in factors:
-            factors[k] = sp.Add(*[-x for x in f.args])
-            return cast("sp.Expr", sp.Mul(*factors))
-    return -expr

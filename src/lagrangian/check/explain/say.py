@@ -14,6 +14,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
+from lagrangian.check.explain.rates_apart import rates_apart
+from lagrangian.check.explain.rotations_said import OMEGA, inertias, of_rotation, why_omega
 from lagrangian.check.terms.alike import put_together
 from lagrangian.check.verdict import Mistake
 from lagrangian.model import Model, RigidBody, Spring
@@ -60,7 +62,6 @@ WAY = "Go along the way from the fixed point to the body: every piece of it coun
 VELOCITY = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
 MEASURE = "Look at the sketch: how far is it, and does the number belong to this length or to another one?"
 DEFLECTION = "The deflection of a spring is the motion of one end relative to the other, less the rest length."
-OMEGA = "ω is how fast the body itself turns against the fixed axes: with relative angles the sum of the rates."
 DAMPER = "A damper feels the velocity of one end relative to the other."
 
 KINDS: Mapping[str, KindWords] = {
@@ -174,7 +175,7 @@ KINDS: Mapping[str, KindWords] = {
         "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", VELOCITY
     ),
     "rate_sign": KindWords(
-        "In {site}, the sign of {right} against the other rates is wrong.",
+        "In {site}, the sign of {right} against {written} is wrong.",
         "There is a wrong sign in {brief}.",
         VELOCITY,
     ),
@@ -183,11 +184,7 @@ KINDS: Mapping[str, KindWords] = {
         "The parts of {brief} were not added as vectors.",
         "Velocities are vectors: add them component by component, or with the cosine of the angle between them.",
     ),
-    "omega": KindWords(
-        "{Site} is {right}, not {written}.",
-        "{Brief} is not right.",
-        OMEGA,
-    ),
+    "omega": KindWords("{Site} is {right}, not {written}{apart}", "{Brief} is not right.", OMEGA),
     "turning_part_left_out": KindWords("In {site}, {right} is left out.", "Something is left out in {brief}.", OMEGA),
     "turning_part_sign": KindWords(
         "In {site}, {right} has the wrong sign.", "There is a wrong sign in {brief}.", OMEGA
@@ -250,7 +247,7 @@ KINDS: Mapping[str, KindWords] = {
 def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr | None = None) -> Mistake:
     """The mistake that a multiple of a change is; ``factor`` brings terms of an equation to the answer's own scale."""
     site = _in_scale(change.site, factor)
-    if of_body := change.kind == "sign_in_a_sum" and change.right in _inertias(model):
+    if of_body := change.kind in ("sign_in_a_sum", "left_out_of_a_sum") and change.right in inertias(model):
         change = replace(change, right=("what ", cast("sp.Symbol", change.right), " contributes"))
     if change.kind in KINDS:
         kind = KINDS[change.kind]
@@ -262,10 +259,12 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
         )
     else:
         name, what, brief = _part(change, site, times)
+        what = text(*what.parts, *of_rotation(model, site)) if name == "term_forgotten" else what
         why = WHY_PART.get(site.step, WHY_PART[5])
         if name == "wrong_number" and site.step == 2:
             why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER
             why = WHY_PRODUCTS if str(site.words[0]).startswith("the products") else why
+    why = why_omega(change.right) if change.kind == "omega" else why
     if why == MEASURE and isinstance(site.element, Spring):
         why = DEFLECTION
     if why == UNITS and _has_no_unit(change):
@@ -273,11 +272,6 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     coordinate = model.coordinates[site.coordinate].name if site.coordinate is not None else None
     element = site.element.title if site.element is not None else None
     return Mistake(name, what, text(why), site.step, element, coordinate, brief)
-
-
-def _inertias(model: Model) -> set[Any]:
-    """The masses and moments of inertia: no pieces of a way, which would have a direction."""
-    return {x for b in model.bodies for x in (b.mass, *(b.inertia if isinstance(b, RigidBody) else ()))}
 
 
 def _has_no_unit(change: LocalChange) -> bool:
@@ -366,6 +360,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     }
     for key, value in (("right", change.right), ("written", change.written)):
         values[key] = value if isinstance(value, tuple) else (_short(value),) if value is not None else ()
+    exprs = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
+    values["apart"] = (rates_apart(*exprs) if len(exprs) > 1 else ()) or (".",)
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):
         parts += values[piece] if k % 2 else [piece] if piece else []

@@ -6,6 +6,7 @@ the parent is a reason for it, and stands behind it.
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 from fractions import Fraction
 
@@ -45,14 +46,20 @@ OF_A_SUM = {"sign_in_a_sum": Fraction(-2), "left_out_of_a_sum": Fraction(-1)}
 """The kinds of changes that turn or leave out all terms of a part with one letter, with the multiple of these terms."""
 
 
-def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake) -> Mistake:
-    """The mistake, told by the term of an equation that is wrong, if it shows as that alone."""
+def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake, kinds: Set[str]) -> Mistake:
+    """The mistake, told by the term of an equation that is wrong, if it shows as that alone.
+
+    ``kinds`` are those of the lines of the answer: ℒ = T* + V is no reason where nobody wrote an ℒ.
+    """
     if under is None or pool.truth.values or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
         return mistake
     term, times = found
     row = term.site.coordinate
     factor = under.factor(pool.truth, row) if row is not None else None
-    said = say.mistake(term, times, pool.truth.model, factor).what.parts
+    plain = say.mistake(term, times, pool.truth.model, factor)
+    if told.mistake.name == "plus_potential" and "L" not in kinds:
+        return plain
+    said = plain.what.parts
     if times not in (-1, -2):
         right = next(x for x in said if isinstance(x, sp.Expr))
         where = ("The term ", (1 + sp.Rational(times.numerator, times.denominator)) * right, " of the equation of ")

@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.reading.placeholders import variation
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Status, Verdict, inserted
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
 
@@ -33,9 +33,8 @@ def with_virtual_displacements(
     moved = {id(x): y for x in lines if (y := _in_rates(truth, x, rates)) is not None}
     if not moved:
         return lines, verdict
-    findings = list(verdict.findings)
-    for f in judge(list(moved.values())).findings:
-        findings = inserted(findings, f)
+    told = judge(list(moved.values())).findings
+    findings = sorted([*verdict.findings, *told], key=lambda f: f.line.number)
     return [moved.get(id(x), x) for x in lines], replace(verdict, findings=tuple(findings))
 
 

@@ -14,9 +14,12 @@ from typing import TypeAlias
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
-from lagrangian.check.explain.combined_rows import difference, term_to_blame
+from lagrangian.check.explain.balance_terms import Mend, mends, plainest
+from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
+from lagrangian.check.held import held
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import small
@@ -32,6 +35,8 @@ NAME = "wrong_balance"
 """The name of the mistake."""
 MOST_LINES, MOST_FORCES = 12, 6
 """The most lines, and the most forces in them, that are compared."""
+MOST_TOLD = 3
+"""The most lines of which one is said to be wrong."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
 WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
@@ -60,6 +65,22 @@ class Balances:
         left = np.abs((A @ u[:, :, None])[:, :, 0] + b)
         return u if (left <= NEAR * np.maximum(scale, 1e-300)).all() else None
 
+    def forces_without(self, k: int) -> dict[sp.Basic, Array] | None:
+        """The forces that the lines without one determine; None if one of its own is not among these."""
+        rows = [i for i in range(len(self.lines)) if i != k]
+        if (u := self.solved(rows)) is None:
+            return None
+        found: dict[sp.Basic, Array] = {}
+        for j, force in enumerate(self.forces):
+            alone = np.zeros((len(self.A), 1, len(self.forces)))
+            alone[:, 0, j] = 1
+            both = np.linalg.matrix_rank(np.concatenate([self.A[:, rows], alone], axis=1))
+            if (both == np.linalg.matrix_rank(self.A[:, rows])).all():
+                found[force] = u[:, j]
+            elif self.A[:, k, j].any():
+                return None
+        return found
+
     def compared(self, rows: Sequence[int]) -> bool:
         """Whether each of some lines is compared with the rest: the others determine all forces, too."""
         whole = self.rank(range(len(self.lines)))
@@ -77,36 +98,97 @@ def with_wrong_balance(
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
-    if verdict.status is not Status.WRONG or truth.derivation.multipliers or truth.n < 2 or verdict.hint == 0:
+    if verdict.status is not Status.WRONG or truth.n < 2 or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
-    if any(x.kind in ENERGIES for x in lines) or (balances := _balances(truth, lines)) is None:
+    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    if on is None or (balances := _balances(on, lines)) is None:
         return verdict
-    every = range(len(balances.lines))
-    k = _one_wrong(balances)
-    u = balances.solved([i for i in every if i != k])
-    if u is None or not balances.compared([i for i in every if i != k]):
-        return verdict
-    values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
-    false = [x for x in later if not _is_true(truth, x, values)]
-    if k is None and len(false) != 1:
-        return verdict
-    line = false[0] if k is None else balances.lines[k]
-    term = term_to_blame(truth, line.expr, values)
-    blamed = Finding(line, Status.WRONG, differences=() if term is None else (difference(truth, term, None),))
+    if len(balances.forces) <= len(truth.derivation.multipliers):
+        return verdict  # multipliers
+    if (solved := _one_blamed(on, balances, later)) is None:
+        return _without_invented(balances, verdict)
+    every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
+    plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
+    blamed = Finding(
+        line, Status.WRONG, differences=() if solved.term is None else (difference(on, solved.term, None),)
+    )
     own = balances.lines
     causes = [own] if k is not None else [(*own[:i], *own[i + 1 :], line) for i in every]
     below = [x for x in lines if x.kind == "equation" and not x.expr.has(*balances.forces)]
     below += [x for x in false if x is not line]
-    holds = np.any([_hold(truth, rows, balances.forces, below) for rows in causes], axis=0)
+    holds = np.any([_hold(on, rows, balances.forces, below) for rows in causes], axis=0)
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
-    if verdict.mistakes and roots == {_at(line)}:
+    if verdict.mistakes and roots == {_at(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
     return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Blamed:
+    """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
+    later lines that are; ``few``: its term alone tells it from others."""
+
+    k: int | None
+    line: AnsweredLine
+    term: WrongTerm | None
+    false: tuple[AnsweredLine, ...] = ()
+    few: bool = False
+
+
+def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
+    """The verdict without explanations by Lagrange's derivatives, which an answer with balances has not; the lines that
+    do not agree in their place."""
+    if not any(_of_derivatives(m) for m in verdict.mistakes):
+        return verdict
+    told, others = (tuple(m for m in x if not _of_derivatives(m)) for x in (verdict.mistakes, verdict.alternatives))
+    left_out = _left_out(balances)
+    if not told and 1 < len(left_out) <= MOST_TOLD:
+        numbers = sorted({balances.lines[i].number for i in left_out})
+        listed = f"{', '.join(map(str, numbers[:-1]))} and {numbers[-1]}"
+        names = [f for f in balances.forces if any(balances.lines[i].expr.has(f) for i in left_out)]
+        force = text(*[x for f in names for x in (f, ", ")][:-1])
+        what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
+        brief = text(f"Lines {listed} do not agree: one of them is wrong.")
+        told, others = (Mistake(NAME, what, WHY, 5, brief=brief),), ()
+    return replace(verdict, mistakes=told, alternatives=others)
+
+
+def _of_derivatives(mistake: Mistake) -> bool:
+    """Whether a mistake is told in derivatives of energies."""
+    return any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
+
+
+def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> Blamed | None:
+    """The line that is wrong; None if it may be several, and none of them would be right with a plain term."""
+    every, left_out = range(len(balances.lines)), _left_out(balances)
+    k = left_out[0] if len(left_out) == 1 else None
+    rest = [i for i in every if i != k]
+    if len(left_out) <= 1 and balances.compared(rest) and (u := balances.solved(rest)) is not None:
+        values = truth.accelerations | dict(zip(balances.forces, u.T, strict=True))
+        false = [x for x in later if not _is_true(truth, x, values)]
+        if k is None and len(false) != 1:
+            return None
+        line = false[0] if k is None else balances.lines[k]
+        term = term_to_blame(truth, line.expr, values)
+        if term is None and (best := plainest({0: mends(truth, line.expr, values, balances.forces)})) is not None:
+            term = best[1]
+        return Blamed(k, line, term, tuple(false))
+    listed: dict[int, list[Mend]] = {}
+    given: dict[int, dict[sp.Basic, Array]] = {}
+    for i in left_out:
+        if (u := balances.forces_without(i)) is not None:
+            given[i] = truth.accelerations | u
+            listed[i] = mends(truth, balances.lines[i].expr, given[i], list(u))
+    if (best := plainest(listed)) is None:
+        return None
+    i, term = best
+    false = tuple(x for x in later if not _is_true(truth, x, given[i]))
+    return Blamed(i, balances.lines[i], term, false, few=True)
 
 
 def with_forces_of_below(
@@ -149,11 +231,27 @@ def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
     return any(x.kind == "equation" and x.number < line.number and own in x.names for x in lines)
 
 
+def _primes_as_names(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
+    """The lines with S' beside S as a name, if the system has no S: a force is not differentiated."""
+    told = [x.expr for x in lines if x.kind == "equation"]
+    rates = set[sp.Basic]().union(*(e.atoms(sp.Derivative) for e in told))
+    own = unknown_in(truth, lines)
+    put = {
+        d: sp.Symbol(f"{d.args[0].func}'")
+        for d in rates
+        if isinstance(d, sp.Derivative) and d.derivative_count == 1 and d.args[0] in own
+    }
+    moving = {d.args[0] for d in rates if isinstance(d, sp.Derivative) and d.derivative_count > 1}
+    if not put or any(d.args[0] in moving for d in put):
+        return tuple(lines)
+    return tuple(replace(x, expr=bounded.replaced(x.expr, put)) for x in lines)
+
+
 def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | None:
     """The lines of an answer with forces of its own; None if these are not linear, or too many or too few."""
     forces = sorted(unknown_in(truth, lines), key=str)
     rows = tuple(x for x in lines if x.kind == "equation" and x.expr.has(*forces)) if forces else ()
-    if not 0 < len(forces) <= MOST_FORCES or not len(forces) + 1 < len(rows) <= MOST_LINES:
+    if not 0 < len(forces) <= MOST_FORCES or not len(forces) < len(rows) <= MOST_LINES:
         return None
     slopes: list[sp.Expr] = []
     for x in rows:
@@ -169,13 +267,12 @@ def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | Non
     return Balances(rows, tuple(forces), A, values[len(slopes) :].T)
 
 
-def _one_wrong(balances: Balances) -> int | None:
-    """The place of the line without which all others hold; None if there is none, or several."""
+def _left_out(balances: Balances) -> list[int]:
+    """The places of the lines without which all others hold; none if all hold together."""
     every = list(range(len(balances.lines)))
     if balances.solved(every) is not None:
-        return None
-    found = [k for k in every if balances.solved([i for i in every if i != k]) is not None]
-    return found[0] if len(found) == 1 else None
+        return []
+    return [k for k in every if balances.solved([i for i in every if i != k]) is not None]
 
 
 def _is_true(truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array]) -> bool:
@@ -222,7 +319,8 @@ def _marked(
 def _read(forces: Sequence[sp.Basic]) -> Text:
     """The note on how forces were read."""
     names = ", ".join(f"'{plain(x)}'" for x in forces)
-    return text(f"{names} {'was' if len(forces) == 1 else 'were'} taken as unknown forces and eliminated.")
+    read = "was taken as an unknown force" if len(forces) == 1 else "were taken as unknown forces"
+    return text(f"{names} {read} and eliminated.")
 
 
 def _is_of(note: Text, forces: Sequence[sp.Basic]) -> bool:

@@ -3,16 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from lagrangian.check.explain.combined_rows import with_combined_rows
+from lagrangian.check.constraints.eliminated import unknown_in
+from lagrangian.check.explain.combined_rows import difference, term_to_blame, with_combined_rows
+from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
-from lagrangian.check.verdict import AnsweredLine, Verdict
+from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 
 
 def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put."""
     balanced = with_wrong_balance(truth, lines, verdict)
-    return with_terms_alone(with_combined_rows(truth, lines, balanced))
+    told = _with_term_of_one_line(truth, with_combined_rows(truth, lines, balanced))
+    return with_sum_not_squared(truth, with_terms_alone(told))
+
+
+def _with_term_of_one_line(truth: Reference, verdict: Verdict) -> Verdict:
+    """The verdict on an answer in which one line alone is wrong beside right equations of motion, and nothing explains
+    it: with the term without which it is right along the right motion."""
+    wrong = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    alone = len(wrong) == 1 and wrong[0].line.kind == "equation" and len(wrong[0].differences) != 1
+    if verdict.mistakes or not verdict.motion or not alone or truth.derivation.multipliers:
+        return verdict
+    if unknown_in(truth, [wrong[0].line]):
+        return verdict
+    term = term_to_blame(truth, wrong[0].line.expr, truth.accelerations)
+    if term is None:
+        return verdict
+    blamed = replace(wrong[0], differences=(difference(truth, term, None),), coordinate=None, note=None)
+    return replace(verdict, findings=tuple(blamed if f is wrong[0] else f for f in verdict.findings))

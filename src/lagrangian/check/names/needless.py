@@ -20,6 +20,9 @@ from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
+CONSTANT = frozenset(["const", "constant", "konst", "konstant", "cst", "cte"])
+"""What a constant behind an energy is called that changes no equation."""
+
 MOST = 8
 """The largest number of relations between which contradictions are sought."""
 
@@ -41,6 +44,19 @@ class Needed:
     lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...] = ()
     together: bool = False
+
+
+def without_constants(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> tuple[AnsweredLine, ...]:
+    """The lines, with energies without a constant that is only called so: T = ½ m ẋ² + const."""
+    named = [x for x in unknown if x.is_Symbol and str(x).lower() in CONSTANT]
+    return tuple(replace(x, expr=_without(x.expr, named)) if x.kind in ("T", "V", "L") else x for x in lines)
+
+
+def _without(expr: sp.Expr, names: Sequence[sp.Basic]) -> sp.Expr:
+    """An expression without the terms that are nothing but one of some names."""
+    parts = sp.Add.make_args(expr)
+    kept = [x for x in parts if x not in names]
+    return sp.Add(*kept) if 0 < len(kept) < len(parts) else expr
 
 
 def needed(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic], count: int) -> Needed | None:

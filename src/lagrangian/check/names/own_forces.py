@@ -10,11 +10,11 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import whole_force
 from lagrangian.check.reading import generalized_force, of_coordinate
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.stated import whole_force
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.page.formula import Text, text
 from lagrangian.read.letters import key

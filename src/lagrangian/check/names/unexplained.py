@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.lines import filled, lines_of
+from lagrangian.check.names.needless import without_constants
 from lagrangian.check.names.results import is_factor_of_forces
 from lagrangian.check.reading import Answer, Unknown
 from lagrangian.check.reference import Reference, truth_of
@@ -48,7 +49,7 @@ def unexplained(derivation: Derived, answer: Answer, verdict: Verdict) -> tuple[
     """
     if verdict.status is not Status.WRONG or not answer.unknown:
         return ()
-    lines = lines_of(answer)
+    lines = without_constants(lines_of(answer), [u.symbol for u in answer.unknown])
     given = {key(d.symbol.name) for d in derivation.definitions}
     asked = [u for u in answer.unknown if u.symbol not in verdict.change and key(u.name) not in given]
     moving = _moving(derivation.model, lines, answer)

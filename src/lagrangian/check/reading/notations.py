@@ -35,6 +35,7 @@ from lagrangian.check.reading.programs.session_lists import without_lists, witho
 from lagrangian.check.reading.programs.sessions import without_prompts, without_session
 from lagrangian.check.reading.programs.source_code import is_session, told_commands, without_code, without_maxima
 from lagrangian.check.reading.programs.spellings import without_marks_of_latex, without_programs
+from lagrangian.check.reading.programs.templates import with_templates_applied
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
@@ -87,7 +88,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
     own = {key(name) for name in lines.model.symbols}
     zero = residuals(with_declared(prompted, lambda name: key(name) in own), taken, names.changes)
     names.residuals = zero.names
-    code = without_code(zero.written, taken, commands.append, session=is_session(text))
+    code = without_code(with_templates_applied(zero.written), taken, commands.append, session=is_session(text))
     session = without_session(code, taken, commands.append)
     if commands:
         names.notes.setdefault(told_commands(text, commands))

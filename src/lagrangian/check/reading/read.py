@@ -35,6 +35,7 @@ from lagrangian.check.reading.programs.marks import is_program, told_comments, w
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
+from lagrangian.check.reading.prose.spoken_words import is_spelled_out, spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
 from lagrangian.check.reading.renamed import renamed, restored
@@ -43,7 +44,6 @@ from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
-from lagrangian.check.reading.shortened import of_angles
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -107,9 +107,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     program = carried_out(text, model)
     if program is None:
-        text, partly = without_sums_of_loops(text)
-        found = _declared(text, model, place)
-        return replace(found, notes=(*partly, *found.notes)) if partly else found
+        return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
 
     def by_steps() -> Answer:
         try:
@@ -378,7 +376,8 @@ def _beside(written: ExpandedLatex, words: Words) -> list[AnswerRow]:
 
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
-    own, alone = dict.fromkeys(m[1] for m in _DEFINED.finditer(text)), [m[1] for m in _ALONE.finditer(text)]
+    own = dict.fromkeys(m[1] for m in _DEFINED.finditer(text) if not is_spelled_out(text, m.end(), m[1]))
+    alone = [m[1] for m in _ALONE.finditer(text)]
     system = Words(lines.names, (), ())
     for match in _CALLED.finditer(text):  # with the total mass M_t = …, but not mgLl sinθ = …
         word = match[1]
@@ -396,5 +395,6 @@ def _words(lines: Lines, text: str) -> Words:
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]
-    lines.names.scope.taken, lines.names.scope.used = frozenset(map(key, own)), frozenset(used) | of_angles(text)
-    return Words(lines.names, own, alone, used, primed, led_names(text))
+    lines.names.scope.learn(own, used, text)
+    spoken = spoken_words(text, Words(lines.names, own, alone, used, primed))
+    return Words(lines.names, own, alone, used, primed, led_names(text), spoken)

@@ -51,6 +51,8 @@ _FIRST = 6
 """The words of a line of which one says that it is a remark."""
 _MOST = 40
 """The largest number of remarks."""
+_MOST_CLOSED = 12
+"""The most lines of a remark in brackets."""
 _LONGEST_TITLE = 8
 """The most words of a title on a line of its own."""
 
@@ -135,14 +137,13 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     found = [r for r in islice(_remarks(lines, starts, known), _MOST) if "=" in (part := text[r.start : r.end])]
     found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
+    resting = [r for r in found if _REST.search(text[r.start : r.end].split("=", 1)[0])]
     if sum(n for r, n in zip(found, moving, strict=True) if not r.case) >= len(model.coordinates):
         found = [r for r in found if r.case]
     elif model.constraints:  # a remark may state a constraint
-        found = [r for r, n in zip(found, moving, strict=True) if r.case or n]
+        found = [r for r, n in zip(found, moving, strict=True) if r.case or n or r in resting]
     bare = _blanked(text, found)
-    told = [
-        r for r in found if not _REST.search(text[r.start : r.end].split("=", 1)[0])
-    ]  # a value at rest is no meaning
+    told = [r for r in found if r not in resting]  # a value at rest is no meaning
     stated = {m["name"] for m in _STATED.finditer(bare)}  # for d = 0: u = 1, where another line says what u is
     used = [
         r
@@ -217,7 +218,7 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
             yield from _sentences(lines, k, starts, known)
             k += 1
             continue
-        end = _end(lines, k) if _is_open(lines, k) else k + 1
+        end = _closed(lines, k) or (_end(lines, k) if _is_open(lines, k) else k + 1)
         case = kind == "case" or _leaves_out(lines[k]) or _is_case(" ".join(lines[k:end][:2]), known, led=True)
         yield _Remark(starts[k], starts[end] - 1, case)
         k = end
@@ -247,6 +248,18 @@ def _is_title(lines: Sequence[str], k: int) -> bool:
 def _is_open(lines: Sequence[str], k: int) -> bool:
     """Whether the lines below a line belong to it."""
     return _is_title(lines, k) or bool(_OPEN.search(lines[k].rstrip())) or "=" not in lines[k]
+
+
+def _closed(lines: Sequence[str], k: int) -> int:
+    """The line behind a remark in brackets that begins on line k and is closed below it; 0 if it is none."""
+    if not lines[k].lstrip().startswith("("):
+        return 0
+    depth = 0
+    for j in range(k, min(k + _MOST_CLOSED, len(lines))):
+        depth += lines[j].count("(") - lines[j].count(")")
+        if depth <= 0:
+            return j + 1 if depth == 0 and j > k and lines[j].rstrip(" \t.").endswith(")") else 0
+    return 0
 
 
 def _end(lines: Sequence[str], k: int) -> int:

@@ -18,7 +18,7 @@ from lagrangian.check.explain.changes.pieces import (
     instead_of_segment,
     segment,
 )
-from lagrangian.check.explain.changes.ring import TooLong
+from lagrangian.check.explain.changes.ring import ONE, TooLong
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import half_square
 from lagrangian.check.explain.misconceptions.base import put as replaced
@@ -155,10 +155,16 @@ class GeometryChanges:
         rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
         rates = rates if len(rates) > 1 else []
         parallel = 2 <= len(rates) <= 3 and self._parallel(velocity, rates)
+        told: set[tuple[Any, Any]] = set()
         for v in rates[1:] if parallel and len(rates) == 2 else rates:  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
             gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
             cost = 1.55 if parallel else 1.7
-            yield from self._kinetic(b, half_square(mass, gone), own, "rate_sign", cost, brief, brief, v)
+            right, against = self._against([velocity], v)
+            if (right, against) not in told:
+                told.add((right, against))
+                yield from self._kinetic(
+                    b, half_square(mass, gone), own, "rate_sign", cost, brief, brief, right, against
+                )
         if 2 <= len(rates) <= 3 and not parallel:
             yield from self._as_numbers(b, velocity, rates, own, mass, brief)
 
@@ -192,6 +198,22 @@ class GeometryChanges:
             cost = 1.3 if signs == (1, 1, 1) else 1.6
             yield from self._kinetic(b, mass / 2 * total**2, own, "speeds_as_numbers", cost, brief, brief, None, total)
 
+    def _against(self, velocities: Sequence[Sequence[sp.Expr]], v: Any) -> tuple[sp.Expr, sp.Expr | Words]:
+        """Which rate has the wrong sign against which where that of ``v`` is turned in velocities.
+
+        Of two, either may be told: that which has a factor, h θ̇ beside ṡ; otherwise the second.
+        """
+
+        def product(velocity: Sequence[sp.Expr], w: Any, by: Any) -> Any:
+            return self.sites.sum(sp.Add(*[bounded.diff(x, w) * bounded.diff(x, by) for x in velocity]))
+
+        others = [w for w in self.s.v if w != v and any(product(x, v, w) for x in velocities)]
+        if len(others) != 1:
+            return v, ("the other rates",)
+        pair = [w for w in self.s.v if w == v or w in others]
+        plain = [all(set(product(x, w, w)) <= {ONE} for x in velocities) for w in pair]
+        return (pair[0], pair[1]) if plain == [False, True] else (pair[1], pair[0])
+
     def _parallel(self, velocity: list[sp.Expr], rates: list[Any]) -> bool:
         """Whether what every rate adds to a velocity points along the same line, which is that of no axis."""
         if sum(x.has(*rates) for x in velocity) < 2:
@@ -215,7 +237,8 @@ class GeometryChanges:
                 continue
             words: Words = (Name("T*"),)
             turned = replaced(self.s.T, {v: -v})
-            yield from self._kinetic(None, turned, self.s.T, "rate_sign", 1.2, words, words, v)
+            right, against = self._against([self.s.velocity(b) for b in coupled], v)
+            yield from self._kinetic(None, turned, self.s.T, "rate_sign", 1.2, words, words, right, against)
         for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
             for sign in (1, -1):
                 table = {v: v + sign * w}

@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive import Derived
+from lagrangian.derive.algebra import Algebra
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 from lagrangian.records import dataclass, field
@@ -82,6 +83,11 @@ class Ingredients:
     def expand(self, expr: Any) -> sp.Expr:
         """An expression with its definitions written out."""
         return self.model.expand(sp.sympify(expr), constants=True)
+
+    @cached_property
+    def algebra(self) -> Algebra:
+        """The ring of normal forms in the coordinates."""
+        return Algebra(self.model)
 
     @cached_property
     def T(self) -> sp.Expr:

@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
+from lagrangian.derive.algebra import OutOfReach
 from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import Body, Damper
 from lagrangian.page.formula import text
@@ -90,7 +91,7 @@ def _along(s: Ingredients, body: Body, i: int) -> list[sp.Expr]:
         return sp.Add(*[a * b for a, b in zip(slopes[k], slopes[i], strict=True)])
 
     def with_own(k: int) -> sp.Expr:
-        return bounded.trigsimp(product(k))
+        return _without_turning(s, product(k))
 
     if not _may_be_a_number(s, product(i)):
         return []
@@ -98,6 +99,15 @@ def _along(s: Ingredients, body: Body, i: int) -> list[sp.Expr]:
     if square == 0 or not square.is_number:
         return []
     return [cast("sp.Expr", sp.Add(*[with_own(k) * v for k, v in enumerate(s.v)]) / sp.sqrt(square))]
+
+
+def _without_turning(s: Ingredients, expr: sp.Expr) -> sp.Expr:
+    """An expression with fewer sines and cosines: where none is left, the normal form says so at once."""
+    try:
+        form = s.algebra.form(expr)
+    except (OutOfReach, OverflowError, ValueError):
+        return bounded.trigsimp(expr)
+    return bounded.trigsimp(expr) if form.turns or form.opaque() else form.expr()
 
 
 def _may_be_a_number(s: Ingredients, expr: sp.Expr) -> bool:

@@ -11,7 +11,9 @@ from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, l
 from lagrangian.page.formula import text
 
 STEP = 3
-WHY = text("h is the height of the centre of mass: measure how far from its parent that is, along the body.")
+TWICE, HALF = "twice", "half"
+"""How far a height is taken."""
+WHY = text("The height is that of the centre of mass: measure how far from its parent that is, along the body.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -20,7 +22,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         n = [s.expand(x) for x in gravity.direction]
         own = sp.Add(*[-a * (x - p) for a, x, p in zip(n, s.position(body), s.parent(body), strict=True)])
         mg = s.expand(body.mass) * s.expand(gravity.g)
-        for times, word in ((1, "twice"), (-sp.S.Half, "half")):
+        for times, word in ((1, TWICE), (-sp.S.Half, HALF)):
             what = text(f"The height of {body.title} is taken {word} as far out as its centre of mass.")
             if not s.angles(own):
                 continue  # on an incline there is no arm: then the weight counts twice or half

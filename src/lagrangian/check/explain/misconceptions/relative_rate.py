@@ -28,7 +28,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             turned = _omega(s, body, k)
             translation = half_square(s.expand(body.mass), moved) - s.translation(body) if moved else sp.S.Zero
             rotation = s.rotating(body, turned) - s.rotation(body) if turned else sp.S.Zero
-            speed = turned[0] if turned else s.v[k]
+            speed = _unsigned(turned[0]) if turned else s.v[k]
             given = _given(s, body, q)
             whole: tuple[str | sp.Expr, ...] = (s.v[k] + given,) if given != 0 else ("the sum of the rates",)
             what = text(f"{body.title[:1].upper() + body.title[1:]} turns with ", speed, " alone.")
@@ -40,6 +40,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                     yield Variant(what=words, T=change, element=body, coordinate=k)
             if given != 0:
                 yield from _in_one_equation(s, body, k, given)
+
+
+def _unsigned(rate: sp.Expr) -> sp.Expr:
+    """A rate without the sign, which its square does not show: (R − r) φ̇/r for −(R − r) φ̇/r."""
+    factors = [f for f in sp.Mul.make_args(rate) if f != -1]
+    plain = [-f if isinstance(f, sp.Add) and f.could_extract_minus_sign() else f for f in factors]
+    return cast("sp.Expr", sp.Mul(*plain))
 
 
 def _given(s: Ingredients, body: object, q: sp.Expr) -> sp.Expr:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import sympy as sp
 
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, partner, put
+from lagrangian.model import Element, Gravity, Spring
 from lagrangian.page.formula import Name, text
 
 STEP = 3
@@ -26,9 +27,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element, V, words in pieces:
         for other in _swapped(V):
             yield Variant(what=text(f"Sine and cosine are exchanged in {words}."), V=other - V, element=element)
-    several = sum(V.has(sp.sin, sp.cos) for _, V, _ in pieces) != 1
-    for other in _swapped(s.V) if several else ():
-        yield Variant(what=text("Sine and cosine are exchanged in ", Name("V"), "."), V=other - s.V)
+    turned = [element for element, V, _ in pieces if V.has(sp.sin, sp.cos)]
+    weights = all(isinstance(x, Gravity) for x in turned)
+    where = "the weights" if weights else "the energies of the springs" if _are_springs(turned) else Name("V")
+    for other in _swapped(s.V) if len(turned) != 1 else ():
+        yield Variant(what=text("Sine and cosine are exchanged in ", where, "."), V=other - s.V)
     yield from _in_rows(s)
     for element in s.acting:
         shares = s.shares(element)
@@ -37,6 +40,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if turned:
                 what = text(f"Sine and cosine are exchanged in what {element.title} adds to ", Name("Xi"), ".")
                 yield Variant(what=what, Xi=turned, element=element)
+
+
+def _are_springs(elements: Sequence[Element]) -> bool:
+    """Whether all elements are springs."""
+    return all(isinstance(x, Spring) for x in elements)
 
 
 def _in_rows(s: Ingredients) -> Iterator[Variant]:

@@ -362,8 +362,9 @@ class Evaluator:
         """An entry or a part of a list, a matrix or a state."""
         if isinstance(of, Outside):
             return UNKNOWN
-        if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(at, ast.Constant) and isinstance(at.value, str):
-            return sp.Symbol(at.value)
+        said = names.get(at.id) if isinstance(at, ast.Name) else getattr(at, "value", None)
+        if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(said, str):
+            return sp.Symbol(said)
         if isinstance(of, dict):
             return of.get(self.value(at, names), UNKNOWN)
         if isinstance(of, Routine) and of.name == "r_":  # np.r_[v, a]

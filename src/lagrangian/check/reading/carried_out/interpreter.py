@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -25,6 +25,9 @@ from lagrangian.check.reading.carried_out.values import (
     State,
     Value,
     called_name,
+    equated,
+    is_scalar,
+    is_sided,
     listed,
     matrix,
     number,
@@ -43,6 +46,8 @@ class Interpreter(Evaluator):
 
     valued: Mapping[str, float] = field(default_factory=dict)
     """The values of the parameters of the system that a program does not name."""
+    driven: str | None = None
+    """The one input of the system that a program does not name."""
 
     def run(self, tree: ast.Module, given: dict[str, Value]) -> dict[str, Value]:
         """Carry out a whole program, with names that are ``given``; return its names."""
@@ -50,6 +55,12 @@ class Interpreter(Evaluator):
         self.outer = names
         self.carry_out(tree.body, names)
         return names
+
+    def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
+        """The value of a function of the program; one of time alone is the input that has no name, motor(t)."""
+        value = Evaluator.function(self, of, given, called)
+        alone = self.driven is not None and list(given) == [TIME] and is_scalar(value)
+        return sp.Symbol(self.driven) if alone and set(scalar(value).free_symbols) <= {TIME} else value
 
     # -- statements --------------------------------------------------------------------------------------------------
 
@@ -100,8 +111,7 @@ class Interpreter(Evaluator):
         call = s.value if isinstance(s.value, ast.Call) else None
         called = "" if call is None else called_name(call.func)
         if call is not None and (called in SHOWN or called in SOLVING):
-            for x in call.args:
-                value = self.value(x, names)
+            for value in self._printed(call, names):
                 self.used = before if isinstance(value, Outside) else self.used
                 if self._is_check(value, before, names):
                     continue
@@ -113,6 +123,19 @@ class Interpreter(Evaluator):
         if not isinstance(s.value, ast.Constant):
             of = s.value.id if isinstance(s.value, ast.Name) else ""
             self.stated += [Shown(s.lineno, None, v, True, of) for v in self.flat(value)]
+
+    def _printed(self, call: ast.Call, names: dict[str, Value]) -> Iterator[Value]:
+        """The values that a call shows; print(left, "=", right) shows an equation."""
+        parts = [y for x in call.args for y in (x.values if isinstance(x, ast.JoinedStr) else [x])]
+        args = [x.value if isinstance(x, ast.FormattedValue) else x for x in parts]
+        equals = [isinstance(x, ast.Constant) and str(x.value).strip() in ("=", "==") for x in args]
+        k = 0
+        while k < len(args):
+            sides = [self.value(args[k], names)]
+            if equals[k : k + 3] == [False, True, False]:
+                sides.append(self.value(args[k + 2], names))
+            yield from [equated(*sides)] if len(sides) > 1 and all(map(is_sided, sides)) else sides
+            k += 2 * len(sides) - 1
 
     def _is_check(self, value: Value, before: set[str], names: dict[str, Value]) -> bool:
         """Whether a value that is shown is 0 everywhere: a check, which uses nothing but what a method formed."""

@@ -109,8 +109,12 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
             bare = in_matlab(bare) if matlab and is_julia(bare) else bare
             tree = ast.parse(in_python(bare) if matlab else bare)
         known = partial(_is_constant, scope, model=model)
-        valued = _unnamed(tree, scope, model)
-        run = Interpreter(matlab=matlab, known=known, states=2 * len(model.coordinates), valued=valued)
+        named = _named(tree, scope)
+        valued = {p.name: float(p.value) for p in model.parameters if p.name not in named and p.value is not None}
+        free = [u.name for u in model.inputs if u.name not in named]
+        driven = free[0] if len(free) == 1 else None
+        states = 2 * len(model.coordinates)
+        run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven)
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, MovingNames(model, scope)))
         reader = StateReader(run, text, model, scope)
@@ -168,16 +172,15 @@ def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:
     return any(x.name in found for x in (*model.parameters, *model.inputs))
 
 
-def _unnamed(tree: ast.Module, scope: AnswerScope, model: Model) -> dict[str, float]:
-    """The parameters that a program does not name, with their values."""
+def _named(tree: ast.Module, scope: AnswerScope) -> set[str]:
+    """The names of the system in a program."""
     said: set[str] = set()
     for x in ast.walk(tree):
         if isinstance(x, ast.Constant) and isinstance(x.value, str):
             said.update(NAME.findall(x.value))  # symbols("m g")
         elif isinstance(x, (ast.Name, ast.Attribute, ast.arg)):
             said.add(x.id if isinstance(x, ast.Name) else x.attr if isinstance(x, ast.Attribute) else x.arg)
-    named = {y for x in said for y in scope.meanings(x)[0]}
-    return {p.name: float(p.value) for p in model.parameters if p.name not in named and p.value is not None}
+    return {y for x in said for y in scope.meanings(x)[0]}
 
 
 def _depth(text: str) -> int:
@@ -250,6 +253,7 @@ def _of_states(
             listed_so = sorted(x for name in named for x in reader.scope.meanings(name)[0]) == sorted(coordinates)
             rates = [sp.Function(x)(TIME).diff(TIME, 2) for x in (named if listed_so else coordinates)]
             solved = solved[:n, :]
+        rates = rates or reader.rates_of(one.name, len(solved))
         if len(rates) == len(solved):
             found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
             yield from _equations(run, found, reader)

@@ -67,7 +67,7 @@ class StateReader:
                 continue
             layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self._rated)
             found: Any = layouts.of_sums(given, rates)
-            found = found or (self._of_state(states, rates) if states else self._of_arguments(f.arguments, rates))
+            found = found or (self._of_state(states, rates) if states else self._of_arguments(f, rates))
             found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
             if found is not None:
                 yield StateFunction(_line(f), *found)
@@ -81,13 +81,18 @@ class StateReader:
         found = self._of_state([state], [cast("sp.Expr", x.xreplace(table)) for x in rates])
         return None if found is None else StateFunction(loose.line, *found)
 
-    def _of_arguments(self, arguments: Sequence[str], rates: Sequence[sp.Expr]) -> Any:
-        """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd)."""
+    def _of_arguments(self, f: OwnFunction, rates: Sequence[sp.Expr]) -> Any:
+        """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd); fewer where
+        constraints are put in, if what is returned has names, [sdd, zdd]."""
         coordinates = [c.name for c in self.model.coordinates]
-        named = [x for x in arguments if set(self.scope.meanings(x)[0]) & set(coordinates)]
+        named = [x for x in f.arguments if set(self.scope.meanings(x)[0]) & set(coordinates)]
         more = rates[len(coordinates) :]  # multipliers that are solved for
         if len(named) != len(coordinates) or len(rates) < len(named) or not set(more) <= self.run.solved.keys():
-            return None
+            returned = [self._rated(x, 2) or "" for x in (f.out or "").split(",")]
+            free = len(coordinates) - len(self.model.constraints)
+            if not len(returned) == len(rates) >= max(free, 1) or not set(returned) <= set(named):
+                return None
+            named = returned
         return [(sp.Function(x)(TIME).diff(TIME, 2), value) for x, value in zip(named, rates, strict=False)], {}
 
     def _of_state(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Any:
@@ -146,17 +151,29 @@ class StateReader:
         )
         return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
-    def _rated(self, name: str) -> str | None:
-        """The coordinate whose rate a name is: psd of psi, and i where a comment says i = q'."""
+    def _rated(self, name: str, order: int = 1) -> str | None:
+        """The coordinate whose rate a name is, or its acceleration: psd of psi, and i where a comment says i = q'."""
         coordinates = {c.name for c in self.model.coordinates}
         said = (
             re.findall(rf"[#%][^\n]*?(?<!\w){re.escape(name)}[ ]?=[ ]?([^\W\d]\w*+)(?:['’]|[ ]?dot\b)", self.text)
-            if name
+            if name and order == 1
             else []
         )
-        found = [s for k, s in spelled_rates(name) if k == 1 and set(self.scope.meanings(s)[0]) & coordinates]
+        found = [s for k, s in spelled_rates(name) if k == order and set(self.scope.meanings(s)[0]) & coordinates]
         found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
         return found[0] if found else None
+
+    def rates_of(self, name: str, count: int) -> list[sp.Expr]:
+        """The rates of the entries of a state that a comment lists, x = [phi; z; phidot; zdot] for xdot; none if their
+        number is another one."""
+        coordinates = {c.name for c in self.model.coordinates}
+        for stem in (s for k, s in spelled_rates(name) if k == 1):
+            said = list(self.in_comments(stem).values())
+            own = [set(self.scope.meanings(x)[0]) & coordinates for x in said]
+            moving = [(x, 1) if y else (self._rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
+            if len(said) == count and all(x for x, _ in moving):
+                return [sp.Function(x)(TIME).diff(TIME, order) for x, order in moving]
+        return []
 
     def _of_inputs(self, other: State) -> dict[sp.Symbol, sp.Expr]:
         """What the entries of a vector of inputs are."""
@@ -215,7 +232,8 @@ def _argument(
     if any(isinstance(x, ast.Attribute) and _is(x.value, name) and x.attr != "T" for x in nodes):
         return Fields()
     indices = [x.slice for x in nodes if isinstance(x, ast.Subscript) and _is(x.value, name)]
-    if any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in indices):
+    listed_names = [x for x in nodes if isinstance(x, (ast.GeneratorExp, ast.ListComp)) and _takes_fields(x, name)]
+    if listed_names or any(isinstance(x, ast.Constant) and isinstance(x.value, str) for x in indices):
         return Fields()
     calls = [x for x in nodes if isinstance(x, ast.Call)]
     called = [x for x in calls if _is(x.func, name)]
@@ -240,6 +258,15 @@ def _argument(
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
         return State(name)
     return TIME if name == "t" else sp.Symbol(name)
+
+
+def _takes_fields(node: ast.GeneratorExp | ast.ListComp, name: str) -> bool:
+    """Whether parameters are taken from a table by their names: (p[x] for x in ("m", "l"))."""
+    of, names = node.elt, node.generators[0].iter
+    strings = isinstance(names, (ast.Tuple, ast.List)) and all(
+        isinstance(x, ast.Constant) and isinstance(x.value, str) for x in names.elts
+    )
+    return strings and isinstance(of, ast.Subscript) and _is(of.value, name)
 
 
 def _is(node: ast.expr, name: str) -> bool:

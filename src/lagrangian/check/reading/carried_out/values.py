@@ -137,6 +137,11 @@ class ReturnedError(Exception):
         self.value = value
 
 
+def is_sided(value: Value) -> bool:
+    """Whether a value may be a side of an equation."""
+    return (is_scalar(value) or isinstance(value, MatrixBase)) and not isinstance(value, Outside)
+
+
 def equated(a: Value, b: Value) -> Value:
     """Two sides set equal, entry by entry if they are columns."""
     if is_scalar(a) and is_scalar(b):

@@ -15,6 +15,8 @@ from lagrangian.check.reading.traced_text import Edit, TracedText
 
 _GROUP = re.compile(r"[⎡⎢⎣](?P<row>[^⎡-⎦\n]{0,400})[⎤⎥⎦]")
 _COLUMNS = re.compile(r"[ \t]{2,}|\t|[ \t]*,[ \t]*")
+_NAME = re.compile(r"[ ,;]*+[^\W\d]\w{0,15}[ \t]*+=")
+"""The name of another matrix."""
 MOST = 200
 """The largest number of lines of drawn matrices."""
 
@@ -55,7 +57,7 @@ def _made(block: Sequence[str]) -> str | None:
         told = [x for x in beside if x]
         if len(told) > 1:
             return None
-        parts.append(told[0] if told else "")
+        parts.append(f"; {told[0].lstrip(' ,;')}" if told and k and _NAME.match(told[0]) else told[0] if told else "")
         if k < count:
             rows = [_COLUMNS.split(groups[k]["row"].strip()) for groups in found if groups[k]["row"].strip()]
             if len({len(row) for row in rows}) != 1:

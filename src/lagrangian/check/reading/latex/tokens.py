@@ -26,7 +26,8 @@ _TOKEN = re.compile(
     | (?P<end_>\\end\s*\{\w+\*?\})
     | \\(?:mathrm|mathit|mathsf|operatorname\*?|text|textrm|mathnormal|rm)\s*\{(?P<upright>[^{}]{0,80})\}
     | \\(?:mathrm|mathsf|mathit|textrm)\s*(?P<letter>[A-Za-z])
-    | \\(?:mathbf|boldsymbol|bm|pmb|underline)\s*(?:\{\s*\\?(?P<bold>[A-Za-z]+)\s*\}|\\?(?P<bold1>[A-Za-z]+))
+    | \\(?:mathbf|boldsymbol|bm|pmb|underline)\s*
+      (?:\{\s*\\?(?P<bold>[A-Za-z]+)\s*\}|\\?(?P<bold1>(?<=\\)[A-Za-z]+|[A-Za-z]))
     | \\(?:mathcal|mathscr|mathfrak)\s*(?:\{\s*(?P<script>[A-Za-z])\s*\}|(?P<script1>[A-Za-z]))
     | (?P<delimiter>\\(?:left|right|middle|[bB]igg?[lrm]?)(?![A-Za-z])\s*\.?)
     | \\(?P<command>[A-Za-z]+\*?)

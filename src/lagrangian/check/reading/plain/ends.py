@@ -10,6 +10,12 @@ OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _CLOSED = {"(": ")", "[": "]"}
 _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 
+FEWEST_WORDS = 2
+"""The fewest words that make a sentence of what has no equals sign."""
+_LONG_WORD = re.compile(r"[^\W\d_]{3,}")
+NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
+"""A name that gets a value."""
+
 
 def missing_brackets(text: str) -> str:
     """The brackets that are missing at the end of a statement, or "?" for one that is closed wrongly or nowhere on its
@@ -31,3 +37,9 @@ def incomplete(text: str) -> bool:
 def open_brackets(text: str) -> int:
     """How many more brackets a text opens than it closes."""
     return sum(map(text.count, "([")) - sum(map(text.count, ")]"))
+
+
+def defines_behind(text: str, first: int, stop: tuple[int, int]) -> bool:
+    """Whether a sentence ends at a point, and a name gets a value behind it: the force N in y. s = sin(alpha)."""
+    spoken = len(_LONG_WORD.findall(text, first, stop[0])) >= FEWEST_WORDS
+    return spoken and NAME_NEXT.match(text, stop[1]) is not None

@@ -20,7 +20,14 @@ from lagrangian.check.reading.labels import (
 )
 from lagrangian.check.reading.markup import blank, opened_list
 from lagrangian.check.reading.names import Names
-from lagrangian.check.reading.plain.ends import OPEN_END, incomplete, missing_brackets, open_brackets
+from lagrangian.check.reading.plain.ends import (
+    NAME_NEXT,
+    OPEN_END,
+    defines_behind,
+    incomplete,
+    missing_brackets,
+    open_brackets,
+)
 from lagrangian.check.reading.prose.combined import without_combinations
 from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.headings import without_headings
@@ -95,7 +102,6 @@ _WITH = "con|com|met|med|dove|donde|onde|waarbij"
 """How other languages link statements, in words that may be names of the system or products of these."""
 _LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit|(?P<foreign>{_WITH}))(?=[\s,:])"
 _MEANING = re.compile(r"(?:with|where|wobei|mit|avec|où|soit|con|com|met|med|dove|donde|onde|waarbij)\b")
-_NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
 _RATES = re.compile(
     r"(?<==)[ \t]*+[^\W\d]\w*+['’′″]{1,2}[ \t]++(?=[^\W\d_]\w{0,11}+(?<=[dtp])[ \t]*+=[ \t]*+[^\W\d]\w*+['’′″])"
 )
@@ -109,10 +115,11 @@ _COLUMN = r"(?P<column>(?<=[\w)\]'’′²³\u0307\u0308])(?:[ ]{3,}|[ ]?\t[ \t]
 _COLON = r"(?P<colon>(?<=[\w)\]'’′″²³]):(?=\s))"
 _STOP = (
     r"(?<=[\w)\]'’′″²³])[ \t]*+(?P<stop>\.)(?=[ \t]+(?:"
-    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
+    r"[A-ZÄÖÜÉ][a-zäöüéè](?:[a-zäöüéè]|[ \t][a-z]{3})|(?:OK|ok|Ok|QED)\b|[^\W\d]\w{0,8}+[ \t]*+(?:=(?!=)"
     r"|(?<=[ \t])(?:as|is|are|denotes|means|measured|counted|wie|ist|wird|zählt|comme|est)[ \t])))"
 )
 _ENDS = re.compile(r"[;,]")
+_OTHER_NAME = re.compile(r"\s*+[^\W\d]\w{1,23}+\s*+=\s*+[^\W\d]\w{0,23}+\s*+")
 _EQUALS = re.compile(r"(?<![=<>:!])=(?![=>])")
 _PARTED = re.compile(r"[;\t]| {3}")
 _BETWEEN = re.compile(
@@ -233,7 +240,8 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
             if _states(text, match.start()) and not _labelled(text, match.start(), labelled):
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
-            if text.rfind("=", 0, match.start()) > text.rfind("\n", 0, match.start()):
+            first = text.rfind("\n", 0, match.start()) + 1
+            if "=" in text[first : match.start()] or defines_behind(text, first, match.span("stop")):
                 letters[match.start("stop")] = ";"
         elif match["column"]:
             if depth <= 0 and _beside(text, match.start(), match.end()):
@@ -280,7 +288,7 @@ def _beside(text: str, start: int, end: int) -> bool:
 
 def _is_meant(text: str, match: re.Match[str]) -> bool:
     """Whether a word says what a name means in the formula in front of it, which has no equals sign: a'' with a = …"""
-    if _MEANING.fullmatch(match.group()) is None or _NAME_NEXT.match(text, match.end()) is None:
+    if _MEANING.fullmatch(match.group()) is None or NAME_NEXT.match(text, match.end()) is None:
         return False
     above = re.split("[:;\n]", text[max(0, match.start() - LONGEST_FORMULA) : match.start()])[-1]
     return "=" not in above and moves(above)
@@ -320,7 +328,7 @@ def _explained_from(above: str, line: str) -> int | None:
     if not line.lstrip().startswith("="):
         return None
     for match in _ENDS.finditer(above):
-        named = _NAME_NEXT.match(above, match.end())
+        named = NAME_NEXT.match(above, match.end())
         if named is None or "=" not in above[: match.start()]:
             continue
         name = re.escape(named.group().split("=")[0].strip())
@@ -378,13 +386,13 @@ def pieces(row: AnswerRow, separators: str, *, always: bool = False, words: Word
             cuts.append(i)
     cuts.append(len(row.text))
     parts = [(a + 1, row.text[a + 1 : b]) for a, b in pairwise(cuts)]
-    if any(_stated(part) for _, part in parts):
+    stated = sum(_stated(part) for _, part in parts)
+    if stated:
         said = partial(says_nothing, words=words) if words is not None else _remark
         parts = [(at, part) for at, part in parts if not _remark(part) and not said(part)]
-    if (
-        len(parts) > 1
-        and not always
-        and sum(_stated(part) for _, part in parts) < sum(bool(part.strip()) for _, part in parts)
-    ):
+    listed = stated > 1 or (len(parts) > 1 and _OTHER_NAME.fullmatch(parts[1][1]) is not None)
+    if listed and words is not None and words.is_name(parts[0][1].strip()):
+        del parts[0]  # J0, Ja = A, Jb = B
+    if len(parts) > 1 and not always and stated < sum(bool(part.strip()) for _, part in parts):
         return [row]
     return [AnswerRow(row.start + at, part) for at, part in parts if part.strip()]

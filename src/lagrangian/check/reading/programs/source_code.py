@@ -211,6 +211,7 @@ def _tuples(text: str, piece: Piece) -> Iterator[Edit]:
         depth += (text[at] in "([{") - (text[at] in ")]}")
         if depth == 0 and text[at] == "," and not (text[at - 1].isdigit() and text[at + 1 : at + 2].isdigit()):
             cuts.append(at)
-    if len(cuts) == len(names) and "=" not in text[match.end() : piece.end]:
+    entries = [text[a + 1 : b].strip() for a, b in pairwise((*cuts, piece.end))]
+    if len(cuts) == len(names) and all(entries) and "=" not in text[match.end() : piece.end]:
         yield match.start(), match.end(), f"{names[0]} = "
         yield from ((at, at + 1, f"; {name} = ") for at, name in zip(cuts[1:], names[1:], strict=True))

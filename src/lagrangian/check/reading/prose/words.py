@@ -98,7 +98,8 @@ class Words:
 
     ``own`` are the names that the answer defines, ``alone`` all its words as often as they occur, and ``used`` those
     with primes or next to an operator, which are names; ``primed`` are those that never stand without primes, and
-    ``led`` those whose rates stand alone on a left side.
+    ``led`` those whose rates stand alone on a left side. ``spoken`` are common words that stand in front of words, and
+    are no products.
     """
 
     def __init__(
@@ -109,6 +110,7 @@ class Words:
         used: Iterable[str] = (),
         primed: Iterable[str] = (),
         led: frozenset[str] = frozenset(),
+        spoken: frozenset[str] = frozenset(),
     ) -> None:
         self.names = names
         self._counts = Counter(key(x) for x in alone)
@@ -116,7 +118,7 @@ class Words:
         self._alone = self._counts.keys()
         self._used = {key(x) for x in used if function_of(x) is None}
         self._primed = frozenset(primed)
-        self._led = led
+        self._led, self._spoken = led, spoken
         self._split: dict[str, str] = {}
         self._products: dict[str, bool] = {}
         self.flipped = False
@@ -187,7 +189,7 @@ class Words:
         """Whether a word can be split into names of the system; short forms of these that stand nowhere else are none:
         the is no th·e of θ and e."""
         if word not in self._products:
-            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS
+            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS and word not in self._spoken
             split = self._splits(word, called=False, extra=False) if few else ()
             self._products[word] = any(not any(map(self._is_new_short_form, parts)) for parts in split) or any(
                 function_of(x) is not None
@@ -223,10 +225,10 @@ class Words:
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
-        if self._is_force(word) and (word[-1].isdigit() or not word.startswith("mu")):
-            return [word]  # lam1 is no l a m1
-        if len(word) > LONGEST_SHORT and word in _SPELLED:
+        if word in self._spoken or (len(word) > LONGEST_SHORT and word in _SPELLED):
             return [word]  # lambda is no l a m b d a
+        if self._is_force(word):
+            return [word]  # lam1 is no l a m1
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
@@ -248,7 +250,10 @@ class Words:
         return bool(self.names.scope.meanings(name)[0]) and not self.names.changes(name)
 
     def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
-        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π."""
+        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π. A
+        capital letter twice, CC, is a name: a square is written C^2."""
+        if word.isupper() and word == word[0] * len(word):
+            return []
 
         @cache
         def fits(part: str, last: bool, after: bool) -> bool:

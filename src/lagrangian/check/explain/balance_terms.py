@@ -1,0 +1,209 @@
+"""What one term of a body's balance may have to be, with how far-fetched each is: N sin α is missing, 2 Z for Z.
+
+The forces of the other lines and the right motion give by how much a line is wrong at every state. A term is one that
+explains it if it is that, or a multiple of it by a plain factor, for all values of the parameters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations_with_replacement
+from typing import cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, in_factors, own_terms_of
+from lagrangian.check.reference import Reference, terms
+from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
+from lagrangian.records import dataclass
+
+MOST_LETTERS = 14
+"""The most letters of masses and lengths that are tried in a missing term."""
+NEAR = 1e-8
+"""The relative size of what is rounding."""
+COSTS: dict[sp.Expr, float] = {sp.S.NegativeOne: 1.0, sp.Integer(2): 1.0, sp.S.Zero: 1.6, sp.S.Half: 1.6}
+"""How far-fetched it is that a term has to be multiplied by a number: a factor is forgotten rather than invented."""
+LETTER, INVERSE, RATIO, MOVING = 2.0, 2.5, 3.0, 0.5
+"""The same for a letter or an angle, for what a term is divided by, for both; more for a term with an acceleration."""
+MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
+"""What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
+OTHER_INERTIA = 1.7
+"""What a moment of inertia about another point costs."""
+CLEAR = 0.3
+"""By how much one has to be plainer than all others."""
+
+
+@dataclass(frozen=True)
+class Mend:
+    """A term with which a line would be right, and how far-fetched it is."""
+
+    cost: float
+    term: WrongTerm
+
+
+def mends(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array], forces: Sequence[sp.Basic]) -> list[Mend]:
+    """The terms with which a line would be right along the right motion, the plainest first.
+
+    ``values`` are those of the accelerations and of the ``forces`` of the answer's own.
+    """
+    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return []
+    found = CompiledExpressions([expr, *own]).at(truth.states, values)
+    if not np.isfinite(found).all() or not np.abs(found[0]).max():
+        return []
+    shaped = found.reshape(len(own) + 1, SETS * PLACES, -1)
+    across = dict(zip(own, shaped[1:], strict=True))
+    listed = [
+        Mend(_cost(truth, w), w) for _, w in in_factors(truth, shaped[0], across) if not _is_of_centre(truth, expr, w)
+    ]
+    listed += _other_inertias(truth, expr, found[0], values)
+    listed += _missing(truth, expr, found[0], values, forces)
+    return sorted(listed, key=lambda x: x.cost)
+
+
+def plainest(listed: Mapping[int, Sequence[Mend]]) -> tuple[int, WrongTerm] | None:
+    """The line, by its key, and the term of it, that are clearly the plainest; None if there is none."""
+    every = sorted(((m.cost, k, m.term) for k, found in listed.items() for m in found), key=lambda x: x[:2])
+    if not every:
+        return None
+    best, k, term = every[0]
+    near = [(at, x) for cost, at, x in every if cost < best + CLEAR]
+    alike = [
+        x for at, x in near if at == k and x.factor != sp.oo and x.term / term.term in (2, -2)
+    ]  # 2 M g for M g, not M g more
+    near = [x for x in near if x[1] not in (term, *alike)]
+    return None if near else (k, alike[0] if term.factor == sp.oo and alike else term)
+
+
+def _cost(truth: Reference, wrong: WrongTerm) -> float:
+    """How far-fetched a factor of a term is."""
+    factor = wrong.factor
+    more = MOVING if wrong.term.has(*(c.acceleration for c in truth.model.coordinates)) else 0.0
+    if factor in COSTS:
+        return COSTS[factor] + more
+    above, below = factor.as_numer_denom()
+    return more + (LETTER if below == 1 else INVERSE if above == 1 else RATIO)
+
+
+# -- moments of inertia -----------------------------------------------------------------------------------------------
+
+
+def _inertias(truth: Reference) -> list[sp.Expr]:
+    """The moments of inertia of the bodies in the plane, about their centres of mass."""
+    found = [getattr(e, "inertia", None) for e in truth.model.elements]
+    return [truth.expand(x[0, 0]) for x in found if isinstance(x, sp.MatrixBase) and x.shape == (1, 1)]
+
+
+def _has_weight(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line has a weight, of any body."""
+    g = [p.symbol for p in truth.model.parameters if p.name == "g" and truth.V.has(p.symbol)]
+    return bool(g) and expr.has(*g)
+
+
+def _is_of_centre(truth: Reference, expr: sp.Expr, wrong: WrongTerm) -> bool:
+    """Whether a mend is the inertia about the centre of mass in a moment to which the weight adds: about another."""
+    if wrong.factor in (sp.oo, sp.S.Zero) or not _has_weight(truth, expr):
+        return False
+    right = bounded.expand(wrong.term * wrong.factor)
+    return any(_is_inertia(truth, right, J) for J in _inertias(truth))
+
+
+def _is_inertia(truth: Reference, term: sp.Expr, J: sp.Expr) -> bool:
+    """Whether a term is ± a moment of inertia times the acceleration of a coordinate."""
+    turned = [bounded.expand(J * c.acceleration) for c in truth.model.coordinates]
+    return any(term in (x, -x) for x in turned)
+
+
+def _other_inertias(truth: Reference, expr: sp.Expr, wrong: Array, values: Mapping[sp.Basic, Array]) -> Iterator[Mend]:
+    """The moment of inertia about the centre of mass for one of the same letters about another point."""
+    if _has_weight(truth, expr):
+        return
+    for J in dict.fromkeys(_inertias(truth)):
+        for c in truth.model.coordinates:
+            for t in own_terms_of(expr):
+                if not t.has(c.acceleration):
+                    continue
+                number = cast("sp.Expr", bounded.cancel(J * c.acceleration / t))
+                if number in (1, -1) or not number.is_Rational:
+                    continue
+                factor = sp.Abs(number)
+                missing = CompiledExpressions([t * (1 - factor)]).at(truth.states, values)[0]
+                if _same(wrong, missing):
+                    yield Mend(OTHER_INERTIA, WrongTerm(t, cast("sp.Expr", factor)))
+
+
+# -- terms that are missing -------------------------------------------------------------------------------------------
+
+
+def _missing(
+    truth: Reference,
+    expr: sp.Expr,
+    wrong: Array,
+    values: Mapping[sp.Basic, Array],
+    forces: Sequence[sp.Basic],
+) -> Iterator[Mend]:
+    """Forces, or mass times acceleration, that a line lacks: at an arm, in a component, or as they are."""
+    bases = list(_bases(truth, expr, forces))
+    arms = list(_arms(truth, expr))
+    exprs = [x for _, x in (*bases, *arms)]
+    found = CompiledExpressions(exprs).at(truth.states, values)
+    if not np.isfinite(found[: len(bases)]).all():
+        return
+    one, other = found[: len(bases)], found[len(bases) :]
+    for i, (cost, base) in enumerate(bases):
+        products = one[i] * other
+        size = np.abs(wrong).max()
+        for sign in (1, -1):
+            for j in np.flatnonzero(np.abs(wrong - sign * products).max(axis=1) <= NEAR * size):
+                yield Mend(cost + arms[j][0], WrongTerm(-sign * base * arms[j][1], sp.oo))
+
+
+def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Iterator[tuple[float, sp.Expr]]:
+    """Forces of the answer's own and of the system, and masses times accelerations of one kind."""
+    model = truth.model
+    masses = [p.symbol for p in model.parameters if _is_mass(truth, p.symbol)][:MOST_LETTERS]
+    rates = [c.rate for c in model.coordinates]
+    kinds = [c.acceleration for c in model.coordinates]
+    kinds += [2 * a * b if a != b else a * b for a, b in combinations_with_replacement(rates, 2)]
+    found: dict[sp.Expr, float] = {cast("sp.Expr", f): MISSING for f in forces}
+    for row in truth.rows:
+        own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
+        for t in own:
+            powers = t.as_powers_dict()
+            inert = t.has(*kinds[: len(rates)]) or sum(int(powers.get(x, 0)) for x in rates) > 1
+            foreign = any(t.has(c.symbol) and not expr.has(c.symbol) for c in model.coordinates)
+            foreign |= any(t.has(m) and not expr.has(m) for m in masses)
+            signed = cast("sp.Expr", -t if t.could_extract_minus_sign() else t)
+            found.setdefault(signed, MISSING + BODY * inert + FOREIGN * foreign)
+    for m in masses:
+        for kind in kinds:
+            found.setdefault(cast("sp.Expr", m * kind), MISSING + BODY + (0 if expr.has(m) else FOREIGN))
+    yield from ((cost, x) for x, cost in found.items())
+
+
+def _is_mass(truth: Reference, letter: sp.Symbol) -> bool:
+    """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
+    return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
+
+
+def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
+    """What a force may be multiplied by: nothing, an arm, a ratio, the sine or cosine of an angle, two of these."""
+    model = truth.model
+    lengths = [p.symbol for p in model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
+    lengths += [c.symbol for c in model.coordinates]
+    angles = sorted(
+        set[sp.Expr]().union(*(cast("set[sp.Expr]", row.atoms(sp.sin, sp.cos)) for row in truth.rows)), key=str
+    )[:8]
+    yield 0.0, sp.S.One
+    yield from ((0.5, x) for x in (*lengths, *angles))
+    yield from ((1.0, 1 / x) for x in lengths)
+    yield from ((1.0, cast("sp.Expr", x * y)) for x in lengths for y in angles)
+    yield from ((1.0, cast("sp.Expr", x * y)) for x, y in combinations_with_replacement(lengths, 2))
+
+
+def _same(one: Array, other: Array) -> bool:
+    """Whether values are those of another expression."""
+    return bool(np.abs(one - other).max() <= NEAR * np.abs(one).max())

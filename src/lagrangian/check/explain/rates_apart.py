@@ -1,0 +1,47 @@
+"""In which rate two sums of rates differ: (R θ̇ − R φ̇)/r for (R θ̇ − (R − r) φ̇)/r is R φ̇ where (R − r) φ̇ belongs."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.own_terms import term_replaced
+from lagrangian.page.formula import Left
+
+
+def rates_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
+    """The part with one rate that is missing, too much or another one, as the end of a sentence; nothing where there is
+    one rate alone, or where several differ."""
+    rates = sorted(right.atoms(sp.Derivative) | written.atoms(sp.Derivative), key=str)
+    slopes = {v: (bounded.diff(written, v), bounded.diff(right, v)) for v in rates}
+    if len(rates) < 2 or any(x.has(*rates) for pair in slopes.values() for x in pair):
+        return ()
+    still = dict.fromkeys(rates, sp.S.Zero)
+    if bounded.expand(cast("sp.Expr", (written - right).xreplace(still))) != 0:
+        return ()
+    differ = [v for v, (own, theirs) in slopes.items() if bounded.expand(own - theirs) != 0]
+    if len(differ) != 1:
+        return ()
+    [v] = differ
+    own, theirs = slopes[v]
+    more = cast("sp.Expr", v * bounded.expand(own - theirs))
+    if more in sp.Add.make_args(written):
+        own, theirs = more / v, sp.S.Zero
+    if bounded.expand(own + theirs) == 0:
+        theirs = -own
+    elif own.could_extract_minus_sign() if own != 0 else theirs.could_extract_minus_sign():
+        own, theirs = turned(own), turned(theirs)
+    first, *others = term_replaced(cast("sp.Expr", own * v), cast("sp.Expr", theirs * v))[1].parts
+    return (": " + str(first)[:1].lower() + str(first)[1:], *cast("list[str | Left]", others))
+
+
+def turned(expr: sp.Expr) -> sp.Expr:
+    """The negative of an expression, with the sign inside of its sum: ((R − r) φ̇ − R ψ̇)/r."""
+    factors = list(sp.Mul.make_args(expr))
+    for k, f in enumerate(factors):
+        if isinstance(f, sp.Add) and sp.S.NegativeOne not in factors:
+            factors[k] = sp.Add(*[-x for x in f.args])
+            return cast("sp.Expr", sp.Mul(*factors))
+    return -expr

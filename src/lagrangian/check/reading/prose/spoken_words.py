@@ -1,0 +1,36 @@
+"""Finds common words that letters of an answer spell, too, and that are no products: z as second coordinate; and
+products of which an answer says that they are some: mga = m·g·a."""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+
+from lagrangian.check.reading.prose.words import Words, function_of
+from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING
+
+_TWO = re.compile(
+    r"(?<![\\\w*/^+=-])(?P<word>[^\W\d_]{2,6})[ \t]++(?=(?P<next>[^\W\d_]{3,24})(?![\w'’′(*/^=]))", re.IGNORECASE
+)
+"""A short word with a longer one behind it, and no sign of mathematics beside them."""
+_SPELLED_OUT = re.compile(r"[ \t]{0,9}[^\W\d_](?:[ \t]?[·*×⋅][ \t]?[^\W\d_]){1,7}(?![ \t]?[\w·*×⋅/^+(-])")
+_MOST = 500
+"""The most pairs of words that are looked at."""
+
+
+def spoken_words(text: str, words: Words) -> frozenset[str]:
+    """Return the common words in an answer that stand in front of a word and never beside an operator."""
+    found = (m for m in islice(_TWO.finditer(text), _MOST) if m["word"].lower() in LINKING - ARTICLES)
+    return frozenset(m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words))
+
+
+def is_spelled_out(text: str, at: int, name: str) -> bool:
+    """Whether the value at a place is the product of the letters of a name, with signs: mga = m·g·a."""
+    value = _SPELLED_OUT.match(text, at)
+    return value is not None and len(name) > 1 and re.sub(r"[^\w]", "", value.group()) == name
+
+
+def _is_word(written: str, words: Words) -> bool:
+    if written.lower() in LINKING:
+        return True
+    return function_of(written) is None and not words.readable(written) and not words.is_product(written)

@@ -1,0 +1,155 @@
+"""Answers by Newton's laws with forces of their own: the wrong line and its term, where few lines have each force.
+
+Oracle: systems solved by hand; each answer differs from the right one in one term of one line.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+CART = (
+    "M x'' = F + X",
+    "m (x'' + l phi'' cos(phi) - l phi'^2 sin(phi)) = -X",
+    "m (l phi'' sin(phi) + l phi'^2 cos(phi)) = Y - m g",
+    "J phi'' = X l cos(phi) - Y l sin(phi)",
+)
+
+
+@cache
+def pendulum() -> lg.Derivation:
+    """A cart with a rod; X and Y act at the pin."""
+    s = lg.System("cart with a rod")
+    x, phi = s.coordinates("x phi")
+    M, m, J, l, g = s.parameters("M m J l g")
+    s.kinetic(M * x.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    P = s.point("P", (x + l * sp.sin(phi), -l * sp.cos(phi)))
+    s.particle(m, at=P)
+    s.gravity((0, -1), g)
+    s.force(s.input("F"), deflection=x)
+    return s.derive()
+
+
+@cache
+def ring() -> lg.Derivation:
+    """A ring on two cords, each with a weight on a spring; a wheel beside it."""
+    s = lg.System("ring on two cords")
+    z, phi = s.coordinates("z phi")
+    M, m, k, J, c, g = s.parameters("M m k J c g")
+    s.kinetic((M + 2 * m) * z.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    s.potential(k * z**2 + M * g * z)
+    s.damper(c, deflection=phi)
+    return s.derive()
+
+
+@cache
+def rope() -> lg.Derivation:
+    """Two weights on a rope over a pulley, with the constraint of the rope."""
+    s = lg.System("two weights on a rope")
+    x, y = s.coordinates("x y")
+    M, m, I, r, b, g, h = s.parameters("M m I r b g h")
+    s.kinetic(m * x.diff() ** 2 / 2 + M * y.diff() ** 2 / 2 + I * (y.diff() / r) ** 2 / 2)
+    s.potential(-m * g * x - M * g * y)
+    s.damper(b, deflection=x)
+    s.constraint(x + y - h)
+    return s.derive()
+
+
+@cache
+def crank() -> lg.Derivation:
+    """A uniform rod on a cart; its moment of inertia is m l²/12."""
+    s = lg.System("cart with a uniform rod")
+    x, phi = s.coordinates("x phi")
+    M, m, l, g = s.parameters("M m l g")
+    s.kinetic(M * x.diff() ** 2 / 2)
+    centre = s.point("C", (x + l * sp.sin(phi) / 2, -l * sp.cos(phi) / 2))
+    s.rigid_body(m, m * l**2 / 12, at=centre, frame=s.frame(phi))
+    s.gravity((0, -1), g)
+    return s.derive()
+
+
+def changed(lines: tuple[str, ...], number: int, wrong: str) -> str:
+    """An answer with one line replaced."""
+    return "\n".join((*lines[: number - 1], wrong, *lines[number:]))
+
+
+def said(derivation: lg.Derivation, answer: str) -> list[str]:
+    """What is said of a wrong answer."""
+    verdict = derivation.check(answer)
+    assert not verdict.right
+    return [" ".join(str(m.what).split()) for m in verdict.mistakes]
+
+
+TWO = ("m z'' = -Z - k z", "M z'' = 2 Z - M g", "J phi'' = -c phi'")
+ROPE = ("m x'' = m g - b x' - S", "M y'' = M g - K", "I y''/r = r (K - S)", "y'' = -x''")
+ROD = (
+    "M x'' = X",
+    "m (x'' + l/2 phi'' cos(phi) - l/2 phi'^2 sin(phi)) = -X",
+    "m (l/2 phi'' sin(phi) + l/2 phi'^2 cos(phi)) = Y - m g",
+    "m l^2/12 phi'' = X l/2 cos(phi) - Y l/2 sin(phi)",
+)
+
+
+@pytest.mark.parametrize(
+    ("derive", "lines"), [(pendulum, CART), (ring, TWO), (crank, ROD)], ids=["cart", "ring", "rod"]
+)
+def test_right_balances_are_right(derive: object, lines: tuple[str, ...]) -> None:
+    assert callable(derive)
+    assert derive().check("\n".join(lines)).right
+
+
+def test_a_centripetal_acceleration_is_missing_in_its_own_balance() -> None:
+    told = said(pendulum(), changed(CART, 3, "m l phi'' sin(phi) = Y - m g"))
+    assert len(told) == 1 and "line 3" in told[0] and "is missing" in told[0] and "phi'^2" in told[0], told
+
+
+def test_a_force_without_its_arm() -> None:
+    told = said(pendulum(), changed(CART, 4, "J phi'' = X l cos(phi) - Y sin(phi)"))
+    assert len(told) == 1 and "line 4" in told[0] and "Y" in told[0], told
+
+
+def test_a_force_that_acts_twice() -> None:
+    assert said(ring(), changed(TWO, 2, "M z'' = Z - M g")) == ["In line 2, on the right-hand side, Z should be 2*Z."]
+
+
+def test_the_right_line_stays_right_where_a_force_acts_twice() -> None:
+    verdict = ring().check(changed(TWO, 2, "M z'' = Z - M g"))
+    assert {f.line.number: f.status.right for f in verdict.findings} == {1: True, 2: False, 3: True}
+
+
+def test_an_own_force_that_is_missing() -> None:
+    lines = (*CART[:3], "J phi'' = X l cos(phi)")
+    told = said(pendulum(), "\n".join(lines))
+    assert len(told) == 1 and "line 4" in told[0] and "Y" in told[0] and "is missing" in told[0], told
+
+
+def test_a_damper_is_missing_beside_a_constraint() -> None:
+    told = said(rope(), changed(ROPE, 1, "m x'' = m g - S"))
+    assert told == ["In line 1, on the right-hand side, the term -b*x' is missing."]
+
+
+def test_a_name_with_a_prime_is_another_force() -> None:
+    lines = tuple(x.replace("K", "S'") for x in ROPE)
+    told = said(rope(), changed(lines, 1, "m x'' = m g - S"))
+    assert told == ["In line 1, on the right-hand side, the term -b*x' is missing."]
+
+
+def test_the_moment_of_inertia_about_the_end_in_a_moment_about_the_centre() -> None:
+    told = said(crank(), changed(ROD, 4, "m l^2/3 phi'' = X l/2 cos(phi) - Y l/2 sin(phi)"))
+    assert len(told) == 1 and "line 4" in told[0] and "/3" in told[0] and "/12" in told[0], told
+
+
+def test_what_lines_do_not_agree_is_no_matter_of_energies() -> None:
+    """The sign of S may be wrong in either line: no cause is invented."""
+    for wrong in ("M y'' = M g + S", "M y'' = M g - 3 S"):
+        told = said(rope(), f"m x'' = m g - b x' - S\n{wrong}\ny'' = -x''")
+        assert not any("∂" in x or "T*" in x for x in told), told
+
+
+def test_two_wrong_balances_are_not_told_as_one() -> None:
+    answer = changed(tuple(changed(CART, 3, "m l phi'' sin(phi) = Y - m g").split("\n")), 1, "M x'' = F + 3 X")
+    assert all("line 3" not in x or "line 1" in x for x in said(pendulum(), answer))
