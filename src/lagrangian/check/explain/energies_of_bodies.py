@@ -96,7 +96,7 @@ def _is_meant(truth: Reference, body: Body, value: sp.Expr, kind: str) -> bool:
     s = ingredients_of(truth.derivation)
     if kind == "kinetic":
         fits = any(bounded.diff(value, v).has(*s.v) for v in s.v)
-        letters = truth.put(s.kinetic(body)).free_symbols - {time}
+        letters = truth.put(s.kinetic(body)).free_symbols
     else:
         fits = s.moves(value) and not value.has(*s.v)
         letters = truth.put(s.expand(body.mass)).free_symbols

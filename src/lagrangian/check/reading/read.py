@@ -44,7 +44,6 @@ from lagrangian.check.reading.said.own_names import declarations
 from lagrangian.check.reading.said.senses import stated_senses
 from lagrangian.check.reading.said.stands_for import with_stated_rates
 from lagrangian.check.reading.said.values import SaidValues, completed, misspelled, related, said_values
-from lagrangian.check.reading.shortened import of_angles
 from lagrangian.check.reading.side_remarks import told_remarks, without_side_remarks
 from lagrangian.check.reading.starred import with_starred_names
 from lagrangian.check.reading.stated import energy_of, force_of
@@ -108,9 +107,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
     program = carried_out(text, model)
     if program is None:
-        text, partly = without_sums_of_loops(text)
-        found = _declared(text, model, place)
-        return replace(found, notes=(*partly, *found.notes)) if partly else found
+        return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
 
     def by_steps() -> Answer:
         try:
@@ -398,6 +395,6 @@ def _words(lines: Lines, text: str) -> Words:
     used |= {m[1]: None for m in _COUNTED.finditer(text) if m[1].lower() not in LINKING - ARTICLES}
     counts, all_counts = Counter(m[1] for m in _PRIMED.finditer(text)), Counter(alone)
     primed = [x for x, count in counts.items() if all_counts[x] == count]
-    lines.names.scope.taken, lines.names.scope.used = frozenset(map(key, own)), frozenset(used) | of_angles(text)
+    lines.names.scope.learn(own, used, text)
     spoken = spoken_words(text, Words(lines.names, own, alone, used, primed))
     return Words(lines.names, own, alone, used, primed, led_names(text), spoken)

@@ -48,6 +48,11 @@ class AnswerScope(Scope):
             if (letter := _letter(name)) is not None:
                 self._letters.setdefault(letter, []).append(name)
 
+    def learn(self, own: Iterable[str], used: Iterable[str], text: str) -> None:
+        """Take from an answer what it defines and what it uses as names, such as those of a sine or cosine: cos(al)."""
+        self.taken = frozenset(map(key, own))
+        self.used = frozenset(used) | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
+
     def meanings(self, written: str) -> tuple[list[str], int]:
         """Return the names that ``written`` can mean, in full or shortened, and its number of dots."""
         found, dots = super().meanings(written)
@@ -83,11 +88,6 @@ class AnswerScope(Scope):
             super(AnswerScope, self).meanings(word[:k])[0] and super(AnswerScope, self).meanings(word[k:])[0]
             for k in range(1, len(word))
         )
-
-
-def of_angles(text: str) -> frozenset[str]:
-    """The names of which an answer takes a sine or a cosine: cos(al)."""
-    return frozenset(m[1] for m in _OF_ANGLE.finditer(text))
 
 
 def meant(written: str, names: Iterable[str]) -> list[str]:

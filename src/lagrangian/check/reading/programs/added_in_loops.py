@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from lagrangian.check.reading.answer import Answer
 
 _LOOP = re.compile(r"(?P<indent>[ \t]*+)(?:for|while)\b(?P<said>[^\n]*+)")
 _ADDED = re.compile(r"[ \t]*+(?P<name>[TVUL])[ \t]*+(?:[-+]=|=[ \t]*+(?P=name)[ \t]*+[-+])")
 _FIRST = re.compile(r"[ \t]*+(?P<name>[TVUL])[ \t]*+=(?!=)")
 
 
-def without_sums_of_loops(text: str) -> tuple[str, tuple[str, ...]]:
-    """Return a program without the lines that state such an energy in part, each left empty, and notes about them."""
+def without_sums_of_loops(text: str, read: Callable[[str], Answer]) -> Answer:
+    """Read a program without the lines that state such an energy in part, each left empty, with notes about them."""
+    bare, notes = _bare(text)
+    found = read(bare)
+    return replace(found, notes=(*notes, *found.notes))
+
+
+def _bare(text: str) -> tuple[str, tuple[str, ...]]:
+    """A program without these lines, and notes about them."""
     lines = text.split("\n")
     added = dict[str, int]()
     for k in _in_loops(lines):

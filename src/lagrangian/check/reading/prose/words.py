@@ -225,12 +225,10 @@ class Words:
         """
         if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
-        if word in self._spoken:
-            return [word]
-        if self._is_force(word) and (word[-1].isdigit() or not word.startswith("mu")):
-            return [word]  # lam1 is no l a m1
-        if len(word) > LONGEST_SHORT and word in _SPELLED:
+        if word in self._spoken or (len(word) > LONGEST_SHORT and word in _SPELLED):
             return [word]  # lambda is no l a m b d a
+        if self._is_force(word):
+            return [word]  # lam1 is no l a m1
         led = key(undotted(word)[0]) in self._led
         whole = led or (self._is_component(word) and not self.is_name(word[1]))
         whole = whole or (word in _SPELLED and self.is_used(word))  # theta is no the*t*a
