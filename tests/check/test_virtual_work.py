@@ -105,3 +105,14 @@ def _latex() -> str:
         r"\[ (M + m)\ddot x + ml\ddot\theta\cos\theta - ml\dot\theta^2\sin\theta = F - b\dot x \]"
         r"\[ ml\ddot x\cos\theta + (J + ml^2)\ddot\theta - mgl\sin\theta = 0 \]"
     )
+
+
+def test_the_equations_in_dalemberts_principle_are_judged() -> None:
+    principle = (
+        "((M + m) x'' + m l cos(theta) theta'' - m l sin(theta) theta'^2 + b x' - F) δx"
+        " + (m l cos(theta) x'' + (J + m l^2) theta'' - m g l sin(theta)) δtheta = 0\n"
+    )
+    cart = derivation("cart-pole")
+    assert cart.check(principle + ROWS).right
+    verdict = cart.check(principle.replace("+ b x'", "- b x'") + ROWS)
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [1]

@@ -14,8 +14,9 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.lines import filled
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import zero_everywhere
+from lagrangian.check.rows import Kind, compare, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.read.letters import key
@@ -35,8 +36,10 @@ def judged_with_work(
 ) -> Verdict:
     """The verdict on an answer in which a virtual work states generalized forces.
 
-    A line may be about some of the forces, and the forces with a potential may be among them.
+    A line may be about some of the forces, and the forces with a potential may be among them. Wrong equations of motion
+    are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0.
     """
+    lines = [x for line in lines for x in _wrong_equations(truth, line) or [line]]
     works = [k for k, line in enumerate(lines) if _is_work(line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
@@ -48,6 +51,22 @@ def judged_with_work(
     apart = any(line.kind in ("V", "L") for line in lines)
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
+
+
+def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
+    """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0."""
+    moved = _displacements(line.expr) if line.kind == "statement" and accelerates(line.expr) else {}
+    places = {key(c.name) for c in truth.model.coordinates}
+    if not moved or truth.derivation.multipliers or any(key(name) not in places for name in moved.values()):
+        return []
+    value = bounded.expand(line.expr)
+    factors = [cast("sp.Expr", value.coeff(x)) for x in moved]
+    whole = sp.Add(*[x * f for x, f in zip(moved, factors, strict=True)])
+    if bounded.expand(value - whole) != 0 or any(not bounded.letters(f) <= truth.names for f in factors):
+        return []
+    rows = compare(truth, factors).rows
+    wrong = [f for f, row in zip(factors, rows, strict=True) if not row.true and row.kind is not Kind.NOTHING]
+    return [replace(line, kind="equation", name=None, expr=f) for f in wrong]
 
 
 def _is_work(line: AnsweredLine) -> bool:

@@ -124,9 +124,10 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
         return slip
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr) and not x.is_Symbol]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
-        why = mistake.why if slip.why is WHY else slip.why
-        return replace(mistake, what=slip.what, why=why, brief=slip.brief) if _is_of_equation(mistake) else mistake
-    return with_reason(slip.what, mistake)
+        mistake = mistake if slip.why is WHY else replace(mistake, why=slip.why)
+        return replace(mistake, what=slip.what, brief=slip.brief) if _is_of_equation(mistake) else mistake
+    inner = slip.why not in (WHY, WHY_FUNCTION)
+    return replace(slip, element=mistake.element) if inner else with_reason(slip.what, mistake)
 
 
 def _is_of_equation(mistake: Mistake) -> bool:

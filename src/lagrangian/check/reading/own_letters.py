@@ -10,6 +10,7 @@ from lagrangian.check.reading.names import names_in
 from lagrangian.check.reading.nodes import only_name
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subjects
+from lagrangian.model import Model
 from lagrangian.read.letters import key, undotted
 
 
@@ -18,8 +19,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
 
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, and a D of
     positions if any line does; and those that an equation with accelerations uses alone, or whose rate the answer
-    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value: P = F x' - b theta'^2. K is a force if
-    only positions do: K = k (x - l sin alpha).
+    forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value, P = F x' - b theta'^2, and K and R are
+    forces if there are none: K = k (x - u).
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -37,9 +38,9 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             found.add("P")
         if moving[k]:
             continue
-        if str(named[0]) == "K" and any(map(names.changes, listed)):  # of positions alone: the force of a spring
-            found.add("K")
-            continue
+        known = str(named[0]) in ("K", "R") and listed and all(names.scope.meanings(x)[0] for x in listed)
+        if known and not any(_is_energy(x, s, str(named[0]), model) for x, s in zip(first, statements, strict=True)):
+            found.add(str(named[0]))  # the force of a spring, K = k (x - l sin θ), of which every name has a value
         meant = [name for x in listed for name in names.scope.meanings(x)[0]]
         if kind == "D" and len(meant) == len(listed) and any(c.name in meant for c in model.coordinates):
             held = (str(x) for s in statements if s is not sides for side in s for x, _ in names_in(side))
@@ -57,6 +58,12 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         ):
             found.add(key(str(named[0])))
     return frozenset(found)
+
+
+def _is_energy(named: tuple[Token, int] | None, sides: Sequence[Tree], letter: str, model: Model) -> bool:
+    """Whether a statement of an energy, L = K - V, holds a letter."""
+    stated = named is not None and energy_of(named[0], model, lhs=True) is not None
+    return stated and any(str(x) == letter for side in sides[1:] for x, _ in names_in(side))
 
 
 def _used_as_names(

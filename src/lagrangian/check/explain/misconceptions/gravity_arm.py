@@ -27,8 +27,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if not s.angles(own):
                 continue  # on an incline there is no arm: then the weight counts twice or half
             numbered = any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own)))
-            doubt = int(numbered != (times == 1))
-            if s.moves(own):  # a middle with a letter a of its own is not taken for an end, rather a/2 for a
+            doubt = 0 if numbered else 1
+            if s.moves(own):  # a middle that has a letter of its own is not taken for an end
                 yield Variant(what=what, V=times * mg * own, element=gravity, doubt=doubt)
             if mg * own != V:
                 yield Variant(what=what, V=times * V, element=gravity, doubt=doubt)
