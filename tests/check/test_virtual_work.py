@@ -116,3 +116,4 @@ def test_the_equations_in_dalemberts_principle_are_judged() -> None:
     assert cart.check(principle + ROWS).right
     verdict = cart.check(principle.replace("+ b x'", "- b x'") + ROWS)
     assert [f.line.number for f in verdict.findings if not f.status.right] == [1]
+    assert cart.check("inertia of rotation: -(J + m l^2) theta'' δtheta\n" + ROWS).right

@@ -55,7 +55,8 @@ def judged_with_work(
 
 def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
     """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0."""
-    moved = _displacements(line.expr) if line.kind == "statement" and accelerates(line.expr) else {}
+    claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
+    moved = _displacements(line.expr) if claims else {}
     places = {key(c.name) for c in truth.model.coordinates}
     if not moved or truth.derivation.multipliers or any(key(name) not in places for name in moved.values()):
         return []
