@@ -9,8 +9,6 @@ import sys
 from collections import Counter
 
 import pytest
-from _pytest.assertion import rewrite
-from _pytest.assertion.rewrite import assertstate_key
 from hypothesis import HealthCheck, settings
 
 import size
@@ -19,7 +17,6 @@ import size
 def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(200_000, 50, 100)  # most of what is made lives long: it is seldom looked at
     _keep_bytecode(config)
-    _share_rewriting(config)
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # every core has its process: more threads wait for each other
     # how long an example takes depends on what else the machine does, and says nothing about the package
@@ -36,18 +33,6 @@ def _keep_bytecode(config: pytest.Config) -> None:
     sys.dont_write_bytecode = False
     if "PYTEST_XDIST_WORKER" not in os.environ:
         compileall.compile_dir(config.rootpath / "src", quiet=2)
-
-
-def _share_rewriting(config: pytest.Config) -> None:
-    """Let every worker rewrite the asserts of its share of the tests first: side by side, all would rewrite all."""
-    worker, count = os.environ.get("PYTEST_XDIST_WORKER", ""), int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
-    if count < 2 or not worker.removeprefix("gw").isdecimal() or assertstate_key not in config.stash:
-        return
-    for file in sorted((config.rootpath / "tests").rglob("test_*.py"))[int(worker.removeprefix("gw")) :: count]:
-        kept = rewrite.get_cache_dir(file) / f"{file.stem}{rewrite.PYC_TAIL}"
-        if not kept.exists() and rewrite.try_makedirs(kept.parent):
-            source, code = rewrite._rewrite_test(file, config)
-            rewrite._write_pyc(config.stash[assertstate_key], code, source, kept)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -29,10 +29,8 @@ from lagrangian.quantities.source import Source
 from lagrangian.read.robots.markup import MarkupFile
 
 LONGEST = 50_000
-N = LONGEST if size.EVERY else LONGEST // 2 if size.FULL else LONGEST // 5
-"""Characters of an answer: half of the longest among the tests that take long, the longest before a release."""
-MOST = min(6_000_000, 250 * N)
-"""Calls of functions in which such an answer is read."""
+N = LONGEST if size.FULL else LONGEST // 5
+"""Characters of an answer; the longest are read among the tests that take long."""
 BLANK = " " * N
 BLANKS = " " * LONGEST
 CARTS = built_in.system("lecture-3b").model
@@ -122,7 +120,7 @@ ANSWERS = {
 @size.also_in_full
 @pytest.mark.parametrize("text", ANSWERS.values(), ids=ANSWERS)
 def test_an_answer_is_read_or_refused(text: str) -> None:
-    with at_most(MOST):
+    with at_most(min(6_000_000, 250 * N)):
         try:
             parsed = parse_answer(text, CARTS)
         except ParseError as error:
