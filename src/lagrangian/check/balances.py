@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lagrangian import bounded
-from lagrangian.check.names.needless import accelerates
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import compare
 from lagrangian.check.verdict import AnsweredLine

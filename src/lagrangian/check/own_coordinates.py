@@ -8,7 +8,7 @@ from dataclasses import replace
 from lagrangian.check.constraints.without_constraints import breaking_constraints, without_constraints
 from lagrangian.check.coordinates.chart import system_coordinates, with_own_quantities
 from lagrangian.check.judged import judged_lines
-from lagrangian.check.names.needless import accelerates
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted

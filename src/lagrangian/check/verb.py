@@ -16,10 +16,11 @@ from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import with_auxiliary
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
-from lagrangian.check.names.needless import WITHOUT, Needed, accelerates, needed, unused_in_motion, without_constants
+from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
 from lagrangian.check.names.of_equations import without_names_of_equations
 from lagrangian.check.names.unexplained import question, unexplained
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import truth_of
 from lagrangian.check.whole import only_parts
 from lagrangian.check.without_marks import without_marks

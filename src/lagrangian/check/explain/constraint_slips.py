@@ -19,6 +19,7 @@ from lagrangian.check.constraints.counted_together import integrated
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, minus, product, scaled
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.explain.virtual_displacements import MOVES
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import Reference
 from lagrangian.check.terms.sides import on_side
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference
@@ -327,4 +328,4 @@ def _one(ring: SumRing, found: _Compared, difference: Sum) -> tuple[Any, ...] | 
 
 def _accelerates(ring: SumRing, m: Monomial) -> bool:
     expr = cast("sp.Expr", ring.product(m))
-    return any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative))
+    return accelerates(expr)

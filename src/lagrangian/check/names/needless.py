@@ -15,6 +15,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -119,11 +120,6 @@ def unused_in_motion(
 def _called(name: sp.Basic) -> str:
     """The letters of a name, which may be a function of time."""
     return str(name.func) if isinstance(name, AppliedUndef) else str(name)
-
-
-def accelerates(expr: sp.Expr) -> bool:
-    """Whether an expression holds an acceleration."""
-    return any(d.derivative_count > 1 for d in expr.atoms(sp.Derivative))
 
 
 def _values(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Iterator[AnsweredLine]:
