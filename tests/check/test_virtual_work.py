@@ -117,3 +117,12 @@ def test_the_equations_in_dalemberts_principle_are_judged() -> None:
     verdict = cart.check(principle.replace("+ b x'", "- b x'") + ROWS)
     assert [f.line.number for f in verdict.findings if not f.status.right] == [1]
     assert cart.check("inertia of rotation: -(J + m l^2) theta'' δtheta\n" + ROWS).right
+
+
+def test_virtual_works_that_alone_state_the_forces_hold_all_of_them() -> None:
+    energies = "T = 1/2 (M + m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\nV = m g l cos(theta)\n"
+    cart = derivation("cart-pole")
+    assert cart.check(energies + "δW = F δx - b x' δx").right
+    assert cart.check(energies + "push: δW_1 = F δx\nfriction: δW_2 = -b x' δx").right
+    (mistake,) = cart.check(energies + "δW = F δx").mistakes
+    assert "Damper" in str(mistake.what) and "is missing" in str(mistake.what)

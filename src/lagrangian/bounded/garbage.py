@@ -36,5 +36,5 @@ def rarely_collected() -> Iterator[None]:
     finally:
         with _lock:
             _inside -= 1
-            if _inside == 0:
+            if _inside == 0 and gc.get_threshold() == (YOUNG, *_before[1:]):
                 gc.set_threshold(*_before)

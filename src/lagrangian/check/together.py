@@ -8,7 +8,7 @@ from dataclasses import replace
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.stated import StatedQuantity, dissipation, driving, given, left_sides
+from lagrangian.check.stated import StatedQuantity, driving, given, left_sides
 from lagrangian.check.verdict import Finding, Status
 from lagrangian.page.formula import text
 
@@ -23,7 +23,7 @@ def right_together(truth: Reference, findings: Sequence[Finding]) -> list[Findin
 
         d/dt ∂ℒ/∂ξ̇_i − ∂ℒ/∂ξ_i + ∂D/∂ξ̇_i − Ξ_i = 0.
 
-    What is not stated counts as ours.
+    What is not stated counts as ours; but dampers are in a D that is stated, or in Ξ.
     """
     lines = [f.line for f in findings if f.line.kind in _JUDGED]
     wrong = [f for f in findings if f.status is Status.WRONG and f.line.kind in _JUDGED]
@@ -42,11 +42,10 @@ def right_together(truth: Reference, findings: Sequence[Finding]) -> list[Findin
 def _is_right(truth: Reference, own: StatedQuantity) -> bool:
     """Whether what an answer states gives the right equations, with its Ξ as the whole or without what D adds."""
     lefts = left_sides(truth, own.lagrangian(truth) - truth.L)
-    D = own.D if own.D is not None else dissipation(truth)
-    whole = damped = True
+    whole, damped = True, own.D is not None
     for i, (c, left) in enumerate(zip(truth.model.coordinates, lefts, strict=True)):
         mine, right = own.Xi[i], truth.Xi[i]
         whole = whole and zero_everywhere(truth, left - (right if mine is None else mine) + right)
         undamped = driving(truth, i) if mine is None else mine
-        damped = damped and zero_everywhere(truth, left + bounded.diff(D, c.rate) - undamped + right)
+        damped = damped and zero_everywhere(truth, left + bounded.diff(own.D, c.rate) - undamped + right)
     return whole or damped

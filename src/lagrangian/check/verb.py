@@ -153,8 +153,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = again.verdict if again.verdict.right else check.check(derivation, decides.lines, hint=sought)
         verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
-        verdict = _with_forces_put_in(derivation, answer, decides, verdict)
-        verdict = _with_balances(derivation, answer, decides.lines, verdict)
+        verdict = _with_balances(derivation, answer, decides, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
     program = None if verdict.right and not unsure else _program(answer)
@@ -162,7 +161,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         return _of_readings(derivation, program, hint)
     if answer.doubt is not None and not verdict.right:
         raise answer.doubt
-    if not answer.program and len(_open(verdict)) > 1 and (program := _program(answer)) is not None:
+    if not answer.program and len(_open(verdict)) > 1 and program is not None:
         try:
             other = _of_readings(derivation, program, hint)
         except ParseError:
@@ -184,11 +183,9 @@ def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
     return marked or bool(answer.unknown) or answer.doubt is not None or any(_ENTRY.fullmatch(x.text) for x in lines)
 
 
-def _with_balances(
-    derivation: Derived, answer: Answer, judged: Sequence[AnsweredLine], verdict: check.Verdict
-) -> check.Verdict:
-    """The verdict on a wrong answer with its balances that were not ``judged``, and in which forces that it solves from
-    these are read as unknown."""
+def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
+    """The verdict on a wrong answer with its balances as they stand, which were not judged or with their forces put in,
+    and in which forces that it solves from these are read as unknown."""
 
     def read(numbers: frozenset[int]) -> tuple[Sequence[AnsweredLine], dict[str, sp.Expr]]:
         assert answer.read_without is not None
@@ -197,20 +194,12 @@ def _with_balances(
 
     truth = truth_of(derivation)
     lines = with_auxiliary(truth, check.lines_of(answer))
-    if any(all(x.text != y.text for y in judged) for x in lines if x.kind == "equation"):
+    left_out = any(all(x.text != y.text for y in decides.lines) for x in lines if x.kind == "equation")
+    if left_out or (decides.together and not derivation.multipliers):
         verdict = with_wrong_balance(truth, filled(truth, lines), verdict)
     if answer.read_without is None:
         return verdict
     return with_forces_of_below(truth, lines, read, verdict)
-
-
-def _with_forces_put_in(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
-    """The verdict on a wrong answer whose own balances were judged with their forces put in: of these as they stand."""
-    truth = truth_of(derivation)
-    if not decides.together or derivation.multipliers:
-        return verdict
-    lines = with_auxiliary(truth, check.lines_of(answer))
-    return with_wrong_balance(truth, filled(truth, lines), verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
@@ -250,7 +239,8 @@ def _gives_number(line: AnsweredLine) -> bool:
 
 
 def _computes_right(typed: check.Verdict, computed: check.Verdict) -> bool:
-    """Whether a program computes what is right where a line is called wrong as it is typed: a loop adds to T."""
+    """Whether a wrong program computes what is right where a line is called wrong as it is typed: a loop adds to T. One
+    that is right as a whole was accepted among the readings, unless a remark in it is wrong."""
 
     def lines(verdict: check.Verdict, wrong: bool) -> set[tuple[int, str]]:
         found = {(f.line.number, f.line.kind) for f in verdict.findings if (f.status is check.Status.WRONG) == wrong}

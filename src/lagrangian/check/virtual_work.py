@@ -40,7 +40,7 @@ def judged_with_work(
     are judged in d'Alembert's principle, (F − m ẍ) δx + … = 0.
     """
     lines = [x for line in lines for x in _wrong_equations(truth, line) or [line]]
-    works = [k for k, line in enumerate(lines) if _is_work(line)]
+    works = [k for k, line in enumerate(lines) if _is_work(truth, line)]
     written = filled(truth, lines) if 0 < len(works) <= MOST else []
     if len(written) != len(lines):
         return judge(lines)
@@ -49,6 +49,8 @@ def judged_with_work(
     if verdict.status is Status.OTHER_COORDINATES or len(right) == len(works):
         return verdict
     apart = any(line.kind in ("V", "L") for line in lines)
+    if apart and not any(x.kind in ("equation", "Xi") for x in lines) and (whole := _all_forces(truth, written, works)):
+        return judge([*(x for k, x in enumerate(lines) if k not in works), *whole])
     wrong = {k: found for k in works if (found := list(_wrong_forces(truth, written[k], apart=apart)))}
     return judge([x for k, line in enumerate(lines) for x in (right | wrong).get(k, [line])]) if wrong else verdict
 
@@ -70,9 +72,9 @@ def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]
     return [replace(line, kind="equation", name=None, expr=f) for f in wrong]
 
 
-def _is_work(line: AnsweredLine) -> bool:
+def _is_work(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a line states δW."""
-    return line.kind == "statement" and any(_OF_WORK.fullmatch(name) for name in _displacements(line.expr).values())
+    return line.kind == "statement" and bool(_works_in(truth, line.expr))
 
 
 def _displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
@@ -81,10 +83,17 @@ def _displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
     return {x: m[1] for x, m in found.items() if m is not None}
 
 
+def _works_in(truth: Reference, expr: sp.Expr) -> list[AppliedUndef]:
+    """The virtual works among these: δW, and no δA of a coordinate A."""
+    coordinates = {key(c.name) for c in truth.model.coordinates}
+    found = _displacements(expr).items()
+    return [x for x, name in found if _OF_WORK.fullmatch(name) and key(name) not in coordinates]
+
+
 def _stated_forces(truth: Reference, line: AnsweredLine) -> dict[int, sp.Expr]:
     """The factor of the virtual displacement of each coordinate in a virtual work; none if it is in others."""
     moved = _displacements(line.expr)
-    works = [x for x, name in moved.items() if _OF_WORK.fullmatch(name)]
+    works = _works_in(truth, line.expr)
     places = {key(c.name): i for i, c in enumerate(truth.model.coordinates)}
     if len(works) != 1 or any(key(name) not in places for x, name in moved.items() if x not in works):
         return {}
@@ -108,6 +117,19 @@ def _exact(truth: Reference, line: AnsweredLine, stated: Mapping[int, sp.Expr]) 
     for i, c in enumerate(truth.model.coordinates):
         if zero_everywhere(truth, stated.get(i, sp.S.Zero) - truth.Xi[i]):
             yield replace(line, kind="Xi", name=c.name, expr=truth.Xi[i])
+
+
+def _all_forces(truth: Reference, lines: Sequence[AnsweredLine], works: Sequence[int]) -> list[AnsweredLine]:
+    """Every generalized force, by the virtual works of an answer that states it nowhere else, on the last of their
+    lines; none if one of these is not understood."""
+    stated = [_stated_forces(truth, lines[k]) for k in works]
+    if truth.derivation.multipliers or not all(stated):
+        return []
+    if any(not _known(truth, x) or holds_potential(truth, i, x) for found in stated for i, x in found.items()):
+        return []
+    sums = [sp.Add(*[found.get(i, sp.S.Zero) for found in stated]) for i in range(truth.n)]
+    coordinates = truth.model.coordinates
+    return [replace(lines[works[-1]], kind="Xi", name=c.name, expr=x) for c, x in zip(coordinates, sums, strict=True)]
 
 
 def _wrong_forces(truth: Reference, line: AnsweredLine, *, apart: bool) -> Iterator[AnsweredLine]:

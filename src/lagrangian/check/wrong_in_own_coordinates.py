@@ -79,7 +79,8 @@ def wrong_in(
     other: Reference, lines: Sequence[AnsweredLine], change: ProposedChange, notes: Sequence[Text], verdict: Verdict
 ) -> Verdict | None:
     """The verdict on lines in the coordinates of another reference; None if they are right there."""
-    judged = judged_lines(other, [x for x in lines if x.expr == 0 or bounded.expand(change.put(x.expr)) != 0])
+    lines = [x for x in lines if x.expr == 0 or bounded.expand(change.put(x.expr)) != 0]  # others say the change
+    judged = judged_lines(other, lines)
     if judged.status.right:  # equal only in double precision
         return None
     named = mistakes(other, lines, judged.findings)

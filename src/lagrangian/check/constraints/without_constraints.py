@@ -63,23 +63,6 @@ def without_constraints(truth: Reference, lines: Sequence[AnsweredLine]) -> InSt
     return None
 
 
-def with_constraints_put_in(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Reference, ProposedChange] | None:
-    """A system with one constraint that is linear in a coordinate, without that which fewest lines have, and what this
-    is in the others."""
-    rows, model = rows_of(truth.model), truth.model
-    place = integrated(truth, rows[0]) if len(rows) == 1 else None
-    if place is None:
-        return None
-    slopes = {c: bounded.diff(place, c.symbol) for c in model.coordinates}
-    gone = [c for c, a in slopes.items() if a != 0 and not a.has(*truth.derivation.coordinates)]
-    for c in sorted(gone, key=lambda c: sum(x.expr.has(c.symbol) for x in lines)):
-        table: dict[sp.Expr, sp.Expr] = {c.symbol: bounded.expand(c.symbol - place / slopes[c])}
-        other = _reference(truth, table, [x for x in model.coordinates if x is not c])
-        if other is not None:
-            return other, ProposedChange(table, _words(table), True)
-    return None
-
-
 def _tables(
     truth: Reference, lines: Sequence[AnsweredLine], new: Sequence[sp.Expr]
 ) -> Iterator[dict[sp.Expr, sp.Expr]]:

@@ -48,7 +48,7 @@ def _shows(pool: Pool, explanation: Explanation, lines: Sequence[AnsweredLine]) 
     wrong = explanation.told[0].mistake.wrong
     if wrong is None or wrong.name != "gravity_arm":
         return False
-    half = HALF in str(wrong.variant.what)
+    half = f"taken {HALF} as far" in str(wrong.variant.what)
     arms = _lengths(pool.truth, wrong.variant.V)
     weights = {x for e in pool.truth.model.elements if isinstance(e, Gravity) for x in bounded.letters(e.g)}
     for line in lines:
