@@ -106,7 +106,7 @@ def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> b
         return False
     if not line.expr.atoms(AppliedUndef) or line.expr.atoms(AppliedUndef) - moving or line.expr.has(sp.Derivative):
         return False
-    numeric = [x for x in sp.Add.make_args(line.expr) if not x.free_symbols]
+    numeric = [x for x in sp.Add.make_args(line.expr) if not x.free_symbols - {time}]
     if not numeric or truth.derivation.multipliers:
         return False
     put = ({p: sp.Rational(str(v)) for p, v in values.items()} for values in every if named <= values.keys())
