@@ -67,6 +67,7 @@ ANSWERS = {
     "names of what is zero": "".join(f"e{k} = x1'' + e{k + 1} - [e{k}, 0];\n" for k in range(N // 48)),
     "lists of what is zero": "# all zero\n" + "".join(f"r{k} = [r{k + 1}, r{k + 2}];\n" for k in range(N // 24)),
     "blanks in what is zero": "r1 = x1'' - 2\nr2 =" + BLANK + "x1'' + 3\nreturn r1",
+    "points between spaces": "x1'' = 0\nQ = m1" + " . dq" * (N // 5),
     "arguments": "x1 = 2 sin(" + "2 sin(" * (N // 6),
     "conditions": "x1'' = 0\n" + "if x1 = 0 " * (N // 10),
     "letters in words": "x1'' = 0\n" + "c statt k, " * (N // 11),

@@ -113,3 +113,23 @@ def test_amounts_may_be_those_of_values_that_are_stated() -> None:
     row = LETTERS.replace("k a^2 sin(alpha)", "k a^2/2")
     assert swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 16\n{row}", hint=0).right
     assert not swing().check(f"alpha = 30 deg, k a^2 sin(alpha) = 17\n{row}", hint=0).right
+
+
+@pytest.mark.parametrize("line", [ROW, LETTERS])
+def test_a_line_that_is_true_with_the_values_of_the_system_is_no_equation_of_motion(line: str) -> None:
+    said = "k a^2 cos(theta)^2 + 2 m sin(theta)^2 = {} - 29 sin(theta)^2"
+    assert swing().check(f"{said.format(32)}\n{line}").right
+    assert swing().check(f"{said.format(31)}\n{line}").status is Status.WRONG
+
+
+def test_a_line_that_is_true_with_the_values_of_the_system_is_not_enough() -> None:
+    said = "k a^2 cos(theta)^2 + 2 m sin(theta)^2 = 32 - 29 sin(theta)^2"
+    assert not swing().check(said).right
+    assert swing().check(f"{said}\n{ROW.replace('32', '31')}").status is Status.WRONG
+
+
+@pytest.mark.parametrize("line", [ROW, LETTERS])
+def test_an_amount_may_stand_before_what_moves(line: str) -> None:
+    assert swing().check(f"m g l cos(theta) = 13.2435 cos(theta)\n{line}").right
+    assert swing().check(f"m g l cos(theta) = 14.2435 cos(theta)\n{line}").status is Status.WRONG
+    assert swing().check(f"m g l cos(theta) = 13.2435 sin(theta)\n{line}").status is Status.WRONG

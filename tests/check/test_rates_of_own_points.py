@@ -82,3 +82,37 @@ def test_a_wrong_derivative_of_a_momentum_stays_wrong() -> None:
     rate = "p' = (M + m) x'' + m s theta'' cos(theta) - m s theta'^2 sin(theta)"
     assert accepted(f"{MOMENTUM}\n{rate}\n{WHEEL}\n{BOB}")
     assert not accepted(f"{MOMENTUM}\n{rate.replace(' - ', ' + ')}\n{WHEEL}\n{BOB}")
+
+
+@cache
+def dragged() -> Derivation:
+    """A cart with a pendulum whose bob is dragged through oil."""
+    sys = System("bob in oil")
+    x, theta = sys.coordinates("x theta")
+    M, m, s, d = sys.parameters("M m s d")
+    square = x.diff() ** 2 + 2 * s * x.diff() * theta.diff() * sp.cos(theta) + s**2 * theta.diff() ** 2
+    sys.kinetic(M * x.diff() ** 2 / 2 + m * square / 2)
+    sys.dissipation(d * square / 2)
+    return sys.derive()
+
+
+SPEED = "vB = (x' + s theta' cos(theta)) ex + s theta' sin(theta) ey\n"
+SQUARE = "vB^2 = x'^2 + 2 s x' theta' cos(theta) + s^2 theta'^2\n"
+DRAG = """Q_x = - d vB . dvB/dx' = - d (x' + s theta' cos(theta))
+Q_theta = - d vB . dvB/dtheta' = - d (s^2 theta' + s x' cos(theta))
+"""
+MOTION = """T = 1/2 M x'^2 + 1/2 m vB^2
+(M + m) x'' + m s theta'' cos(theta) - m s theta'^2 sin(theta) = - d (x' + s theta' cos(theta))
+m s^2 theta'' + m s x'' cos(theta) = - d (s^2 theta' + s x' cos(theta))"""
+
+
+@pytest.mark.parametrize("above", [SQUARE, SPEED + SQUARE])
+def test_a_point_between_spaces_in_front_of_a_derivative_is_a_product(above: str) -> None:
+    answer = above + DRAG + MOTION
+    assert dragged().check(answer, hint=0).right
+    assert not dragged().check(answer.replace("- d vB . dvB/dx'", "- 2 d vB . dvB/dx'"), hint=0).right
+    assert not dragged().check(answer.replace("= - d (x' + s theta' cos(theta))\nQ", "= - d x'\nQ"), hint=0).right
+
+
+def test_a_statement_may_begin_behind_a_point_with_the_derivative_of_an_energy() -> None:
+    assert dragged().check(SQUARE + MOTION.replace("vB^2\n", "vB^2 . dT/dx = 0\n"), hint=0).right

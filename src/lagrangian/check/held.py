@@ -1,4 +1,5 @@
-"""The right equations at states that satisfy the constraints, where these are linear in a coordinate: y = r φ.
+"""The right equations at states that satisfy the constraints, where these are linear in a coordinate: y = r φ, and what
+is equal at states on constraints of any kind.
 
 An answer may write y″ or r φ″ for the same thing, and may have put one into the other. At such states both are equal.
 """
@@ -6,17 +7,29 @@ An answer may write y″ or r φ″ for the same thing, and may have put one int
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, cast
 
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.derive import Derived
+from lagrangian.derive.sample import Sampler
 from lagrangian.derive.sampling import Array, CompiledExpressions, States
+from lagrangian.errors import ModelError
 from lagrangian.model import Model, time
 from lagrangian.model.rows import rows_of
+from lagrangian.verify.on_rows import OnRows
+
+STATES = 8
+"""Random states on constraints at which a quantity is looked at."""
+
+SMALL = 1e-9
+"""The size, in parts of that of its terms, below which a quantity is rounding."""
 
 
 class OnConstraints(Reference):
@@ -104,3 +117,42 @@ def _solved(model: Model) -> dict[Any, sp.Expr] | None:
 
 def _with(expr: sp.Expr, table: Mapping[Any, sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", bounded.replaced(expr, dict(table)))
+
+
+def vanishes_on_constraints(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether what two energies differ in is 0 at states on constraints on positions, b sin β = a sin α, whose rates
+    satisfy these, too; what no rate changes, a difference of potentials, may be a constant.
+
+    Not if it has roots of its own, which have another sign on another branch.
+    """
+    model = truth.model
+    if any(row.position is None for row in rows_of(model)) or not bounded.letters(expr) <= truth.names:
+        return False
+    if not _branches(expr) <= _branches(truth.T) | _branches(truth.V):
+        return False
+    expr = expr if expr.has(sp.Derivative) else bounded.diff(expr, time)
+    size = sp.Add(*[sp.Abs(x, evaluate=False) for x in sp.Add.make_args(expr)])
+    atoms = [x for c in model.coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    atoms += [x.symbol for x in (*model.parameters, *model.inputs)]
+    sampler = Sampler(model, [*atoms, expr, size])
+    try:
+        found = [
+            sampler.at(state)[-2:]
+            for state, _ in _on_rows(truth.derivation).states(sampler, STATES, 1, given=bool(truth.values))
+        ]
+    except ModelError as error:
+        if error.code != "E503":  # roots that are real at few states
+            raise
+        return False
+    return len(found) == STATES and all(abs(value) <= SMALL * whole for value, whole in found)
+
+
+def _branches(expr: sp.Expr) -> set[sp.Basic]:
+    """The roots and the inverse functions of what moves in an expression."""
+    roots = {x for x in expr.atoms(sp.Pow) if not x.exp.is_integer}
+    return {x for x in roots | expr.atoms(InverseTrigonometricFunction) if x.atoms(AppliedUndef)}
+
+
+@lru_cache(maxsize=32)
+def _on_rows(derivation: Derived) -> OnRows:
+    return OnRows(derivation.model)

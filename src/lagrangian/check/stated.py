@@ -14,7 +14,7 @@ from lagrangian import bounded
 from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.coordinates.chart import OF_COORDINATES, chart, system_coordinates
 from lagrangian.check.difference import differences, likeness
-from lagrangian.check.held import OnConstraints, held
+from lagrangian.check.held import OnConstraints, held, vanishes_on_constraints
 from lagrangian.check.reading import OwnCoordinates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
@@ -129,9 +129,10 @@ def judge(
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     on = _on_constraints(truth)
-    if line.kind in ("T", "V", "L", "D") and on is not None:
-        left = on.put_in(rest)
-        if zero_everywhere(truth, left) or harmless(truth, line, left) is not None:
+    if line.kind in ("T", "V", "L", "D") and truth.derivation.multipliers:
+        left = rest if on is None else on.put_in(rest)
+        held_so = zero_everywhere(truth, left) or harmless(truth, line, left) is not None
+        if held_so or (on is None and vanishes_on_constraints(truth, rest)):
             return Finding(line, Status.EQUIVALENT, text("with the constraint put in"), coordinate)
     if any(zero_everywhere(truth, x if on is None else on.put_in(x)) for x in (line.expr - r for r in rights[1:])):
         return Finding(line, Status.EQUIVALENT, _in_own(truth, stated_for[-1][0]), coordinate)

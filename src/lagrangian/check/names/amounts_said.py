@@ -18,8 +18,10 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, inserted
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -71,6 +73,7 @@ def judged_with_amounts(
     kept: list[AnsweredLine] = []
     wrong: list[Finding] = []
     left = MOST
+    lines = [replace(x, expr=sp.S.Zero) if _holds_in_values(truth, x, own, stated) else x for x in lines]
     for _, group in groupby(lines, key=lambda line: (line.number, line.text)):
         same = list(group)
         said = [line for line in same if _says_amount(line, own)] if len(same) <= min(MOST_SIDES, left) else []
@@ -92,6 +95,22 @@ def judged_with_amounts(
         findings = inserted(findings, finding)
     motion = verdict.motion or verdict.right
     return replace(verdict, status=Status.WRONG, findings=tuple(findings), motion=motion)
+
+
+def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> bool:
+    """Whether a line says what letters and coordinates amount to, A cos² ψ + B sin² ψ = 2 + 12 sin² ψ, and is 0 = 0
+    with some of these values."""
+    named = line.expr.free_symbols - {time}
+    known, moving = every[-1].keys(), {c.symbol for c in truth.model.coordinates}
+    if line.kind != "equation" or not named or not named <= known or bounded.operations(line.expr) > LONGEST:
+        return False
+    if not line.expr.atoms(AppliedUndef) or line.expr.atoms(AppliedUndef) - moving or line.expr.has(sp.Derivative):
+        return False
+    numeric = [x for x in sp.Add.make_args(line.expr) if not x.free_symbols - {time}]
+    if not numeric or truth.derivation.multipliers:
+        return False
+    put = ({p: sp.Rational(str(v)) for p, v in values.items()} for values in every if named <= values.keys())
+    return any(zero_everywhere(truth, cast("sp.Expr", line.expr.xreplace(x))) for x in put)
 
 
 def _as_said(line: AnsweredLine, said: Sequence[AnsweredLine]) -> AnsweredLine:

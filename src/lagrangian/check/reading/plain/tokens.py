@@ -20,6 +20,8 @@ _MARK = r"[\u0307\u0308\u20db\u20dc]"
 _NAME = rf"{_LETTER}{_MARK}*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]{_MARK}*)*"
 _TWO = r"\s*(?:(?:\^|\*\*)\s*2|²|2)"
 _PRIME = r"['’′″‴\"]"
+_DOT_PRODUCT = r"(?<=\s)\.(?=[ \t]{1,3}(?:∂|d)[ ]?(?![TVUWLDHℒ]\*?[ ]?/)[^\W\d]\w{0,24}[ ]?/[ ]?[∂d](?!t(?!\w)))"
+"""A point between spaces in front of a derivative, F . dr/dq; a statement may begin with that of an energy."""
 _KINDS = [
     ("space", r"\s+"),
     ("ddt2", rf"d{_TWO}\s*/\s*\(?\s*dt{_TWO}\s*\)?(?!\w)"),
@@ -37,7 +39,7 @@ _KINDS = [
     ("primes", rf"{_PRIME}+"),
     ("raised", r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
     ("power", r"\.?\^|\.?\*\*"),
-    ("times", r"\.?[*×·⋅∙•]"),
+    ("times", rf"\.?[*×·⋅∙•]|{_DOT_PRODUCT}"),
     ("over", r"\.?[/÷∕]"),
     ("plus", r"\+"),
     ("minus", r"[-−–]"),
