@@ -21,7 +21,7 @@ from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
 from lagrangian.check.reading.programs import sessions
 from lagrangian.check.reading.programs import spellings as programs
-from lagrangian.check.reading.prose import sketches
+from lagrangian.check.reading.prose import sketches, spoken_words
 from lagrangian.check.reading.prose import words_or_mathematics as prose
 from lagrangian.check.reading.said import stands_for
 from lagrangian.errors import ParseError
@@ -144,6 +144,7 @@ FORMS = {
     "_CALLED": (labels._CALLED, "ad" + BLANKS + "y"),
     "_DEFINED at newlines": (read._DEFINED, "\n" * LONGEST + "y"),
     "_DEFINED at blanks": (read._DEFINED, "y" + BLANKS + "y"),
+    "_DOUBLED": (spoken_words._DOUBLED, "=" + BLANKS + "II" + BLANKS + "y"),
     "_IN_BRACKETS": (stands_for._IN_BRACKETS, "y" + BLANKS + "z = 1"),
     "_LINE_OF_CODE": (programs._LINE_OF_CODE, BLANKS + "y"),
     "_INSIDE": (prose._INSIDE, "(" + "so" * (LONGEST // 2) + ")"),

@@ -1,10 +1,12 @@
-"""Inputs that an answer calls by a name of its own, and values of inputs beside the equations."""
+"""Inputs and parameters that an answer calls by names of its own, and values of inputs beside the equations."""
 
 from functools import cache
 
 import pytest
 
+from built_in import derivation
 from lagrangian import Derivation, System
+from lagrangian.check import Status
 
 
 @cache
@@ -64,3 +66,25 @@ def test_the_value_of_an_input_stands_beside_equations_with_a_multiplier() -> No
     assert winch().check("M(t) = 8 + 2 sin(3 t)\n" + ROPE.format("M"), hint=0).right
     assert not winch().check("M = r S\n" + ROPE.format("2 M"), hint=0).right
     assert not winch().check("M = 0\n" + ROPE.replace(" - {}", ""), hint=0).right
+
+
+ROD = "m_b*x'' = 2*lambda*x\nm_b*y'' = 2*lambda*y - m_b*g\nx^2 + y^2 = l^2\n"
+
+
+@pytest.mark.parametrize("energies", ["", "T = m_b*(x'^2 + y'^2)/2\nV = m_b*g*y\n"])
+def test_a_parameter_beside_multipliers_may_have_another_name(energies: str) -> None:
+    rod, sheet = derivation("rod-pendulum"), energies + ROD
+    assert rod.check(sheet).right
+    for old, new in (
+        ("m_b*x''", "2*m_b*x''"),
+        ("y - m_b*g", "y + m_b*g"),
+        ("y - m_b*g", "y - m*g"),
+        ("T = m", "T = 2*m"),
+    ):
+        assert old not in sheet or not rod.check(sheet.replace(old, new)).right
+
+
+def test_an_inertia_is_no_force_that_is_eliminated() -> None:
+    verdict = derivation("rod-pendulum").check(f"T = m_b*(x'^2 + y'^2)/2\n{ROD}".replace("- m_b*g", "+ m_b*g"))
+    assert not verdict.right
+    assert verdict.findings[0].status is Status.RIGHT

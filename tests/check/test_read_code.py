@@ -198,3 +198,21 @@ def test_a_capital_letter_twice_is_a_name_in_mathematica() -> None:
     rows += "\n(M + m) x''[t] + m l theta''[t] Cos[theta[t]] - m l theta'[t]^2 Sin[theta[t]] + b x'[t] == F"
     rows += "\n(JJ + m l^2) theta''[t] + m l x''[t] Cos[theta[t]] - m g l Sin[theta[t]] == 0"
     twins(f"(* JJ is the moment J of the pole *)\n{rows}", "- m g l Sin", "+ m g l Sin")
+
+
+@pytest.mark.parametrize(
+    ("said", "inertia", "damper"),
+    [("", "jj", "b"), ("", "JJ", "b"), ("jj, cc are the constants J, b of the plan", "jj", "cc")],
+)
+def test_a_letter_twice_in_front_of_a_rate_is_a_name(said: str, inertia: str, damper: str) -> None:
+    rows = f"(* {said} *)\n" + (
+        f"M x''[t] + m x''[t] + m l theta''[t] Cos[theta[t]] - m l theta'[t]^2 Sin[theta[t]] + {damper} x'[t] == F\n"
+        f"{inertia} theta''[t] + m l^2 theta''[t] + m l x''[t] Cos[theta[t]] - m g l Sin[theta[t]] == 0"
+    )
+    twins(rows, f"\n{inertia} theta", f"\n2 {inertia} theta")
+
+
+def test_a_small_letter_twice_is_a_product_where_the_system_has_it() -> None:
+    pendulum = derivation("pendulum")
+    assert pendulum.check("m*L^2*theta'' + bb theta'/b + m*g*L*sin(theta) = 0").right
+    assert not pendulum.check("m*L^2*theta'' + bb theta' + m*g*L*sin(theta) = 0").right

@@ -97,3 +97,20 @@ POLE = "m l x'' cos theta + Js theta'' - m g l sin theta = 0"
 def test_a_name_may_be_stated_behind_words_and_numbers(mass: str, inertia: str) -> None:
     assert derivation("cart-pole").check(f"{mass}\n{inertia}\n{CART}\n{POLE}", hint=0).right
     assert not derivation("cart-pole").check(f"{mass}\n{inertia.replace('+', '-')}\n{CART}\n{POLE}", hint=0).right
+
+
+@pytest.mark.parametrize("of", ["", "np.", "math."])
+def test_degrees_turned_by_a_function_are_that_angle(of: str) -> None:
+    slope = derivation("rolling-cylinder")
+    right = f"(m + J/R^2)*x'' = m*g*sin(2*{of}radians(45) + {of}deg2rad(rad2deg(alpha)) - pi/2)"
+    assert slope.check(right).right
+    assert not slope.check(right.replace("45", "54")).right
+
+
+@pytest.mark.parametrize(("angle", "right"), [("deg2rad(rad2deg(z(2)))", True), ("deg2rad(z(2))", False)])
+def test_degrees_are_turned_in_programs_too(angle: str, right: bool) -> None:
+    program = (
+        f"function dz = cart(t, z)\nth = {angle}; w = z(4);\nA = [M + m, m*l*cos(th); m*l*cos(th), J + m*l^2];\n"
+        "f = [F - b*z(3) + m*l*w^2*sin(th); m*g*l*sin(th)];\nqdd = A\\f;\ndz = [z(3); w; qdd(1); qdd(2)];\nend\n"
+    )
+    assert derivation("cart-pole").check(program).right is right

@@ -169,3 +169,36 @@ def test_a_wrong_rate_of_a_prescribed_motion_in_a_program_is_told_by_its_line() 
     assert [f.line.number for f in wrong.findings if not f.status.right] == [6, 7]
     other = pendulum.check(DRIVEN.replace("p.g + ddy", "p.g - ddy"))
     assert not other.right and len(other.findings) == 1
+
+
+OPEN = """rho = l*cos(theta);
+D = m*rho;
+A = [M + m, D;
+     D, J + m*l^2];
+f = [F - b*xd + m*l*sin(theta)*thetad^2;
+     m*g*l*sin(theta)];
+qdd = A\\f;
+"""
+BY_PARTS = """% rod as a constraint, unknowns x'', y'', lambda
+Mass = [m, 0; 0, m];
+Q = [0; -m*g];
+A = [x, y];
+gam = xd^2 + yd^2;
+sol = [Mass, -A'; A, 0] \\ [Q; -gam];
+xdd = sol(1); ydd = sol(2); lambda = sol(3);
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "program", "changes"),
+    [
+        ("cart-pole", OPEN, [("D = m", "D = 2*m"), ("m, D;", "m, -D;")]),
+        ("rod-pendulum", BY_PARTS, [("[0; -m*g]", "[0; m*g]"), ("; -gam", "; gam"), ("[m, 0;", "[2*m, 0;")]),
+    ],
+    ids=["an energy's letter in a matrix", "a solution whose parts have names"],
+)
+def test_what_is_solved_in_the_open_is_judged(name: str, program: str, changes: list[tuple[str, str]]) -> None:
+    assert derivation(name).check(program).right
+    for old, new in changes:
+        assert old in program
+        assert not derivation(name).check(program.replace(old, new), hint=0).right

@@ -95,8 +95,10 @@ def unknown_in(truth: Reference, lines: Sequence[AnsweredLine]) -> set[sp.Basic]
 
 
 def slope_of(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:
-    """The factor of a name in an expression that is linear in it; None if it is not."""
+    """The factor of a name in an expression that is linear in it; None if it is not, or if the factor accelerates, so
+    that the name is an inertia and no force."""
     if not expr.has(name) or any(d.has(name) for d in expr.atoms(sp.Derivative)):
         return None
     slope = bounded.diff(expr, name)
-    return None if slope == 0 or slope.has(name) else slope
+    inertia = any(d.derivative_count > 1 for d in slope.atoms(sp.Derivative))
+    return None if slope == 0 or slope.has(name) or inertia else slope

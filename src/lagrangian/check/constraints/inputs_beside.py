@@ -1,4 +1,4 @@
-"""Inputs in answers for systems with constraints: their values beside the equations, and other names of them."""
+"""Inputs and parameters in answers for systems with constraints: values of inputs beside the equations, other names."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def judged_with_inputs(
     truth: Reference, lines: Sequence[AnsweredLine], judge: Callable[[Sequence[AnsweredLine]], Verdict]
 ) -> Verdict:
     """The verdict on lines without those that give an input a value; where the system lacks a name, with the input
-    that the answer does not name in its place, if more lines are right then."""
+    or parameter that the answer does not name in its place, if more lines are right then."""
     given = [x for x in lines if x.kind == "equation" and bounded.letters(x.expr) <= truth.names]
     given = [x for x in given if gives_input(truth, x.expr)]
     lines = [replace(x, kind="statement") if any(x is y for y in given) else x for x in lines]
@@ -36,10 +36,14 @@ def judged_with_inputs(
 
 
 def _named(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[tuple[list[AnsweredLine], Text]]:
-    """The lines with every unknown name as the only input that they do not name, if they have one name too many."""
-    free = [u.symbol for u in truth.model.inputs if not any(x.expr.has(u.symbol) for x in lines)]
+    """The lines with every unknown name as the only input that they do not name or, if they name all, as the only
+    parameter, if they have one name too many."""
+    model = truth.model
+    free: list[sp.Expr] = [u.symbol for u in model.inputs if not any(x.expr.has(u.symbol) for x in lines)]
+    lacking = {p.symbol for p in model.parameters} - truth.values.keys()
+    free = free or [s for s in lacking if not any(x.expr.has(s) for x in lines)]
     equations = [x for x in lines if x.kind == "equation"]
-    results = results_in(truth.model, truth.names, equations).values()
+    results = results_in(model, truth.names, equations).values()
     unknown = unknown_names(expanded(truth), [x for x in equations if x not in results])
     if len(free) != 1 or len(unknown) != len(truth.derivation.multipliers) + 1:
         return

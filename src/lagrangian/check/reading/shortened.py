@@ -27,6 +27,7 @@ _WHOLE = {short: word for word, listed in _SHORT.items() for short in listed} | 
 _WHOLE |= {"l": "ell", "ell": "ell"}
 _INDEXED = re.compile(r"([A-Za-z]+)(\d*)")
 _OF_ANGLE = re.compile(r"(?<!\w)(?:sin|cos|tan)[ ]?\([ ]?([^\W\d]\w{0,24}+)(?=[ ]?[-+−)])")
+_WORD = re.compile(r"(?<![^\W_])[A-Za-z](?![^\W_])")
 _TWO_LETTERS = re.compile(r"([A-Za-z][a-z])_?(\d*)")
 
 
@@ -36,13 +37,15 @@ class AnswerScope(Scope):
     A shortened name is read if one name of the system alone can be meant, and if the answer does not define it:
     ``taken`` are the names that it does. The index 0 of a constant may be left out: ε is ``eps_0``. ℓ, which is the
     letter l to Unicode, is ``ell`` where the system has no l. Two letters alone, al for alpha, are a name only where
-    the answer uses them as one: ``used``, or any if that is None, as in a program.
+    the answer uses them as one: ``used``, or any if that is None, as in a program. A letter twice, II or jj, is the
+    letter, in either case, that the answer does not use otherwise.
     """
 
     def __init__(self, symbols: Scope) -> None:
         self._letters: dict[tuple[str, str], list[str]] = {}
         self.taken: frozenset[str] = frozenset()
         self.used: frozenset[str] | None = frozenset()
+        self._doubled: dict[str, str] = {}
         super().__init__(symbols)
         for name in symbols:
             if (letter := _letter(name)) is not None:
@@ -52,6 +55,13 @@ class AnswerScope(Scope):
         """Take from an answer what it defines and what it uses as names, such as those of a sine or cosine: cos(al)."""
         self.taken = frozenset(map(key, own))
         self.used = frozenset(used) | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
+        doubled = [x for x in self.used if len(x) == 2 and x[0] == x[1] and key(x) not in self.taken]
+        doubled = [x for x in doubled if x.isupper() or x[0] not in self]  # aa is a²
+        words = set(_WORD.findall(text)) if doubled else set()
+        for name in doubled:
+            meant = [x for x in dict.fromkeys([name[0].upper(), name[0].lower()]) if x in self and x not in words]
+            if len(meant) == 1 and not super().meanings(name)[0]:
+                self._doubled[name] = meant[0]
 
     def meanings(self, written: str) -> tuple[list[str], int]:
         """Return the names that ``written`` can mean, in full or shortened, and its number of dots."""
@@ -59,6 +69,8 @@ class AnswerScope(Scope):
         if found or not self._letters:
             return found, dots
         base, dots = undotted(written)
+        if base in self._doubled:
+            return [self._doubled[base]], dots
         return self._shortened(base), dots
 
     def _shortened(self, base: str) -> list[str]:

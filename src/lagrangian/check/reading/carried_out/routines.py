@@ -37,6 +37,8 @@ PLAIN: Mapping[str, Callable[..., Any]] = {
     **{x: getattr(sp, x) for x in ("sin", "cos", "tan", "exp", "log", "sqrt", "sinh", "cosh", "tanh", "asin", "acos")},
     **{"atan": sp.atan, "arcsin": sp.asin, "arccos": sp.acos, "arctan": sp.atan, "abs": sp.Abs, "Abs": sp.Abs},
     **{"sign": sp.sign, "cot": sp.cot, "sec": sp.sec, "csc": sp.csc},
+    **dict.fromkeys(("deg2rad", "radians"), lambda x: x * sp.pi / 180),
+    **dict.fromkeys(("rad2deg", "degrees"), lambda x: x * 180 / sp.pi),
 }
 """Functions of one quantity."""
 SAME = frozenset(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from contextlib import suppress
 from functools import partial
+from itertools import chain
 from typing import Any, cast
 
 import sympy as sp
@@ -116,7 +117,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         states = 2 * len(model.coordinates)
         run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven)
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
-        found = list(_statements(run, MovingNames(model, scope)))
+        found = list(_statements(run, MovingNames(model, scope), _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
         with suppress(*TROUBLES):  # a function of its own that returns no rates
             found += _of_states(run, names, reader, loose)
@@ -200,7 +201,21 @@ def _laid_out(lines: Sequence[str], found: Sequence[tuple[int, str]]) -> str:
     return "\n".join(made)
 
 
-def _statements(run: Interpreter, rates: MovingNames) -> Iterator[tuple[int, str]]:
+def _entries(tree: ast.Module) -> set[str]:
+    """The names that stand in entries of square matrices, which are no energies: D in [D, I; I, I]."""
+    rows = [x.elts for x in ast.walk(tree) if isinstance(x, ast.List) and len(x.elts) > 1]
+    square = [x for x in rows if all(isinstance(row, ast.List) and len(row.elts) == len(x) for row in x)]
+    parts = [entry for matrix in square for row in matrix for entry in cast("ast.List", row).elts]
+    found: set[str] = set()
+    while parts:
+        part = parts.pop()
+        found |= {part.id} if isinstance(part, ast.Name) else set()
+        if isinstance(part, (ast.BinOp, ast.UnaryOp)):  # no call: diff(T, x)
+            parts += [x for x in ast.iter_child_nodes(part) if isinstance(x, ast.expr)]
+    return found
+
+
+def _statements(run: Interpreter, rates: MovingNames, energies: Set[str]) -> Iterator[tuple[int, str]]:
     """The energies and the equations that are assigned or shown; an equation that is used for another is none."""
     told: set[str] = set()
     hidden = [x for _, method in run.methods for x in method.hidden]
@@ -219,7 +234,7 @@ def _statements(run: Interpreter, rates: MovingNames) -> Iterator[tuple[int, str
                 said = f"{written(value.left)} = {written(value.right)}" if final else None
             elif not isinstance(value, sp.Expr) or not value.args:
                 continue
-            elif one.name in _ENERGIES and rates.order(value) == 1:
+            elif one.name in energies and rates.order(value) == 1:
                 said = f"{one.name} = {written(value)}"
             elif final and rates.order(value) == 2:
                 said = f"{written(value)} = 0"
@@ -236,11 +251,20 @@ def _of_states(
     run: Interpreter, names: dict[str, Value], reader: StateReader, loose: Loose | None
 ) -> Iterator[tuple[int, str]]:
     """The accelerations that the functions of a program return, as equations of motion."""
-    coordinates = [c.name for c in reader.model.coordinates]
     in_the_open = None if loose is None else reader.in_the_open(loose, names.get(loose.rates))
-    for found in reader.functions(names) if in_the_open is None else (in_the_open,):
+    functions = reader.functions(names) if in_the_open is None else (in_the_open,)
+    none = True
+    for found in chain(functions, _solved_in_the_open(run, reader)):
+        none = False
         yield from _equations(run, found, reader)
-    for one in run.stated:  # acc = A\\b in the open, whose entries a comment may name
+    if none and (found := reader.by_parts()) is not None:
+        yield from _equations(run, found, reader)
+
+
+def _solved_in_the_open(run: Interpreter, reader: StateReader) -> Iterator[StateFunction]:
+    """What acc = A\\b says in the open, whose entries a comment may name."""
+    coordinates = [c.name for c in reader.model.coordinates]
+    for one in run.stated:
         solved = one.value if isinstance(one.value, MatrixBase) else sp.zeros(0, 1)
         if one.name is None or one.name in run.used or not len(solved) or not set(solved.flat()) <= run.solved.keys():
             continue
@@ -255,8 +279,7 @@ def _of_states(
             solved = solved[:n, :]
         rates = rates or reader.rates_of(one.name, len(solved))
         if len(rates) == len(solved):
-            found = StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
-            yield from _equations(run, found, reader)
+            yield StateFunction(one.line, list(zip(rates, solved.flat(), strict=True)), {})
 
 
 def _equations(run: Interpreter, found: StateFunction, reader: StateReader) -> Iterator[tuple[int, str]]:
@@ -299,8 +322,9 @@ def _multipliers(
     """Names for the unknowns of a system of linear equations that are no accelerations."""
     columns = [s.name for s in run.stated if s.name and isinstance(s.value, MatrixBase) and s.value.flat() == list(x)]
     called = {k: name for column in columns for k, name in reader.in_comments(column).items()}
+    parts = {s.value: s.name for s in run.stated if s.name and isinstance(s.value, sp.Symbol)}
     for k, one in enumerate(x):
-        yield one, sp.Symbol(run.aliases.get(one) or called.get(k + 1) or f"lambda_{k + 1}")
+        yield one, sp.Symbol(run.aliases.get(one) or called.get(k + 1) or parts.get(one) or f"lambda_{k + 1}")
 
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

@@ -186,6 +186,15 @@ class StateReader:
             found[x] = sp.Symbol(name)
         return found
 
+    def by_parts(self) -> StateFunction | None:
+        """The accelerations that entries of a solution are called: s = A\\b and xdd = s(1), one for each coordinate."""
+        called = {x.value: x for x in self.run.stated if x.name and isinstance(x.value, sp.Symbol)}
+        parts = [(self._rated(x.name or "", 2), one, x.line) for one, x in called.items() if one in self.run.solved]
+        named = [(sp.Function(name)(TIME).diff(TIME, 2), one, line) for name, one, line in parts if name]
+        if len({rate for rate, *_ in named}) != len(self.model.coordinates) or len(named) > len(self.model.coordinates):
+            return None
+        return StateFunction(named[0][2], [(rate, one) for rate, one, _ in named], {})
+
     def in_comments(self, name: str) -> dict[int, str]:
         """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi."""
         form = re.compile(rf"(?<!\w){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]")

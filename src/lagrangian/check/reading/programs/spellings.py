@@ -30,6 +30,7 @@ _CALLED = {
     "ImmutableMatrix": "Matrix",
     **{x: x for x in ("simplify", "expand", "factor", "trigsimp", "together", "cancel")},
     **{x: x for x in ("pi", "diff", "Derivative", "Matrix", "Eq", "Rational", "pow", "power", "square", "Symbol")},
+    **{x: x for x in ("deg2rad", "radians", "rad2deg", "degrees")},
 }
 _REWRITTEN = re.compile(rf"(?<=[\w)'′])\s?\.\s?(?:{'|'.join(sorted(REWRITES))}|doit)\(\s*\)")
 """A method that writes what stands in front of it in another way."""
@@ -89,7 +90,9 @@ _PARTIAL_RATE = re.compile(
 )
 """How MATLAB's latex() writes rates: \\frac{\\partial ^2}{\\partial t^2} x\\left(t\\right)."""
 _GREEK = {word: letter for letter, word in SPELLED.items() if letter != "ς"}
-_CALLS = re.compile(r"(?<![\w.\\])(?P<name>frac|Rational|pow|power|square|mat|vec)\(")
+_TURNED = {"deg2rad": "*pi/180", "radians": "*pi/180", "rad2deg": "*180/pi", "degrees": "*180/pi"}
+"""What an angle is multiplied with in other units."""
+_CALLS = re.compile(rf"(?<![\w.\\])(?P<name>frac|Rational|pow|power|square|mat|vec|{'|'.join(_TURNED)})\(")
 _SHAPES = {
     "frac": ("((", ")/(", "))"),
     "Rational": ("((", ")/(", "))"),
@@ -98,10 +101,11 @@ _SHAPES = {
     "square": ("((", "", "))^2"),
     "mat": ("[", ",", "]"),
     "vec": ("[", ";", "]"),
+    **{name: ("((", "", f"){factor})") for name, factor in _TURNED.items()},
 }
 """How a call is written in plain text: what opens it, what stands between its arguments, and what closes it."""
 
-_COMMAS = {"frac": 1, "Rational": 1, "pow": 1, "power": 1, "square": 0}
+_COMMAS = {"frac": 1, "Rational": 1, "pow": 1, "power": 1, "square": 0, **dict.fromkeys(_TURNED, 0)}
 
 
 def without_marks_of_latex(written: TracedText) -> TracedText:

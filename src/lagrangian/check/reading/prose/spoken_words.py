@@ -1,5 +1,5 @@
-"""Finds common words that letters of an answer spell, too, and that are no products: z as second coordinate; and
-products of which an answer says that they are some: mga = m·g·a."""
+"""Finds common words that letters of an answer spell, too, and that are no products: z as second coordinate;
+products of which an answer says that they are some: mga = m·g·a; and names of two equal letters: II phi''."""
 
 from __future__ import annotations
 
@@ -14,6 +14,12 @@ _TWO = re.compile(
 )
 """A short word with a longer one behind it, and no sign of mathematics beside them."""
 _SPELLED_OUT = re.compile(r"[ \t]{0,9}[^\W\d_](?:[ \t]?[·*×⋅][ \t]?[^\W\d_]){1,7}(?![ \t]?[\w·*×⋅/^+(-])")
+_DOUBLED = re.compile(
+    r"(?:[-=+*/(,;]|(?<!\w)\d{1,3}|^)[ \t]*+(?P<name>(?P<letter>[A-Za-z])(?P=letter))[ \t]?+"
+    r"(?=[^\W\d]\w{0,23}+(?:['’′″]|[ \t]?+[(\[]))",
+    re.MULTILINE,
+)
+"""A letter twice where a factor stands, in front of a rate or a function: 1/2 II ph'^2."""
 _MOST = 500
 """The most pairs of words that are looked at."""
 
@@ -22,6 +28,11 @@ def spoken_words(text: str, words: Words) -> frozenset[str]:
     """Return the common words in an answer that stand in front of a word and never beside an operator."""
     found = (m for m in islice(_TWO.finditer(text), _MOST) if m["word"].lower() in LINKING - ARTICLES)
     return frozenset(m["word"] for m in found if not words.is_used(m["word"]) and _is_word(m["next"], words))
+
+
+def doubled_letters(text: str) -> dict[str, None]:
+    """Return the names of two equal letters, which programs write for letters that mean something else to them: II."""
+    return {m["name"]: None for m in _DOUBLED.finditer(text) if function_of(m["name"]) is None}
 
 
 def is_spelled_out(text: str, at: int, name: str) -> bool:

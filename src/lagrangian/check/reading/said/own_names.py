@@ -100,8 +100,8 @@ _RELATION = re.compile(
 """A new coordinate, what it is, and its relation to that of the system."""
 _GROUP = re.compile(
     rf"{_NEW}(?P<more>(?:[ \t]{{0,9}}(?:,|and|und)[ \t]{{1,9}}{_NAME}){{1,7}})[ \t\n]{{1,9}}"
-    rf"(?:{_INSTEAD}|for|für|stand[ \t\n]for|stehen[ \t\n]für|denote)[ \t\n]{{1,9}}"
-    r"(?:the[ \t\n](?:[^\W\d_]{3,20}[ \t\n]){1,3})?"
+    rf"(?:{_INSTEAD}|for|für|stand[ \t\n]for|stehen[ \t\n]für|denote|are|sind)[ \t\n]{{1,9}}"
+    r"(?:(?:the|die)[ \t\n](?:[^\W\d_]{3,20}[ \t\n]){1,3})?"
     rf"(?P<own>{_NAME}(?:[ \t]{{0,9}}(?:,|and|und)[ \t]{{1,9}}{_NAME}){{1,7}})(?![\w'’′^(*/+$\\{{=])"
 )
 _ANY = re.compile(rf"(?<![\w\\]){_NAME}(?!\w)")
@@ -273,7 +273,8 @@ def _may_be(new: str, own: str, system: _System) -> bool:
     """Whether one is a letter, perhaps with an index, and the other one name of the system."""
     stem = re.match(r"[^\W\d_]*", key(new))[0]  # type: ignore[index]  # it always matches
     letter = len(re.sub(r"[\d_].*", "", normal(new))) == 1 or stem in SPELLED.values() or bool(system.find(new))
-    letter = letter or (new.isalpha() and len(new) == 2 and new.lower() not in _NO_LETTERS and new[0].isupper())
+    two = new.isalpha() and len(new) == 2 and new.lower() not in _NO_LETTERS
+    letter = letter or (two and (new[0].isupper() or new[0] == new[1]))
     return letter and function_of(new) is None and len(system.find(own)) == 1 and key(new) != key(own)
 
 
