@@ -106,11 +106,18 @@ class WorkChanges:
                 yield _change("arm", 1.5, site, {i: extra}, right, times * right)
 
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
-        """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
+        """The efforts of an element, each with its arm in every equation; one for all components of a vector.
+
+        A force that is given with its arm, F R, is tried as a whole and apart.
+        """
         actions = self.s.actions(element)
         if len(actions) == 1:
             rates = [self.s.expand(bounded.diff(actions[0].rate, v)) for v in self.s.v]
-            yield self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
+            whole, right = self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
+            yield whole, right
+            own = sp.Mul(*[x for x in sp.Mul.make_args(whole) if x in self.lengths])
+            if own != 1 and whole.has(*[u.symbol for u in self.s.model.inputs]):
+                yield whole / own, [bounded.expand(own * r) for r in right]  # F R is a force with its arm
             return
         ring = self.sites.ring
         held = [
