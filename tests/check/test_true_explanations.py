@@ -363,6 +363,8 @@ def test_a_wrong_arm_is_no_second_share_of_a_force(wheel_on_hub: lg.Derivation) 
     assert "twice" not in words and "the factor is R + l; it should be R" in words, words
     words = told(wheel_on_hub, HUB.format(**RIGHT_HUB | {"hub": "4 P R"}))
     assert "is counted twice" in words, words
+    verdict = wheel_on_hub.check(HUB.format(**RIGHT_HUB | {"hub": "P R"}))
+    assert not any("factor" in str(m.what) for m in verdict.alternatives), verdict.to_text()
 
 
 def test_of_the_motion_of_a_centre_only_what_is_missing_is_said_to_be() -> None:

@@ -99,11 +99,16 @@ class WorkChanges:
 
     def _half_or_double(self, effort: sp.Expr, right: sp.Expr, site: Site, i: int) -> Iterator[LocalChange]:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
-        if not right.has(*self.lengths):
+        if not right.has(*self.lengths) or self._is_part(effort, site.element):
             return
         for times in (sp.S.Half, sp.Integer(2)):
             if extra := self._sum(effort * (times - 1) * right):
                 yield _change("arm", 1.5, site, {i: extra}, right, times * right)
+
+    def _is_part(self, effort: sp.Expr, element: Element | None) -> bool:
+        """Whether an effort is a factor of that which an element is given with: half its arm is half of the whole."""
+        actions = self.s.actions(element) if element is not None else ()
+        return len(actions) == 1 and self.s.expand(actions[0].effort) != effort
 
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
         """The efforts of an element, each with its arm in every equation; one for all components of a vector.
