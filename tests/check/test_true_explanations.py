@@ -367,7 +367,9 @@ def test_a_wrong_arm_is_no_second_share_of_a_force(wheel_on_hub: lg.Derivation) 
     assert not any("factor" in str(m.what) for m in verdict.alternatives), verdict.to_text()
 
 
-def test_of_the_motion_of_a_centre_only_what_is_missing_is_said_to_be() -> None:
+@pytest.fixture(scope="module")
+def door() -> lg.Derivation:
+    """A hub with a door on a hinge across its axis."""
     s = lg.System("door")
     p, b = s.coordinates("p b")
     J, m, R, l, A = s.parameters("J m R l A")
@@ -377,8 +379,26 @@ def test_of_the_motion_of_a_centre_only_what_is_missing_is_said_to_be() -> None:
     leaf = s.frame(-b, name="leaf", axis=(0, 1, 0), parent=hub)
     s.kinetic(J * p.diff() ** 2 / 2)
     s.rigid_body(m, inertia=(A, A, A), at=place, frame=leaf, name="leaf")
-    door = s.derive()
-    energy = "T = J/2 p'^2 + m/2 ({}l^2 b'^2) + A/2 (p'^2 + b'^2)"
-    assert door.check(energy.format("(R + l cos b)^2 p'^2 + "), hint=0).right
-    words = told(door, energy.format(""))
+    return s.derive()
+
+
+DOOR = "T = J/2 p'^2 + m/2 ({}l^2 b'^2) + {} + A/2 b'^2"
+MOVES, TURNS = "(R + l cos b)^2 p'^2 + ", "A/2 p'^2"
+
+
+def test_of_the_motion_of_a_centre_only_what_is_missing_is_said_to_be(door: lg.Derivation) -> None:
+    assert door.check(DOOR.format(MOVES, TURNS), hint=0).right
+    words = told(door, DOOR.format("", TURNS))
     assert "½mv²" not in words and "what the swing of that centre with p' adds to J is missing" in words, words
+
+
+def test_of_a_rotation_with_several_rates_one_is_missing(door: lg.Derivation) -> None:
+    words = told(door, DOOR.format(MOVES, "0"))
+    assert words == "What the rotation of rigid body 'leaf' with p' adds to T* is missing.", words
+
+
+def test_a_sine_for_a_cosine_in_a_sum_is_told_with_the_sum(door: lg.Derivation) -> None:
+    words = told(door, DOOR.format(MOVES.replace("cos", "sin"), TURNS))
+    assert words == "In T*, R + l*sin(b) stands in place of R + l*cos(b).", words
+    words = told(door, DOOR.format(MOVES.replace("cos b", "sin(2 b)"), TURNS))
+    assert "l*sin(b) stands" not in words, words
