@@ -120,7 +120,7 @@ def _corrections(mutator: Mutator, parts: list[Any]) -> Iterator[sp.Expr]:
         yield from (2 * t, -2 * t)
     if re.search(r"^ (stands where|should be)", words):
         yield others[0] - t
-    if re.search(r"factor § too much", words):
+    if re.search(r"factor § too much|divisor § is missing", words):
         yield from (t / others[0] - t, t - t * others[0])
     elif re.search(r"factor § is missing|divisor § too much", words):
         yield from (t * others[0] - t, t - t / others[0])

@@ -255,7 +255,7 @@ def test_an_inductance_is_no_lagrangian_in_what_was_read() -> None:
         (
             "dL/dtheta' = J*theta' + m*l*x'*cos(theta)",
             POLE.replace("(J+m*l^2)", "J"),
-            "the term .* is missing. A possible reason: J of .* of its swing is missing",
+            "the term .* is missing. A possible reason: J of .* adds to J is missing",
         ),
         ("d/dt(dL/dx') = (M+m)*x'' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^3",
          CART.replace("theta'^2", "theta'^3"), "there is the factor .*theta.* too much"),

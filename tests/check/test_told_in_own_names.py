@@ -139,3 +139,18 @@ S = tau/a - 2 J_w s''/a^2"""
     assert d.check(answer).right
     (mistake,) = d.check(answer.replace("2 S R", "S R")).mistakes
     assert str(mistake.what) == "In line 2, on the right-hand side, R*S should be 2*R*S."
+
+
+def test_a_rate_that_the_answer_never_writes_is_not_shown() -> None:
+    """d is the factor of φ̈ on a base that rocks as given; nobody wrote ḋ."""
+    s = lg.System("swing")
+    phi = s.coordinates("phi")
+    m, a, J, b, Om = s.parameters("m a J b Omega")
+    d = J + m * a**2 + 2 * m * a * b * sp.cos(Om * s.t)
+    s.kinetic(d * phi.diff() ** 2 / 2)
+    s.potential(m * a * sp.cos(phi))
+    derivation = s.derive()
+    answer = "d = J + m a^2 + 2 m a b cos(Omega t)\nphi'' = (m a sin(phi) + {} m a b Omega sin(Omega t) phi')/d"
+    assert derivation.check(answer.format("2"), hint=0).right
+    told = first(derivation, answer.format(""))
+    assert "counts half" in told and "d'" not in told and "Omega" in told, told

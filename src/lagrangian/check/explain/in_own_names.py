@@ -28,6 +28,8 @@ ALONE = " in one equation alone"
 """What is said of a mistake that one equation alone shows."""
 
 _WORD = re.compile(r"[^\W\d]\w{0,63}")
+_MARKS = ("'", "’", "′", "\u0307", "\u0308")
+"""What makes a rate of the name that stands before it."""
 _APPLIED = r"(?:\(t\)|\[t\]|\{\})?"
 _DIFFERENCE = re.compile(
     rf"[([{{]\s{{0,3}}\\?([^\W\d]\w{{0,63}}+){_APPLIED}\s{{0,3}}[-−–]\s{{0,3}}\\?([^\W\d]\w{{0,63}}+){_APPLIED}\s{{0,3}}[)\]}}]"
@@ -102,13 +104,25 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     named = [OwnName(symbols[x], *values, given=x in of_system) for x, values in found.items() if len(values) == 1]
     named = [x for x in named if x.value.args and 0 < bounded.operations(x.value) <= LONGEST_VALUE]
     named = [x for x in named if not _has_unknown(x.value, symbols.values())]
-    every = [y for x in named for y in (x, *_rates(x))]
+    rated = {name for line in lines for name in _rated_in(line)}
+    every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
 
 
 def names_in(line: AnsweredLine) -> frozenset[str]:
     """The keys of the names that a line has as it is written, or by which it was read."""
     return line.names | {key(undotted(word)[0]) for word in _WORD.findall(line.text)}
+
+
+def _rated_in(line: AnsweredLine) -> Iterator[str]:
+    """The keys of the names whose rate is written in a line, with a dot, a prime or ``dot``."""
+    for m in _WORD.finditer(line.text):
+        base, dots = undotted(m[0])
+        before, after = line.text[max(0, m.start() - 6) : m.start()], line.text[m.end() : m.end() + 4]
+        if dots or after.removeprefix("(t)").startswith(_MARKS) or before.rstrip("{\\ ").endswith("dot"):
+            yield key(base)
+        elif base.endswith("dot"):
+            yield key(base.removesuffix("dot").rstrip("_"))
 
 
 def _moves(expr: sp.Expr) -> bool:

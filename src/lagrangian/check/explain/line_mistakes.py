@@ -84,7 +84,12 @@ def of_line(
     if line.kind == "T" and (level := _up_to_a_constant(pool, values) or _up_to_time(pool, line.expr - right)):
         return level, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
-    found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
+    pairs = vectors.pairs(values)
+    if line.kind == "Xi" and pairs and not unopposed([*found, *pairs], against):
+        opposed = [pool.places[k] for k in against]  # of changes with the same effect on this line, one may be free
+        kept = np.where(np.isin(np.arange(len(change)), opposed)[:, None], 0.0, change)
+        pairs = Vectors(pool, kept).pairs(values) or pairs
+    found = sorted([*found, *pairs], key=lambda e: e.cost)
     own = own_term(pool, line.expr, whole, line.kind, i)
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]

@@ -134,6 +134,9 @@ KINDS: Mapping[str, KindWords] = {
     "divided_by": KindWords(
         "In {site} there is the divisor {written} too much.", "There is a divisor too much in {brief}.", UNITS
     ),
+    "divisor_missing": KindWords(
+        "In {site}, one divisor {written} is missing.", "A divisor is missing in {brief}.", UNITS
+    ),
     "piece_left_out": KindWords("In {site}, the piece {right} is left out.", "Something is left out in {brief}.", WAY),
     "piece_sign": KindWords(
         "In {site}, the piece {right} has the wrong sign.", "There is a wrong sign in {brief}.", WAY

@@ -174,7 +174,7 @@ class Vectors:
                 if (left <= 1e-7 * (np.abs(target) + size)).all():
                     found.append((cost, int(a), int(b)))
         doubt = under.doubt if under is not None else 0.0
-        sure = [(c - _kinship(*t), t) for c, t in self._sure(sorted(found)[:60], r, size)]
+        sure = [(c - _kinship(*t), t) for c, t in self._sure(sorted(found)[:60], r, size) if not _half_changed(*t)]
         return [Explanation(t, c + doubt, under) for c, t in sorted(sure, key=lambda x: x[0])]
 
     def _sure(
@@ -195,6 +195,12 @@ def _plain(pool: Pool) -> tuple[Array, Array, Array]:
     every = [(k, t) for k, possible in enumerate(pool.all) for t in PLAIN if possible.takes(t)]
     odd = [_oddness(t, pool.all[k]) for k, t in every]
     return np.array([k for k, _ in every], int), np.array([float(t) for _, t in every]), np.array(odd)
+
+
+def _half_changed(one: Told, other: Told) -> bool:
+    """Whether an element is counted twice, and changed in one of both: P s beside P R is one term P s too much."""
+    same = one.mistake.element is not None and one.mistake.element == other.mistake.element
+    return same and "element_twice" in (one.mistake.name, other.mistake.name)
 
 
 def _kinship(one: Told, other: Told) -> float:

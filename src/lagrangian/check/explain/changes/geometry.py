@@ -260,14 +260,22 @@ class GeometryChanges:
     def _quoted(self, bodies: Sequence[Any], v: Any, w: Any, sign: int) -> tuple[sp.Expr, sp.Expr]:
         """What belongs there and what stands there where ξ̇_i + g ξ̇_j is put in place of ξ̇_i, with g = ±1.
 
-        In a·(ξ̇_i − g ξ̇_j) that leaves a·ξ̇_i: ż stands where ẋ − ż belongs. Where it does so in every speed and every
-        angular velocity that holds ξ̇_i, these are quoted; otherwise ξ̇_i and what was put in its place.
+        In a·(ξ̇_i − g ξ̇_j) that leaves a·ξ̇_i: ż stands where ẋ − ż belongs. Where all speeds and angular velocities that
+        hold ξ̇_i have the same multiple of ξ̇_j beside it, and T* of what is no body as well, this is quoted with it;
+        otherwise ξ̇_i and what was put in its place.
         """
         speeds = [x for b in bodies for x in (*self.s.velocity(b), *self.s.omega(b)) if x.has(v)]
-        if not speeds or any(bounded.expand(bounded.diff(x, w) + sign * bounded.diff(x, v)) != 0 for x in speeds):
-            return v, v + sign * w
-        backwards = all(bounded.diff(x, v).could_extract_minus_sign() for x in speeds)
-        return (sign * w - v if backwards else v - sign * w), v
+        pairs = [(bounded.diff(x, w), bounded.diff(x, v)) for x in speeds]
+        energies = [x for e in self.sites.others if (x := self.s.kinetic(e)).has(v)] if bodies is self.s.bodies else []
+        pairs += [(bounded.diff(x, v, w), bounded.diff(x, v, v)) for x in energies]
+        first_by_w, first_by_v = pairs[0] if pairs else (sp.S.Zero, v)
+        held = bounded.cancel(first_by_w / first_by_v) if first_by_v != 0 else sp.S.Zero
+        if not held.is_Rational or any(bounded.expand(by_w - held * by_v) != 0 for by_w, by_v in pairs):
+            held = sp.S.Zero
+        backwards = (
+            held == -sign and bool(speeds) and all(x.could_extract_minus_sign() for _, x in pairs[: len(speeds)])
+        )
+        return (sign * w - v if backwards else v + held * w), v + (held + sign) * w
 
     def _turning(self, b: Any) -> Iterator[LocalChange]:
         """Another angular velocity; m L² in place of J; an inertia where there is none."""

@@ -305,12 +305,15 @@ class LetterChanges:
             yield from self._divisors(site)
             for p in (*self.lengths, *self.ratios):
                 a = self.ring.atom(p)
-                held = min((dict(m).get(a, 0) for s in site.sums() for m in s), default=0)
+                powers = [dict(m).get(a, 0) for s in site.sums() for m in s]
+                held, most = min(powers, default=0), max(powers, default=0)
                 for e in (1, -1, 2, -2):
                     effect = site.changed(lambda s, by=((a, e),): {product([m, by]): c for m, c in s.items()})
                     cost = (1.9 if abs(e) == 1 else 2.2) + site.surcharge
                     yield LocalChange(
-                        kind="foreign_factor" if e > 0 else "factor_missing" if held >= -e else "divided_by",
+                        kind=("divisor_missing" if most <= -e else "foreign_factor")
+                        if e > 0
+                        else ("factor_missing" if held >= -e else "divided_by"),
                         cost=cost,
                         site=site,
                         effect=effect,

@@ -11,6 +11,7 @@ from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.ring import Sum, TooLong, minus
 from lagrangian.check.explain.changes.sites import Sites
+from lagrangian.check.explain.misconceptions.base import partner
 from lagrangian.model import time
 from lagrangian.page.formula import Name
 
@@ -29,7 +30,7 @@ class SumChanges:
         self.T, self.V = cast("sp.Expr", sp.sympify(d.T)), cast("sp.Expr", sp.sympify(d.V))
 
     def changes(self) -> Iterator[LocalChange]:
-        """A summand left out or with the wrong sign, in T*, in V, and in both."""
+        """A summand left out, with the wrong sign, or with sine for cosine, in T*, in V, and in both."""
         everywhere: Words = ("the whole derivation",)
         for whole in self._sums():
             in_T, in_V = self.T.has(whole), self.V.has(whole)
@@ -86,3 +87,7 @@ def _instead(whole: sp.Expr) -> Iterator[tuple[sp.Expr, float]]:
         yield cast("sp.Expr", whole - part), 1.45
         if part != sp.Add.make_args(whole)[0]:
             yield cast("sp.Expr", whole - 2 * part), 1.75
+        turned = part.atoms(sp.sin, sp.cos)
+        if len(turned) == 1:
+            [f] = turned
+            yield cast("sp.Expr", whole - part + part.xreplace({f: partner(cast("sp.Expr", f))})), 1.6

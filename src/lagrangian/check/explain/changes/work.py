@@ -99,18 +99,30 @@ class WorkChanges:
 
     def _half_or_double(self, effort: sp.Expr, right: sp.Expr, site: Site, i: int) -> Iterator[LocalChange]:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
-        if not right.has(*self.lengths):
+        if not right.has(*self.lengths) or self._is_part(effort, site.element):
             return
         for times in (sp.S.Half, sp.Integer(2)):
             if extra := self._sum(effort * (times - 1) * right):
                 yield _change("arm", 1.5, site, {i: extra}, right, times * right)
 
+    def _is_part(self, effort: sp.Expr, element: Element | None) -> bool:
+        """Whether an effort is a factor of that which an element is given with: half its arm is half of the whole."""
+        actions = self.s.actions(element) if element is not None else ()
+        return len(actions) == 1 and self.s.expand(actions[0].effort) != effort
+
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
-        """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
+        """The efforts of an element, each with its arm in every equation; one for all components of a vector.
+
+        A force that is given with its arm, F R, is tried as a whole and apart.
+        """
         actions = self.s.actions(element)
         if len(actions) == 1:
             rates = [self.s.expand(bounded.diff(actions[0].rate, v)) for v in self.s.v]
-            yield self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
+            whole, right = self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
+            yield whole, right
+            own = sp.Mul(*[x for x in sp.Mul.make_args(whole) if x in self.lengths])
+            if own != 1 and whole.has(*[u.symbol for u in self.s.model.inputs]):
+                yield whole / own, [bounded.expand(own * r) for r in right]  # F R is a force with its arm
             return
         ring = self.sites.ring
         held = [

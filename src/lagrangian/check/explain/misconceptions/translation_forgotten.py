@@ -23,5 +23,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 turned = any(w.has(v) for w in s.omega(body))
                 own = s.coupling(body, j, j)[0] * v**2 / 2
                 if turned and own not in (0, s.translation(body)):
-                    what = text(f"J of {body.title} is about its centre of mass: the ½mv² of its swing is missing.")
+                    what = text(
+                        f"J of {body.title} is about its centre of mass: what the swing of that centre with ",
+                        v,
+                        " adds to J is missing.",
+                    )
                     yield Variant(what=what, T=-own, element=body)
