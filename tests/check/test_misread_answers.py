@@ -182,6 +182,28 @@ end
     assert any("the loop in line 8 adds to it" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.parametrize(
+    "energy",
+    [
+        "T = 0;\nfor i = 1:2\nT = T + m(i)*v(i)^2/2;\nend\nT = 9*M*x'^2",
+        "for the record\nT = T + 0\nT = 5 M x'^2",
+        "for the record\nT = T + m\nT = 5 M x'^2",
+        "while x grows\nV = V + 0\nV = 99 M g x",
+        "V = 99 M g x\nwhile x grows\nV = V + m",
+        "T = 5 M x'^2\nfor i = 1:2\nT = T + 0\nend",
+        "for i in range(2):\n    T = T + m*v[i]**2/2\nT = 9*M*x'^2",
+    ],
+)
+def test_an_energy_beside_a_loop_that_does_not_give_it_is_judged(energy: str) -> None:
+    assert not derivation("cart-pole").check(f"{energy}\n{CART_POLE}").right
+
+
+def test_every_line_of_an_energy_in_a_loop_is_told() -> None:
+    text = "T = 0;\nfor i = 1:2\nT = T + m(i)*v(i)^2/2;\nend\nT = T + J;\n"
+    notes = [str(x) for x in derivation("cart-pole").check(text + CART_POLE).notes]
+    assert sum("the loop in line 3 adds to it" in x for x in notes) == 3
+
+
 def test_an_element_without_a_name_is_called_by_its_letters() -> None:
     s = System("drum")
     phi = s.coordinates("phi")
