@@ -226,6 +226,15 @@ def test_a_spring_force_is_no_kinetic_energy() -> None:
     assert any(f.line.kind in ("T", "L") and not f.status.right for f in energy.findings)
 
 
+def test_a_kinetic_energy_without_its_dots_is_no_force() -> None:
+    for wrong in ("K = 1/2 (M + m) x^2", "K = 1/2 M x + 1/2 m x", "R = 1/2 b x^2"):
+        assert not derivation("cart-pole").check(f"{wrong}\n{CART_POLE}").right
+    assert not derivation("cart-pole").check("K = 1/2 (M + m) x^2\nV = m g l cos(theta)").right
+    used = "K = -m g l sin(theta)\n" + CART_POLE.replace("- m g l sin(theta)", "+ K")
+    assert derivation("cart-pole").check(used).right
+    assert not derivation("cart-pole").check(used.replace("K = -m", "K = m")).right
+
+
 def test_what_turns_with_a_body_may_be_in_its_energy() -> None:
     s = System("rack")
     x = s.coordinates("x")

@@ -117,7 +117,7 @@ class _Parts:
         """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
         """Of each energy, the rows of its list: where each begins, the letter in it, and its name."""
-        self.inertias = {b.name: _letters(b) for b in model.bodies}
+        self.inertias = {b.name: inertia_letters(b) for b in model.bodies}
 
     def named(self, line: re.Match[str]) -> Iterator[Edit]:
         """What is put into a line so that the energies of parts in it have names."""
@@ -309,7 +309,7 @@ def _is_kinetic(value: str) -> bool:
     return _RATE.search(plain) is not None and _SQUARE.search(plain) is not None
 
 
-def _letters(body: Body) -> frozenset[str]:
+def inertia_letters(body: Body) -> frozenset[str]:
     """The letters of the mass and the moments of inertia of a body."""
     listed = [body.mass, *(body.inertia.flat() if isinstance(body, RigidBody) else ())]
     return frozenset(key(str(x)) for expr in listed for x in sp.sympify(expr).free_symbols)
