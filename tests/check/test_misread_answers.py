@@ -9,6 +9,7 @@ from functools import cache
 import pytest
 import sympy as sp
 
+from built_in import derivation
 from lagrangian import Derivation, System
 
 
@@ -95,10 +96,36 @@ def test_energies_behind_names_in_a_list_are_parts() -> None:
     assert all(f.status.right for f in verdict.findings)
     wrong = slider().check(LIST.format(bobs="m*(x'^2 + l*alpha'^2)") + ROWS.format(a="alpha").replace("m*l^2", "m*l"))
     assert not wrong.right
-    assert not any(f.line.kind == "T" for f in wrong.findings)
+    assert [f.status.right for f in wrong.findings if f.line.kind == "T"] == [False]  # their sum
     assert not any("missing" in str(x.what) for x in wrong.mistakes[:1])
     whole = slider().check("system T = 1/2*M*x'^2\nV = 1/2*k*x^2\n" + ROWS.format(a="alpha"))
     assert any(f.line.kind == "T" and not f.status.right for f in whole.findings)
+
+
+CART_POLE = """(M+m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F
+(J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0
+"""
+WHOLE = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2\n"
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "trolley V = 99 M g x\nbob V = 77 m g theta\n" + WHOLE + "Q_x = F - b x'",
+        "cart V = 99 M g x\npole V = 77 m g theta\n" + CART_POLE,
+        "first row T = 1/2 M x'^2\nsecond row T = 1/2 m x'^2\n" + CART_POLE,
+        "trolley T = 1/2 M x'^2\nbob T = 1/2 m x'^2\n" + CART_POLE,
+    ],
+)
+def test_the_sum_of_energies_in_a_list_that_nothing_uses_is_judged(rows: str) -> None:
+    assert not derivation("cart-pole").check(rows).right
+
+
+def test_a_right_list_of_energies_is_right() -> None:
+    bob = "1/2 m (x'^2 + 2 l x' theta' cos(theta) + l^2 theta'^2) + 1/2 J theta'^2"
+    rows = f"trolley T = 1/2 M x'^2\nbob T = {bob}\n"
+    assert derivation("cart-pole").check(rows + CART_POLE).right
+    assert derivation("cart-pole").check(rows + "T = T_trolley + T_bob\n" + CART_POLE).right
 
 
 def test_numbers_of_energies_may_count_parts_of_the_answers_own() -> None:
@@ -155,6 +182,28 @@ end
     assert any("the loop in line 8 adds to it" in str(note) for note in verdict.notes)
 
 
+@pytest.mark.parametrize(
+    "energy",
+    [
+        "T = 0;\nfor i = 1:2\nT = T + m(i)*v(i)^2/2;\nend\nT = 9*M*x'^2",
+        "for the record\nT = T + 0\nT = 5 M x'^2",
+        "for the record\nT = T + m\nT = 5 M x'^2",
+        "while x grows\nV = V + 0\nV = 99 M g x",
+        "V = 99 M g x\nwhile x grows\nV = V + m",
+        "T = 5 M x'^2\nfor i = 1:2\nT = T + 0\nend",
+        "for i in range(2):\n    T = T + m*v[i]**2/2\nT = 9*M*x'^2",
+    ],
+)
+def test_an_energy_beside_a_loop_that_does_not_give_it_is_judged(energy: str) -> None:
+    assert not derivation("cart-pole").check(f"{energy}\n{CART_POLE}").right
+
+
+def test_every_line_of_an_energy_in_a_loop_is_told() -> None:
+    text = "T = 0;\nfor i = 1:2\nT = T + m(i)*v(i)^2/2;\nend\nT = T + J;\n"
+    notes = [str(x) for x in derivation("cart-pole").check(text + CART_POLE).notes]
+    assert sum("the loop in line 3 adds to it" in x for x in notes) == 3
+
+
 def test_an_element_without_a_name_is_called_by_its_letters() -> None:
     s = System("drum")
     phi = s.coordinates("phi")
@@ -175,6 +224,15 @@ def test_a_spring_force_is_no_kinetic_energy() -> None:
     assert not any(f.line.kind == "T" for f in verdict.findings)
     energy = slider().check("K = 1/2*M*x^2\nV = 1/2*k*x^2\nL = K - V\n" + ROWS.format(a="alpha"))
     assert any(f.line.kind in ("T", "L") and not f.status.right for f in energy.findings)
+
+
+def test_a_kinetic_energy_without_its_dots_is_no_force() -> None:
+    for wrong in ("K = 1/2 (M + m) x^2", "K = 1/2 M x + 1/2 m x", "R = 1/2 b x^2"):
+        assert not derivation("cart-pole").check(f"{wrong}\n{CART_POLE}").right
+    assert not derivation("cart-pole").check("K = 1/2 (M + m) x^2\nV = m g l cos(theta)").right
+    used = "K = -m g l sin(theta)\n" + CART_POLE.replace("- m g l sin(theta)", "+ K")
+    assert derivation("cart-pole").check(used).right
+    assert not derivation("cart-pole").check(used.replace("K = -m", "K = m")).right
 
 
 def test_what_turns_with_a_body_may_be_in_its_energy() -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import sympy as sp
@@ -66,6 +66,13 @@ _LISTED = re.compile(
     r"(?P<label>[^\W\d_][\w-]{2,20}(?:[ ][\w-]{1,20}){0,3}?)[ \t]?:?[ \t]++(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])"
 )
 """An energy behind the name of what has it: flyer  T = 1/2 J phi'^2."""
+_WHOLE = re.compile(
+    r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?(?:(?:total|whole|all|sum|system|gesamt)[ \t]?:?[ \t]++)?"
+    r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])",
+    re.IGNORECASE,
+)
+"""A line that states the energy of the whole."""
+_INDEXED = re.compile(r"[TVU]_?\{?[^\W_]{1,40}\}?")
 _LATEX = re.compile(r"\\[A-Za-z(\[]|\$")
 _DEFINED = re.compile(r"([^\W\d]\w{0,24})[ \t]*+(?:(?:²|\^2)[ \t]*+)?=(?![=>])")
 _CELL = re.compile(r"\|")
@@ -77,14 +84,16 @@ def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[s
     """Return an answer in which such energies have a name: that of the body, or the first word in front of it.
 
     ``taken`` tells whether the system has a name. A T = … behind the name of one body, which has no mass or moment of
-    inertia of another, is the energy of this body; in a list of such rows, each is that of what stands in front of it.
+    inertia of another, is the energy of this body; in a list of such rows, each is that of what stands in front of it,
+    and a line above them says that the whole is their sum, where the answer neither states it nor uses their names.
     """
     lines = list(re.finditer(r"[^\n]+", written.text))
     own = {key(m[1]) for m in _DEFINED.finditer(written.text)}
     latex = _LATEX.search(written.text) is not None
     parts = _Parts(model, lambda x: taken(x) or key(x) in own, own, latex=latex)
     parts.listed = parts.rows_of_parts(line.group() for line in lines)
-    return written.edited(edit for line in lines for edit in parts.named(line))
+    named = [edit for line in lines for edit in parts.named(line)]
+    return written.edited([*parts.sums(lines), *named])
 
 
 @dataclass(frozen=True)
@@ -106,7 +115,9 @@ class _Parts:
         self.body, self.indent = "", 0
         self.listed = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
-        self.inertias = {b.name: _letters(b) for b in model.bodies}
+        self.summands = dict[str, list[tuple[int, str, str]]]()
+        """Of each energy, the rows of its list: where each begins, the letter in it, and its name."""
+        self.inertias = {b.name: inertia_letters(b) for b in model.bodies}
 
     def named(self, line: re.Match[str]) -> Iterator[Edit]:
         """What is put into a line so that the energies of parts in it have names."""
@@ -119,7 +130,9 @@ class _Parts:
         self.columns = []
         if text in self.listed and (row := _LISTED.match(text)) is not None:
             kind = "T" if row["letter"][0] == "T" else "V"
-            yield at + row.start("label"), at + row.end("letter"), self._name(kind, row["label"])
+            name = self._name(kind, row["label"])
+            self.summands.setdefault(kind, []).append((at, row["letter"], name))
+            yield at + row.start("label"), at + row.end("letter"), name
         elif (stated := self._of_body(text)) is not None:
             yield (at + stated[0], at + stated[1], stated[2])
         elif not self.latex and (found := self._in_list(text)) is not None:
@@ -245,6 +258,18 @@ class _Parts:
             rows.update(parts if len(parts) == len(listed) == len(labels) > 1 else ())
         return frozenset(rows)
 
+    def sums(self, lines: Sequence[re.Match[str]]) -> Iterator[Edit]:
+        """Lines above such rows that say what the whole is, where no other line states it or has the name of a row."""
+        others = [x.group() for x in lines if x.group() not in self.listed]
+        used = {_spelling(m.group()) for text in others for m in _INDEXED.finditer(text)}
+        stated = [m["letter"][0] for x in others if (m := _WHOLE.match(x)) is not None]
+        whole = {"T" if x == "T" else "V" for x in stated}
+        for kind, rows in self.summands.items():
+            names = list(dict.fromkeys(name for _, _, name in rows))
+            if kind not in whole and not used & set(map(_spelling, names)):
+                at, letter, _ = rows[0]
+                yield at, at, f"{letter} = {' + '.join(names)}\n"
+
     # -- names -----------------------------------------------------------------------------------------------------
 
     def _name(self, kind: str, label: str) -> str:
@@ -268,6 +293,11 @@ class _Parts:
 _GREEK = frozenset(x.lower() for x in SPELLED.values()) | frozenset(SPELLED.values())
 
 
+def _spelling(name: str) -> str:
+    """The common form of a name with an index, in LaTeX or not."""
+    return key(name.replace("{", "").replace("}", "")).lower()
+
+
 def _heading(text: str) -> str | None:
     """The energy that a heading announces; None if it is no such heading."""
     found = [k for k in _KINDS if _OF_KIND[k].search(text) or _ALONE[k].match(text)]
@@ -279,7 +309,7 @@ def _is_kinetic(value: str) -> bool:
     return _RATE.search(plain) is not None and _SQUARE.search(plain) is not None
 
 
-def _letters(body: Body) -> frozenset[str]:
+def inertia_letters(body: Body) -> frozenset[str]:
     """The letters of the mass and the moments of inertia of a body."""
     listed = [body.mass, *(body.inertia.flat() if isinstance(body, RigidBody) else ())]
     return frozenset(key(str(x)) for expr in listed for x in sp.sympify(expr).free_symbols)

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from lark import Token, Tree
 
+from lagrangian.check.reading.energy_parts import inertia_letters
 from lagrangian.check.reading.names import names_in
 from lagrangian.check.reading.nodes import only_name
 from lagrangian.check.reading.stated import energy_of
@@ -20,7 +21,8 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
     These are T and D without any rate, V and L of constants alone, if an equation of motion uses them, and a D of
     positions if any line does; and those that an equation with accelerations uses alone, or whose rate the answer
     forms: D = m r^2 theta', dD/dt = 0. P is a power if rates stand in its value, P = F x' - b theta'^2, and K and R are
-    forces if there are none: K = k (x - u).
+    forces if there are none, K = k (x - u), and an equation of motion uses them, or neither a square nor an inertia is
+    in them.
     """
     names, model = subjects.names, subjects.model
     moving = [any(map(subjects.moves, sides)) for sides in statements]
@@ -38,7 +40,11 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
             found.add("P")
         if moving[k]:
             continue
+        listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
+        others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
+        used = {str(x) for s in others for side in s for x, changing in names_in(side) if not changing}
         known = str(named[0]) in ("K", "R") and listed and all(names.scope.meanings(x)[0] for x in listed)
+        known = known and (str(named[0]) in used or not _may_be_kinetic(sides[1:], listed, subjects))
         if known and not any(_is_energy(x, s, str(named[0]), model) for x, s in zip(first, statements, strict=True)):
             found.add(str(named[0]))  # the force of a spring, K = k (x - l sin θ), of which every name has a value
         meant = [name for x in listed for name in names.scope.meanings(x)[0]]
@@ -50,9 +56,6 @@ def own_letters(statements: Sequence[Sequence[Tree]], subjects: Subjects) -> fro
         renamed = other is not None and not other[1] and bool(names.scope.meanings(other[0])[0])  # U = u, a voltage
         if kind in ("V", "L") and not renamed and any(names.changes(x) or key(x) in given for x in listed):
             continue
-        listing = zip(statements, first, moving, strict=True)  # T = …, T = … states an energy twice
-        others = [s[1:] if x == named else s for s, x, moved in listing if moved and s is not sides]
-        used = (str(x) for s in others for side in s for x, changing in names_in(side) if not changing)
         if str(named[0]) in used and all(
             names.scope.meanings(x)[0] or key(x) in given or names.changes(x) for x in listed
         ):
@@ -64,6 +67,13 @@ def _is_energy(named: tuple[Token, int] | None, sides: Sequence[Tree], letter: s
     """Whether a statement of an energy, L = K - V, holds a letter."""
     stated = named is not None and energy_of(named[0], model, lhs=True) is not None
     return stated and any(str(x) == letter for side in sides[1:] for x, _ in names_in(side))
+
+
+def _may_be_kinetic(sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects) -> bool:
+    """Whether a square or an inertia stands in a value, as in an energy without its dots: K = 1/2 (M + m) x^2."""
+    heavy = {x for body in subjects.model.bodies for x in inertia_letters(body)}
+    meant = {key(name) for x in listed for name in subjects.names.scope.meanings(x)[0]}
+    return any(map(_squares, sides)) or bool(heavy & meant)
 
 
 def _used_as_names(
