@@ -41,6 +41,10 @@ ANSWERS = {
     "blanks behind an equation": "m = 1" + BLANK + "y",
     "newlines": "\n" * N + "y",
     "sentences that take back": "x1'' = 0\n" + "I first had = " * (N // 14),
+    "sentences on one line": "Abc def. " * (N // 9) + "\nx1'' = 0",
+    "calls that do not end": "x1'' = 0\n"
+    + "".join(f"E{i}[q_] := D[q,t]\n" for i in range(60))
+    + "E1[E2[E3[" * (N // 12),
     "functions that differentiate": "x1'' = 0\n" + "f[q_] := D[f[q]];\n" * (N // 18),
     "blanks in front": BLANK + "y",
     "blanks behind a label": "cart:" + BLANK + "1/2 m1 x1'^2",

@@ -5,12 +5,14 @@ differs in one term and stays wrong.
 """
 
 from functools import cache
+from typing import Any, cast
 
 import pytest
 import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, System
+from lagrangian.check.reading.plain.rows import AnswerRow, pieces
 
 
 @cache
@@ -248,3 +250,8 @@ def test_what_turns_with_a_body_may_be_in_its_energy() -> None:
     assert [f.status.right for f in found] == [True, False] or len(found) == 1
     wrong = s.derive().check(answer.replace("1/2*(M + J/R^2)", "1/2*(M + 2*J/R^2)")).findings
     assert not any(f.status.right for f in wrong)
+
+
+def test_a_row_of_remarks_alone_has_no_pieces() -> None:
+    row = AnswerRow(0, "Equation (with drum), Equation (with cart)")
+    assert pieces(row, ",", words=cast("Any", object())) == []

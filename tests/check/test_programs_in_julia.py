@@ -154,3 +154,18 @@ def test_a_function_of_time_alone_is_the_input_that_a_program_does_not_name(exam
     assert not pole.check(program.replace("push(t) - b", "push(t) + b")).right
     assert not pole.check(program.replace("push(t) - b", "2*push(t) - b")).right
     assert not pole.check(program.replace("push(t) - b", "push(t)^2 - b")).right
+
+
+def test_one_function_of_time_whose_name_may_be_a_force_is_the_input_with_a_note() -> None:
+    pole = derivation("cart-pole")
+    said = "'push(t)' was read as F, with the value that you give it."
+    program = "push(t) = 5.0\n" + IN_PLACE.replace("F(t)", "push(t)")
+    assert said in pole.check(program).to_text()
+    for name in ("damping", "height", "friction"):
+        assert not pole.check(program.replace("push", name), hint=0).right
+        assert not pole.check(program.replace("push", name).replace("= 5.0", "= 8 + 2sin(3t)"), hint=0).right
+    assert not pole.check(program.replace("push", "offset"), hint=0).right
+    two = "motor(t) = 3.0\n" + program
+    assert pole.check(two, hint=0).right
+    assert not pole.check(two.replace("push(t) - b", "push(t) + motor(t) - b"), hint=0).right
+    assert not pole.check(two.replace("push(t) - b", "push(t) - b").replace("m*g*l", "motor(t) + m*g*l"), hint=0).right

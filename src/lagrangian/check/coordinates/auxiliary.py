@@ -30,8 +30,8 @@ MOST, LONGEST = 8, 80
 """The largest number of such names, and of operations of a line that determines one."""
 _RATE = re.compile(r"(.{1,24})['’′]|([^\u0307]\u0307.{0,24})|\\dot(?![a-z])(.{1,24})|d(.{1,24})/ ?dt|(.{1,24}?)_?dot")
 """The left side of a line that is the rate of a name."""
-_SPEEDS = ("omega", "Omega", "w", "v")
-"""What names of speeds begin with."""
+_SPEED = re.compile(r"(?:v|w|[oO]mega)(?:_?\w{1,2})?")
+"""The name of a speed, which may have an index."""
 _SET = re.compile(r"[\s\\{}$\u0307]")
 
 
@@ -43,7 +43,7 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     found = {x for line in lines for x in line.expr.atoms(AppliedUndef) if x.args == (time,)}
     known = truth.names | {d.symbol for d in truth.model.definitions}
     unknown: set[Any] = {x for x in found if x not in known and not is_placeholder(x)}
-    unknown |= {x for line in lines for x in line.expr.free_symbols - known if key(str(x)).startswith(_SPEEDS)}
+    unknown |= {x for line in lines for x in line.expr.free_symbols - known if _SPEED.fullmatch(key(str(x)))}
     out = list(lines)
     if truth.derivation.multipliers or len(unknown) > MOST:
         return tuple(out)
@@ -89,12 +89,12 @@ def _determined(lines: Sequence[AnsweredLine], k: int, unknown: set[Any]) -> tup
         return None
     name: Any = inside.pop()
     others = [x.expr for j, x in enumerate(lines) if j != k]
-    if name.is_Symbol:
-        value = _solved(line.expr, name) if rates else None
-        return None if value is None or any(d.derivative_count > 1 for d in rates) else (k, name, value)
     used = any(x.has(name) for x in others) or any(_rated(x, name) for x in lines)
     if any(d.derivative_count > 1 for d in rates) or not used:
         return None
+    if name.is_Symbol:
+        value = _solved(line.expr, name) if rates else None
+        return None if value is None else (k, name, value)
     rate = sp.Derivative(name, time)
     if rate not in rates:
         value = _solved(line.expr, name)

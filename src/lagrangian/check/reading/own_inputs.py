@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -10,6 +11,29 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.model import Model
 from lagrangian.model.names import time
+
+_DRIVES = re.compile(
+    r"force|torque|thrust|motor|driv|input|push|pull|actuat|control|excit|kraft|antrieb|eingang|moteur|couple|entrada"
+    r"|\A(?:f|u|m|q|tau)(?:_?\w{1,2})?\Z",
+    re.IGNORECASE,
+)
+"""Names of forces, torques, motors and inputs."""
+_ELSE = re.compile(
+    r"damp|fric|drag|viscous|spring|stiff|grav|weight|mass|inerti|brak|loss|angle|length|height|radius|distance"
+    r"|reib|dämpf|daempf|feder|länge|winkel|gewicht|frein|amort|ressort",
+    re.IGNORECASE,
+)
+"""Names that mean something else."""
+
+
+def may_drive(name: str, *, constant: bool) -> bool:
+    """Whether a name may be that of an input; one with a constant value must say so."""
+    return _ELSE.search(name) is None and (not constant or _DRIVES.search(name) is not None)
+
+
+def told(written: str, name: str) -> str:
+    """The note on a name that was read as an input."""
+    return f"'{written}' was read as {name}, with the value that you give it."
 
 
 class OwnInputs:
@@ -32,5 +56,5 @@ class OwnInputs:
         self.asked = True
         if not self.put:
             return value
-        notes.setdefault(f"'{written}' was read as {free[0].name}, with the value that you give it.")
+        notes.setdefault(told(written, free[0].name))
         return free[0].symbol

@@ -116,7 +116,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
             if program.bare == program.text:
                 raise
             found, notes = _declared(program.bare, model, place), (CARRIED_OUT, COMMENTS_LEFT_OUT)
-        return replace(found, notes=(*notes, *found.notes), program=True)
+        return replace(found, notes=(*notes, *program.notes, *found.notes), program=True)
 
     typed: Answer | ParseError
     try:

@@ -12,7 +12,7 @@ _SHORT = {
     "epsilon": ("eps", "ep"),
     "theta": ("th", "tht", "thet"),
     "phi": ("ph", "fi"),
-    "alpha": ("al", "alp", "alph", "alfa", "alf"),
+    "alpha": ("alp", "alph", "alfa", "alf"),
     "beta": ("bet",),
     "gamma": ("gam", "gamm"),
     "delta": ("delt",),

@@ -33,6 +33,7 @@ from lagrangian.check.reading.carried_out.values import (
     number,
     scalar,
 )
+from lagrangian.check.reading.own_inputs import may_drive
 from lagrangian.errors import Error
 from lagrangian.records import dataclass, field
 
@@ -48,6 +49,8 @@ class Interpreter(Evaluator):
     """The values of the parameters of the system that a program does not name."""
     driven: str | None = None
     """The one input of the system that a program does not name."""
+    drives: str | None = None
+    """The function of the program that is this input."""
 
     def run(self, tree: ast.Module, given: dict[str, Value]) -> dict[str, Value]:
         """Carry out a whole program, with names that are ``given``; return its names."""
@@ -57,10 +60,15 @@ class Interpreter(Evaluator):
         return names
 
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
-        """The value of a function of the program; one of time alone is the input that has no name, motor(t)."""
+        """The value of a function of the program; one of time alone may be the input that has no name, motor(t)."""
         value = Evaluator.function(self, of, given, called)
-        alone = self.driven is not None and list(given) == [TIME] and is_scalar(value)
-        return sp.Symbol(self.driven) if alone and set(scalar(value).free_symbols) <= {TIME} else value
+        if self.driven is None or not called or list(given) != [TIME] or not is_scalar(value):
+            return value
+        name, letters = of.name or called, set(scalar(value).free_symbols)
+        if not letters <= {TIME} or not may_drive(name, constant=not letters) or self.drives not in (None, name):
+            return value
+        self.drives = name
+        return sp.Symbol(self.driven)
 
     # -- statements --------------------------------------------------------------------------------------------------
 

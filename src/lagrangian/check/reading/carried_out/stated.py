@@ -38,6 +38,7 @@ from lagrangian.check.reading.carried_out.values import (
     scalar,
 )
 from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.read.scope import Scope
@@ -86,6 +87,7 @@ class CarriedOut:
     text: str
     """With the comments that hold accelerations, as they are."""
     bare: str
+    notes: tuple[str, ...] = ()
 
 
 def carried_out(text: str, model: Model) -> CarriedOut | None:
@@ -123,8 +125,8 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
             found += _of_states(run, names, reader, loose)
         found += [(one.line, f"{called} = {written(one.value)}") for one, called in other_rates(run)]
         if not any(_ACCELERATES.search(x) for _, x in found):
-            told = equations_in_comments(run, names, reader)
-            found += [(line, f"{written(x)} = 0") for line, entries in told for x in entries]
+            in_comments = equations_in_comments(run, names, reader)
+            found += [(line, f"{written(x)} = 0") for line, entries in in_comments for x in entries]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):
@@ -136,7 +138,8 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
     said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
-    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found))
+    notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
+    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import islice
 
 OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 """The end of a line that must go on."""
@@ -12,6 +13,8 @@ _STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 
 FEWEST_WORDS = 2
 """The fewest words that make a sentence of what has no equals sign."""
+NEAR = 60
+"""The characters before a point among which these words stand."""
 _LONG_WORD = re.compile(r"[^\W\d_]{3,}")
 NAME_NEXT = re.compile(r"[ \t]*+[^\W\d]\w{0,23}+['’′″]{0,2}[ \t]*+=(?![=>])")
 """A name that gets a value."""
@@ -41,5 +44,7 @@ def open_brackets(text: str) -> int:
 
 def defines_behind(text: str, first: int, stop: tuple[int, int]) -> bool:
     """Whether a sentence ends at a point, and a name gets a value behind it: the force N in y. s = sin(alpha)."""
-    spoken = len(_LONG_WORD.findall(text, first, stop[0])) >= FEWEST_WORDS
-    return spoken and NAME_NEXT.match(text, stop[1]) is not None
+    if NAME_NEXT.match(text, stop[1]) is None:
+        return False
+    words = islice(_LONG_WORD.finditer(text, max(first, stop[0] - NEAR), stop[0]), FEWEST_WORDS)
+    return sum(1 for _ in words) == FEWEST_WORDS

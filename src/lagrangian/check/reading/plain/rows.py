@@ -241,7 +241,7 @@ def _separated(text: str, labelled: Callable[[str], bool], words: Words) -> str:
                 letters[match.start()] = ";"
         elif depth <= 0 and match["stop"]:
             first = text.rfind("\n", 0, match.start()) + 1
-            if "=" in text[first : match.start()] or defines_behind(text, first, match.span("stop")):
+            if text.find("=", first, match.start()) >= 0 or defines_behind(text, first, match.span("stop")):
                 letters[match.start("stop")] = ";"
         elif match["column"]:
             if depth <= 0 and _beside(text, match.start(), match.end()):
@@ -391,7 +391,7 @@ def pieces(row: AnswerRow, separators: str, *, always: bool = False, words: Word
         said = partial(says_nothing, words=words) if words is not None else _remark
         parts = [(at, part) for at, part in parts if not _remark(part) and not said(part)]
     listed = stated > 1 or (len(parts) > 1 and _OTHER_NAME.fullmatch(parts[1][1]) is not None)
-    if listed and words is not None and words.is_name(parts[0][1].strip()):
+    if listed and parts and words is not None and words.is_name(parts[0][1].strip()):
         del parts[0]  # J0, Ja = A, Jb = B
     if len(parts) > 1 and not always and stated < sum(bool(part.strip()) for _, part in parts):
         return [row]

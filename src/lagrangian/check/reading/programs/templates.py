@@ -9,11 +9,12 @@ import re
 from collections.abc import Iterator
 from itertools import islice
 
+from lagrangian.check.reading.programs.session_lists import entries_in
 from lagrangian.check.reading.programs.sessions import closes
 from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 
-MOST, MOST_LETTERS = 60, 10_000
-"""The most calls that are written out, and the most characters that are added by that."""
+MOST, MOST_UNCLOSED, MOST_LETTERS = 60, 4, 10_000
+"""The most calls that are looked at, and those of them that do not end, and the most characters that are added."""
 
 _NAME = r"[A-Za-z][A-Za-z0-9]{0,23}"
 _DEFINED = re.compile(
@@ -32,14 +33,18 @@ def with_templates_applied(written: TracedText) -> TracedText:
 
 
 def _calls(text: str) -> Iterator[Edit]:
-    added = 0
+    added, left, unclosed = 0, MOST, 0
     for match in islice(_DEFINED.finditer(text), MOST):
         given = [x.strip().rstrip("_") for x in match["given"].split(",")]
         if given == ["t"] or not re.search(r"\bD\[|\bDt\[", match["body"]):
             continue
-        for call in islice(re.finditer(rf"(?<!\w){match['name']}\[", text), MOST):
+        for call in islice(re.finditer(rf"(?<!\w){match['name']}\[", text), left):
+            left -= 1
             end = closes(text, call.end() - 1)
-            listed = _listed(text[call.end() : end]) if end > 0 else []
+            unclosed += end < 0
+            if unclosed > MOST_UNCLOSED:
+                return
+            listed = [text[a:b] for a, b in entries_in(text, call.end(), end)] if end > 0 else []
             if match.start() <= call.start() < match.end() or len(listed) != len(given):
                 continue
             made = _put(match["body"], dict(zip(given, listed, strict=True)))
@@ -47,18 +52,6 @@ def _calls(text: str) -> Iterator[Edit]:
             if added > MOST_LETTERS:
                 return
             yield call.start(), end + 1, made if "==" in made else f"({made})"
-
-
-def _listed(inside: str) -> list[str]:
-    """The entries of a list, which are parted by commas outside brackets."""
-    depth, entries = 0, [""]
-    for x in inside:
-        depth += (x in "([{") - (x in ")]}")
-        if x == "," and depth == 0:
-            entries.append("")
-        else:
-            entries[-1] += x
-    return [x.strip() for x in entries]
 
 
 def _put(body: str, values: dict[str, str]) -> str:
