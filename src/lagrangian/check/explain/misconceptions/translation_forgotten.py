@@ -19,13 +19,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for body in s.bodies:
         if s.rotation(body) != 0 and s.translation(body) != 0:
             yield Variant(what=text(f"½mv² of {body.title} is missing."), T=-s.translation(body), element=body)
-            for j, v in enumerate(s.v):
-                turned = any(w.has(v) for w in s.omega(body))
-                own = s.coupling(body, j, j)[0] * v**2 / 2
-                if turned and own not in (0, s.translation(body)):
-                    what = text(
-                        f"J of {body.title} is about its centre of mass: what the swing of that centre with ",
-                        v,
-                        " adds to J is missing.",
-                    )
+            turning = [j for j, v in enumerate(s.v) if any(w.has(v) for w in s.omega(body))]
+            swings = {j: own for j in turning if (own := s.coupling(body, j, j)[0] * s.v[j] ** 2 / 2) != 0}
+            for j, own in swings.items():
+                rate = (" with ", s.v[j]) if len(swings) > 1 else ()
+                swing = text("the swing of that centre", *rate, " adds to J is missing.")
+                if own != s.translation(body):
+                    what = text(f"J of {body.title} is about its centre of mass: what ", *swing.parts)
                     yield Variant(what=what, T=-own, element=body)
