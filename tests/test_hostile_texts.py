@@ -41,6 +41,7 @@ ANSWERS = {
     "blanks behind an equation": "m = 1" + BLANK + "y",
     "newlines": "\n" * N + "y",
     "sentences that take back": "x1'' = 0\n" + "I first had = " * (N // 14),
+    "blanks behind sentences that take back": "x1'' = 0\n" + "(I had first put" * 16 + BLANK + "y",
     "functions that differentiate": "x1'' = 0\n" + "f[q_] := D[f[q]];\n" * (N // 18),
     "blanks in front": BLANK + "y",
     "blanks behind a label": "cart:" + BLANK + "1/2 m1 x1'^2",
