@@ -45,6 +45,7 @@ ANSWERS = {
     "calls that do not end": "x1'' = 0\n"
     + "".join(f"E{i}[q_] := D[q,t]\n" for i in range(60))
     + "E1[E2[E3[" * (N // 12),
+    "blanks behind sentences that take back": "x1'' = 0\n" + "(I had first put" * 16 + BLANK + "y",
     "functions that differentiate": "x1'' = 0\n" + "f[q_] := D[f[q]];\n" * (N // 18),
     "blanks in front": BLANK + "y",
     "blanks behind a label": "cart:" + BLANK + "1/2 m1 x1'^2",

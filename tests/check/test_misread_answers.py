@@ -115,6 +115,7 @@ WHOLE = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^
     [
         "trolley V = 99 M g x\nbob V = 77 m g theta\n" + WHOLE + "Q_x = F - b x'",
         "cart V = 99 M g x\npole V = 77 m g theta\n" + CART_POLE,
+        "trolley V = 99 M g x\nbob V = 77 m g theta\nV_bob is small\n" + CART_POLE,
         "first row T = 1/2 M x'^2\nsecond row T = 1/2 m x'^2\n" + CART_POLE,
         "trolley T = 1/2 M x'^2\nbob T = 1/2 m x'^2\n" + CART_POLE,
     ],

@@ -178,3 +178,26 @@ def test_a_sentence_that_takes_back_what_stood_there_is_not_judged(said: str) ->
     assert verdict.right and any("taken back" in str(note) for note in verdict.notes)
     assert not right(f"{CART}\n{WRONG_POLE}\n\n{said.format(POLE)}")
     assert not right(f"{CART}\n{POLE}\nFirst I wrote T = m x'^2. Then V = - m g l cos theta")
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "We first put T = 5 M x'^2, which is not wrong.",
+        "We first put T = 5 M x'^2, which isn't at all wrong.",
+        "First we put T = 5 M x'^2, but without the pole.",
+        "Originally I wrote T = 5 M x'^2, but without the pole.",
+        "I first had T = 5 M x'^2, because the cart is heavy.",
+        f"First we got {CART.replace('= F', '= 7 F')}, instead of a force balance",
+    ],
+)
+def test_a_sentence_about_a_first_step_is_judged(said: str) -> None:
+    assert "= 7 F" in said or "T = " in said
+    assert not derivation("cart-pole").check(f"{said}\n{CART}\n{POLE}").right
+
+
+def test_an_energy_that_is_stated_again_is_taken_back() -> None:
+    whole = "T = 1/2 (M+m) x'^2 + m l x' theta' cos(theta) + 1/2 (J + m l^2) theta'^2"
+    said = "Originally I wrote T = 5 M x'^2, but without the pole."
+    assert derivation("cart-pole").check(f"{said}\n{whole}\n{CART}\n{POLE}").right
+    assert not derivation("cart-pole").check(f"{said}\n{whole.replace('1/2 (M', '(M')}\n{CART}\n{POLE}").right

@@ -1,17 +1,19 @@
 r"""Takes off an answer what is crossed out, which is no part of it: ~~V = k r²~~, <s>…</s>, \sout{…}.
 
 A remark says it of the line in front of it: V = m g z   <- crossed out, V = m g z   ← wrong, see below.
-A sentence says it of itself: I first had V = m g z, because I counted z upwards.
+A sentence says it of itself, I first had V = m g z, because I counted z upwards, where another line states V again.
 """
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from itertools import islice
 
 from lagrangian.check.reading.latex.layout import closing
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.read.letters import key
 
 _BETWEEN = re.compile(r"~~(?=[^\s~])[^~\n]{1,1000}~~|<(?P<tag>s|del|strike)>[^<>\n]{1,1000}</(?P=tag)>", re.IGNORECASE)
 _COMMAND = re.compile(r"\\(?:sout|xout)\s?\{")
@@ -27,22 +29,31 @@ _SAID = re.compile(
 _FIRST = r"(?:at first|first|initially|originally|previously|zuerst|zunächst|erst|ursprünglich|d'abord)"
 _VERB = r"(?P<had>had|forgot)(?![ \t]to\b)|wrote|got|put|took|used"
 _HAD = (
-    rf"(?:(?:I|we)[ \t]+(?:had[ ])?{_FIRST}[ \t]+(?:{_VERB})"
-    rf"|{_FIRST},?[ \t]+(?:I|we)[ \t]+(?:{_VERB.replace('had>', 'had_2>')})"
-    rf"|(?P<had_3>(?:I|we)[ \t]+had[ \t]+{_FIRST}|{_FIRST}[ \t]+hatte[ \t]+ich|ich[ \t]+hatte[ \t]+{_FIRST}))\b"
+    rf"(?:(?:I|we)[ \t]++(?:had[ ])?{_FIRST}[ \t]++(?:{_VERB})"
+    rf"|{_FIRST},?[ \t]++(?:I|we)[ \t]++(?:{_VERB.replace('had>', 'had_2>')})"
+    rf"|(?P<had_3>(?:I|we)[ \t]++had[ \t]++{_FIRST}|{_FIRST}[ \t]++hatte[ \t]++ich|ich[ \t]++hatte[ \t]++{_FIRST}))\b"
 )
 _TAKEN_BACK = re.compile(
-    rf"(?:(?<=[.!?;(][ \t])|(?<=\()|^[ \t]*+(?:[-*>][ \t]++)?)(?P<said>{_HAD}[^\n;]{{1,300}}?)"
-    r"(?=[.!?;:](?:\s|\Z)|\)?[ \t]*(?:\n|\Z))",
+    rf"(?:(?<=[.!?;(][ \t])|(?<=\()|^[ \t]*+(?:[-*>][ \t]++)?)(?P<said>(?P<verb>{_HAD})"
+    r"(?:[^\n;.!?:]|[.!?:](?!\s|\Z)){1,300}+)(?=[.!?;:](?:\s|\Z)|\n|\Z)",
     re.IGNORECASE | re.MULTILINE,
 )
 """A sentence about what stood there before."""
 _WRONG = re.compile(
-    r"\b(?:but|wrong(?:ly)?|mistake|mistakenly|instead|corrected|forgotten|forgetting|changed"
-    r"|aber|falsch|statt|vergessen|korrigiert|mais|faux|oublié)\b",
+    r"\b(?:wrong(?:ly)?|mistake|mistakenly|corrected|forgotten|forgetting"
+    r"|falsch|vergessen|korrigiert|faux|oublié)\b",
     re.IGNORECASE,
 )
 """Words that say that it was wrong."""
+_NOT = re.compile(
+    r"(?:\b(?:not|no|nothing|never|without|nicht|nichts|kein\w{0,2}|pas|rien|sans)|n['’]t)(?: \w{1,12}){0,2} \Z", re.I
+)
+"""Words in front of these that deny it: which is not wrong."""
+_BUT = re.compile(r"\b(?:but|aber|mais)\b", re.IGNORECASE)
+_NO_LONGER = re.compile(r"\b(?:originally|at first|ursprünglich)\b", re.IGNORECASE)
+"""Words for what is so no longer; "first" may be the first step."""
+_NAMED = re.compile(r"(?<![\w\\*])(\\?[^\W\d](?:\w|[{}*]){0,24}+)[ \t$&]{0,4}\Z")
+_TWICE = re.compile(r"\\ddot[ ]?\{?(?P<in_latex>\\?\w{1,24})|(?P<name>\w{1,24}+)(?:''|’’|′′|″|\u0308)")
 _WHY = re.compile(r"\b(?:because|since|weil|da|car)\b", re.IGNORECASE)
 """Words that say why it was there."""
 _WORDS = ("crossed", "struck", "scratched", "gestrichen", "wrong", "incorrect", "falsch", "verworfen", " that", " this")
@@ -66,20 +77,60 @@ def _edits(text: str) -> Iterator[Edit]:
         said = [m.start() for m in _SAID.finditer(text)][:_MOST]
         lines = sorted({(text.rfind("\n", 0, k) + 1, _end(text, k)) for k in said})
     if any(word in text.lower() for word in _BEFORE):
-        taken = [m for m in islice(_TAKEN_BACK.finditer(text), _MOST) if "=" in m["said"] and _is_taken_back(m)]
-        lines = sorted(
-            {*lines, *(m.span("said") for m in taken if not any(a <= m.start("said") < b for a, b in lines))}
-        )
+        taken = {_span(m) for m in islice(_TAKEN_BACK.finditer(text), _MOST) if "=" in m["said"] and _is_taken_back(m)}
+        taken = {x for x in taken if not any(a <= x[0] < b for a, b in lines)}
+        others = _others(text, [*lines, *taken])
+        lines = sorted({*lines, *(x for x in taken if _is_stated(text[slice(*x)], others))})
     yield from ((*line, " ") for line in lines)
     for start, end in _marked(text):
         if not any(a <= start < b for a, b in lines):
             yield start, end, " "
 
 
+def _span(match: re.Match[str]) -> tuple[int, int]:
+    """Where a sentence begins and ends, without the bracket that closes what stands around it."""
+    said = match["said"].rstrip(" \t")
+    if said.endswith(")") and said.count(")") > said.count("("):
+        said = said[:-1]
+    return match.start("said"), match.start("said") + len(said)
+
+
 def _is_taken_back(match: re.Match[str]) -> bool:
     """Whether a sentence about what stood there before says that it was wrong, or why it was there."""
     had = match["had"] or match["had_2"] or match["had_3"]
-    return _WRONG.search(match["said"]) is not None or (had is not None and _WHY.search(match["said"]) is not None)
+    said = match["said"]
+    if any(
+        _NOT.search(" ".join(said[max(0, m.start() - 60) : m.start()].split()) + " ") for m in _WRONG.finditer(said)
+    ):
+        return False
+    if _NO_LONGER.search(match["verb"]) is not None and _BUT.search(said) is not None:
+        return True
+    return _WRONG.search(said) is not None or (had is not None and _WHY.search(said) is not None)
+
+
+def _others(text: str, lines: list[tuple[int, int]]) -> list[str]:
+    """The lines of an answer with an equals sign, without what is taken back."""
+    ends = [0, *(x for span in sorted(lines) for x in span), len(text)]
+    rest = "\n".join(text[a:b] for a, b in zip(ends[::2], ends[1::2], strict=True))
+    return [line for line in rest.split("\n") if "=" in line]
+
+
+def _is_stated(said: str, others: list[str]) -> bool:
+    """Whether other lines state what a sentence states: the same name, or an equation with the same accelerations."""
+    moving = _accelerating(said)
+    if moving:
+        return any(_accelerating(line) == moving for line in others)
+    named = _NAMED.search(said.partition("=")[0])
+    if named is None:
+        return False
+    again = re.compile(rf"(?<![\w\\]){re.escape(named[1])}[ \t$&]{{0,4}}=")
+    return any(again.search(line) for line in others)
+
+
+def _accelerating(text: str) -> frozenset[str]:
+    """The names with two dots or primes in a text."""
+    found = _TWICE.finditer(unicodedata.normalize("NFD", text))
+    return frozenset(key((m["in_latex"] or m["name"]).lstrip("\\")) for m in found)
 
 
 def _marked(text: str) -> Iterator[tuple[int, int]]:

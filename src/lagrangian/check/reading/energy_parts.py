@@ -259,14 +259,14 @@ class _Parts:
         return frozenset(rows)
 
     def sums(self, lines: Sequence[re.Match[str]]) -> Iterator[Edit]:
-        """Lines above such rows that say what the whole is, where no other line states it or has the name of a row."""
+        """Lines above such rows that say what the whole is, where no other states it or has all their names."""
         others = [x.group() for x in lines if x.group() not in self.listed]
-        used = {_spelling(m.group()) for text in others for m in _INDEXED.finditer(text)}
+        used = {_spelling(m.group()) for text in others if "=" in text for m in _INDEXED.finditer(text)}
         stated = [m["letter"][0] for x in others if (m := _WHOLE.match(x)) is not None]
         whole = {"T" if x == "T" else "V" for x in stated}
         for kind, rows in self.summands.items():
             names = list(dict.fromkeys(name for _, _, name in rows))
-            if kind not in whole and not used & set(map(_spelling, names)):
+            if kind not in whole and not used >= set(map(_spelling, names)):
                 at, letter, _ = rows[0]
                 yield at, at, f"{letter} = {' + '.join(names)}\n"
 
