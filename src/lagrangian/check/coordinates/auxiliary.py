@@ -44,15 +44,27 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     known = truth.names | {d.symbol for d in truth.model.definitions}
     unknown: set[Any] = {x for x in found if x not in known and not is_placeholder(x)}
     unknown |= {x for line in lines for x in line.expr.free_symbols - known if _SPEED.fullmatch(key(str(x)))}
-    out = list(lines)
     if truth.derivation.multipliers or len(unknown) > MOST:
-        return tuple(out)
-    while unknown:
-        solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
-        if solved is None:
-            break
-        k, name, value = cast("tuple[int, Any, sp.Expr]", solved)
-        unknown -= {name}
+        return tuple(lines)
+    while True:
+        out, solved = _written_out(lines, unknown)
+        idle = {x for x in solved.keys() - _needed(lines, out, solved, unknown) if x.is_Symbol}
+        if not idle:
+            return tuple(out)
+        unknown -= idle
+
+
+def _written_out(lines: Sequence[AnsweredLine], unknown: set[Any]) -> tuple[list[AnsweredLine], dict[Any, int]]:
+    """The lines with the names written out that can be, and the place of the line that determines each of these."""
+    out, solved = list(lines), dict[Any, int]()
+    while True:
+        found = next(
+            (x for k in range(len(out)) if (x := _determined(out, k, unknown - solved.keys())) is not None), None
+        )
+        if found is None:
+            return out, solved
+        k, name, value = found
+        solved[name] = k
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
         out[k] = replace(out[k], kind="definition", name=_called(name), expr=value)
@@ -60,7 +72,19 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
             x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
             for j, x in enumerate(out)
         ]
-    return tuple(out)
+
+
+def _needed(
+    lines: Sequence[AnsweredLine], out: Sequence[AnsweredLine], solved: dict[Any, int], unknown: set[Any]
+) -> set[Any]:
+    """The names that lines need which still say something when all are written out, directly or through others."""
+    left = unknown - solved.keys()
+    says = [x.kind != "definition" and x.expr != 0 and not bounded.letters(x.expr) & left for x in out]
+    needed: set[Any] = set()
+    for _ in range(len(solved) + 1):
+        at = {k for k, x in enumerate(says) if x} | {k for name, k in solved.items() if name in needed}
+        needed |= {x for x, k in solved.items() if any(j != k and lines[j].expr.has(x) for j in at)}
+    return needed
 
 
 def _called(name: Any) -> str:
