@@ -71,7 +71,13 @@ def test_a_speed_that_nothing_uses_is_no_definition() -> None:
     right = "(M+m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F\n"
     right += "(J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0\n"
     alone = "b x' + v = 3 F", "omega x' = 99 F theta", "v_p - x' - 7 l theta' = 0"
-    for line in (*alone, "b x' + v = 3 F\nv w = 0", "b x' + v = 3 F\ns = 2 v"):
+    for line in (
+        *alone,
+        "omega l = 5 x'",
+        "omega l = 2 l theta'",
+        "b x' + v = 3 F\nv w = 0",
+        "b x' + v = 3 F\ns = 2 v",
+    ):
         first = line.partition("\n")[0]
         assert f"'{first}' was not judged" in derivation("cart-pole").check(f"{line}\n{right}").to_text()
     used = f"l w = 2 l theta'\nT = 1/2 (M+m) x'^2 + m l x' w cos(theta) + 1/2 (J + m l^2) w^2\n{right}"

@@ -49,6 +49,7 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     while True:
         out, solved = _written_out(lines, unknown)
         idle = {x for x in solved.keys() - _needed(lines, out, solved, unknown) if x.is_Symbol}
+        idle -= {x for x in idle if _turns(truth, x, out[solved[x]].expr)}
         if not idle:
             return tuple(out)
         unknown -= idle
@@ -87,6 +88,30 @@ def _needed(
     return needed
 
 
+def turning_alone(lines: Sequence[AnsweredLine], out: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines that became definitions of angular velocities which no other line needs."""
+    solved = {
+        name: k
+        for k, (x, y) in enumerate(zip(lines, out, strict=True))
+        for name in x.expr.free_symbols
+        if x.kind != y.kind == "definition" and str(name) == y.name
+    }
+    return [lines[solved[x]] for x in solved.keys() - _needed(lines, out, solved, set())]
+
+
+def _turns(truth: Reference, name: Any, value: sp.Expr) -> bool:
+    """Whether a name is that of an angular velocity and its value one, which is judged as one of a body's."""
+    rates = {c.rate: sp.S.Zero for c in truth.model.coordinates}
+    linear = all(not bounded.diff(value, x).atoms(sp.Derivative) for x in value.atoms(sp.Derivative))
+    inputs = {u.symbol for u in truth.model.inputs}
+    return (
+        key(str(name)) in ("omega", "Omega")
+        and linear
+        and value.xreplace(rates) == 0
+        and not bounded.letters(value) & inputs
+    )
+
+
 def _called(name: Any) -> str:
     """The letters of a name, which may be a function of time."""
     return str(name.func) if isinstance(name, AppliedUndef) else str(name)
@@ -113,12 +138,13 @@ def _determined(lines: Sequence[AnsweredLine], k: int, unknown: set[Any]) -> tup
         return None
     name: Any = inside.pop()
     others = [x.expr for j, x in enumerate(lines) if j != k]
-    used = any(x.has(name) for x in others) or any(_rated(x, name) for x in lines)
-    if any(d.derivative_count > 1 for d in rates) or not used:
+    if any(d.derivative_count > 1 for d in rates):
         return None
     if name.is_Symbol:
         value = _solved(line.expr, name) if rates else None
         return None if value is None else (k, name, value)
+    if not any(x.has(name) for x in others) and not any(_rated(x, name) for x in lines):
+        return None
     rate = sp.Derivative(name, time)
     if rate not in rates:
         value = _solved(line.expr, name)
