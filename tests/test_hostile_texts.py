@@ -19,7 +19,8 @@ from lagrangian.check.names import amounts_said
 from lagrangian.check.reading import Answer, labels, parse_answer, read
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
-from lagrangian.check.reading.programs import sessions
+from lagrangian.check.reading.plain.ends import defines_behind
+from lagrangian.check.reading.programs import sessions, templates
 from lagrangian.check.reading.programs import spellings as programs
 from lagrangian.check.reading.prose import sketches, spoken_words
 from lagrangian.check.reading.prose import words_or_mathematics as prose
@@ -260,3 +261,19 @@ def test_half_a_character_is_refused() -> None:
     assert caught.value.code == "E702"
     assert caught.value.place is not None
     assert caught.value.place.column == 14
+
+
+def test_words_far_before_a_point_are_not_looked_for() -> None:
+    for far, found in ((1, True), (LONGEST, False)):
+        text = "the force acts" + " " * far + "y. s = 1"
+        at = text.index(".")
+        assert defines_behind(text, 0, (at, at + 1)) is found
+
+
+def test_calls_that_do_not_end_are_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[int] = []
+    closes = templates.closes
+    monkeypatch.setattr(templates, "closes", lambda text, at: seen.append(at) or closes(text, at))
+    defined = "".join(f"E{i}[q_] := D[q,t]\n" for i in range(60))
+    assert list(templates._calls(defined + "".join(f"E{i}[" for i in range(60)) * 60)) == []
+    assert len(seen) <= templates.MOST

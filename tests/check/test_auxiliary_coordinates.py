@@ -70,8 +70,19 @@ def test_hamiltons_equations_alone_say_what_the_momentum_is(p: str, rate: str) -
 def test_a_speed_that_nothing_uses_is_no_definition() -> None:
     right = "(M+m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F\n"
     right += "(J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0\n"
-    for line in ("b x' + v = 3 F", "omega x' = 99 F theta", "v_p - x' - 7 l theta' = 0"):
-        assert "was not judged" in derivation("cart-pole").check(f"{line}\n{right}").to_text()
+    alone = "b x' + v = 3 F", "omega x' = 99 F theta", "v_p - x' - 7 l theta' = 0"
+    for line in (
+        *alone,
+        "omega l = 5 x'",
+        "omega l = 2 l theta'",
+        "b x' + v = 3 F\nv w = 0",
+        "b x' + v = 3 F\ns = 2 v",
+    ):
+        first = line.partition("\n")[0]
+        assert f"'{first}' was not judged" in derivation("cart-pole").check(f"{line}\n{right}").to_text()
     used = f"l w = 2 l theta'\nT = 1/2 (M+m) x'^2 + m l x' w cos(theta) + 1/2 (J + m l^2) w^2\n{right}"
     assert not derivation("cart-pole").check(used, hint=0).right
     assert derivation("cart-pole").check(used.replace("2 l", "l"), hint=0).right
+    chain = f"l v1 = l theta'\nl w = 2 l v1\n{used.partition(chr(10))[2]}"
+    assert not derivation("cart-pole").check(chain, hint=0).right
+    assert derivation("cart-pole").check(chain.replace("2 l v1", "l v1"), hint=0).right

@@ -13,7 +13,7 @@ import sympy as sp
 from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
-from lagrangian.check.coordinates.auxiliary import with_auxiliary
+from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
@@ -279,14 +279,17 @@ def _judged(derivation: Derived, answer: Answer) -> tuple[Needed, check.Verdict]
 def _deciding(derivation: Derived, answer: Answer) -> list[Needed]:
     """All lines of an answer, then those that decide if its equations do without the names that nothing explains."""
     names = [u.symbol for u in answer.unknown]
-    lines = with_auxiliary(truth_of(derivation), without_constants(check.lines_of(answer), names))
+    before = without_constants(check.lines_of(answer), names)
+    lines = with_auxiliary(truth_of(derivation), before)
+    told = tuple(text(f"'{x.text}'{WITHOUT}") for x in turning_alone(before, lines))
     if derivation.multipliers:  # any name beside accelerations may be a multiplier
         names = unused_in_motion(lines, names, [c.name for c in derivation.model.coordinates])
     free = len(derivation.model.coordinates) - len(derivation.multipliers)
     fewer = needed(lines, names, max(free, 1))
     if fewer is not None and fewer.together:
-        return [fewer]
-    return [Needed(lines), *([] if fewer is None else [fewer])]
+        return [replace(fewer, notes=(*told, *fewer.notes))]
+    more = [] if fewer is None else [replace(fewer, notes=(*told, *fewer.notes))]
+    return [Needed(lines, told), *more]
 
 
 def _told(verdict: check.Verdict, answer: Answer, notes: Sequence[Text] = ()) -> check.Verdict:

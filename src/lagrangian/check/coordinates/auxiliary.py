@@ -44,15 +44,28 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
     known = truth.names | {d.symbol for d in truth.model.definitions}
     unknown: set[Any] = {x for x in found if x not in known and not is_placeholder(x)}
     unknown |= {x for line in lines for x in line.expr.free_symbols - known if _SPEED.fullmatch(key(str(x)))}
-    out = list(lines)
     if truth.derivation.multipliers or len(unknown) > MOST:
-        return tuple(out)
-    while unknown:
-        solved = next((x for k in range(len(out)) if (x := _determined(out, k, unknown)) is not None), None)
-        if solved is None:
-            break
-        k, name, value = cast("tuple[int, Any, sp.Expr]", solved)
-        unknown -= {name}
+        return tuple(lines)
+    while True:
+        out, solved = _written_out(lines, unknown)
+        idle = {x for x in solved.keys() - _needed(lines, out, solved, unknown) if x.is_Symbol}
+        idle -= {x for x in idle if _turns(truth, x, out[solved[x]].expr)}
+        if not idle:
+            return tuple(out)
+        unknown -= idle
+
+
+def _written_out(lines: Sequence[AnsweredLine], unknown: set[Any]) -> tuple[list[AnsweredLine], dict[Any, int]]:
+    """The lines with the names written out that can be, and the place of the line that determines each of these."""
+    out, solved = list(lines), dict[Any, int]()
+    while True:
+        found = next(
+            (x for k in range(len(out)) if (x := _determined(out, k, unknown - solved.keys())) is not None), None
+        )
+        if found is None:
+            return out, solved
+        k, name, value = found
+        solved[name] = k
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
         out[k] = replace(out[k], kind="definition", name=_called(name), expr=value)
@@ -60,7 +73,43 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
             x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
             for j, x in enumerate(out)
         ]
-    return tuple(out)
+
+
+def _needed(
+    lines: Sequence[AnsweredLine], out: Sequence[AnsweredLine], solved: dict[Any, int], unknown: set[Any]
+) -> set[Any]:
+    """The names that lines need which still say something when all are written out, directly or through others."""
+    left = unknown - solved.keys()
+    says = [x.kind != "definition" and x.expr != 0 and not bounded.letters(x.expr) & left for x in out]
+    needed: set[Any] = set()
+    for _ in range(len(solved) + 1):
+        at = {k for k, x in enumerate(says) if x} | {k for name, k in solved.items() if name in needed}
+        needed |= {x for x, k in solved.items() if any(j != k and lines[j].expr.has(x) for j in at)}
+    return needed
+
+
+def turning_alone(lines: Sequence[AnsweredLine], out: Sequence[AnsweredLine]) -> list[AnsweredLine]:
+    """The lines that became definitions of angular velocities which no other line needs."""
+    solved = {
+        name: k
+        for k, (x, y) in enumerate(zip(lines, out, strict=True))
+        for name in x.expr.free_symbols
+        if x.kind != y.kind == "definition" and str(name) == y.name
+    }
+    return [lines[solved[x]] for x in solved.keys() - _needed(lines, out, solved, set())]
+
+
+def _turns(truth: Reference, name: Any, value: sp.Expr) -> bool:
+    """Whether a name is that of an angular velocity and its value one, which is judged as one of a body's."""
+    rates = {c.rate: sp.S.Zero for c in truth.model.coordinates}
+    linear = all(not bounded.diff(value, x).atoms(sp.Derivative) for x in value.atoms(sp.Derivative))
+    inputs = {u.symbol for u in truth.model.inputs}
+    return (
+        key(str(name)) in ("omega", "Omega")
+        and linear
+        and value.xreplace(rates) == 0
+        and not bounded.letters(value) & inputs
+    )
 
 
 def _called(name: Any) -> str:
@@ -89,12 +138,13 @@ def _determined(lines: Sequence[AnsweredLine], k: int, unknown: set[Any]) -> tup
         return None
     name: Any = inside.pop()
     others = [x.expr for j, x in enumerate(lines) if j != k]
-    used = any(x.has(name) for x in others) or any(_rated(x, name) for x in lines)
-    if any(d.derivative_count > 1 for d in rates) or not used:
+    if any(d.derivative_count > 1 for d in rates):
         return None
     if name.is_Symbol:
         value = _solved(line.expr, name) if rates else None
         return None if value is None else (k, name, value)
+    if not any(x.has(name) for x in others) and not any(_rated(x, name) for x in lines):
+        return None
     rate = sp.Derivative(name, time)
     if rate not in rates:
         value = _solved(line.expr, name)
