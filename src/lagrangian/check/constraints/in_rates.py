@@ -45,6 +45,10 @@ def _along(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) 
     meaning = next((x.expr for x in lines if x.kind == "definition" and key(x.name or "") == name), None)
     if c is None or meaning is None or meaning.has(sp.Derivative) or not bounded.letters(meaning) <= truth.names:
         return line
+    if not meaning.has(*(x.symbol for x in truth.model.coordinates if x is not c)):
+        return line  # the same with and without the constraints
+    if vanishes_on_constraints(truth, c.rate):
+        return line
     slope = bounded.diff(meaning, c.symbol) - line.expr
     along = bounded.diff(meaning, time) - slope * c.rate
     return replace(line, expr=along) if vanishes_on_constraints(truth, along) else line
