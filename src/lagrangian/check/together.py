@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import sympy as sp
+
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
@@ -42,10 +44,11 @@ def right_together(truth: Reference, findings: Sequence[Finding]) -> list[Findin
 def _is_right(truth: Reference, own: StatedQuantity) -> bool:
     """Whether what an answer states gives the right equations, with its Ξ as the whole or without what D adds."""
     lefts = left_sides(truth, own.lagrangian(truth) - truth.L)
+    D = own.D if own.D is not None else sp.S.Zero
     whole, damped = True, own.D is not None
     for i, (c, left) in enumerate(zip(truth.model.coordinates, lefts, strict=True)):
         mine, right = own.Xi[i], truth.Xi[i]
         whole = whole and zero_everywhere(truth, left - (right if mine is None else mine) + right)
         undamped = driving(truth, i) if mine is None else mine
-        damped = damped and zero_everywhere(truth, left + bounded.diff(own.D, c.rate) - undamped + right)
+        damped = damped and zero_everywhere(truth, left + bounded.diff(D, c.rate) - undamped + right)
     return whole or damped
