@@ -229,6 +229,19 @@ def test_a_spring_force_is_no_kinetic_energy() -> None:
     assert any(f.line.kind in ("T", "L") and not f.status.right for f in energy.findings)
 
 
+def test_a_length_of_an_inertia_may_be_in_a_force() -> None:
+    s = System("rod on a spring")
+    theta = s.coordinates("theta")
+    m, l_, k = s.parameters("m l k")
+    centre = s.point("C", (l_ * sp.sin(theta) / 2, -l_ * sp.cos(theta) / 2))
+    s.rigid_body(m, m * l_**2 / 12, at=centre, frame=s.frame(theta))
+    s.spring(k, deflection=l_ * sp.sin(theta))
+    row = "m l^2/3 theta'' + K l cos(theta) = 0"
+    for beside in ("", "m l^2/3 theta'' + k l^2 sin(theta) cos(theta) = 0\n"):
+        verdict = s.derive().check(f"K = k l sin(theta)\n{beside or row}")
+        assert verdict.right and not any(f.line.kind == "T" for f in verdict.findings)
+
+
 def test_a_kinetic_energy_without_its_dots_is_no_force() -> None:
     for wrong in ("K = 1/2 (M + m) x^2", "K = 1/2 M x + 1/2 m x", "R = 1/2 b x^2"):
         assert not derivation("cart-pole").check(f"{wrong}\n{CART_POLE}").right

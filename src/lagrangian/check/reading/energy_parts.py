@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
@@ -309,10 +310,11 @@ def _is_kinetic(value: str) -> bool:
     return _RATE.search(plain) is not None and _SQUARE.search(plain) is not None
 
 
-def inertia_letters(body: Body) -> frozenset[str]:
-    """The letters of the mass and the moments of inertia of a body."""
+def inertia_letters(body: Body, *, lengths: bool = True) -> frozenset[str]:
+    """The letters of the mass and the moments of inertia of a body; without ``lengths`` only m of m l²/12."""
     listed = [body.mass, *(body.inertia.flat() if isinstance(body, RigidBody) else ())]
-    return frozenset(key(str(x)) for expr in listed for x in sp.sympify(expr).free_symbols)
+    letters = ((x, sp.sympify(expr)) for expr in listed for x in sp.sympify(expr).free_symbols)
+    return frozenset(key(str(x)) for x, expr in letters if lengths or not bounded.diff(expr, x).has(x))
 
 
 def _is_dotted_twice(text: str) -> bool:

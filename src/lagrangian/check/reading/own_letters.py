@@ -71,7 +71,7 @@ def _is_energy(named: tuple[Token, int] | None, sides: Sequence[Tree], letter: s
 
 def _may_be_kinetic(sides: Sequence[Tree], listed: Sequence[str], subjects: Subjects) -> bool:
     """Whether a square or an inertia stands in a value, as in an energy without its dots: K = 1/2 (M + m) x^2."""
-    heavy = {x for body in subjects.model.bodies for x in inertia_letters(body)}
+    heavy = {x for body in subjects.model.bodies for x in inertia_letters(body, lengths=False)}
     meant = {key(name) for x in listed for name in subjects.names.scope.meanings(x)[0]}
     return any(map(_squares, sides)) or bool(heavy & meant)
 
