@@ -48,7 +48,7 @@ def test_the_answer_is_right() -> None:
     [
         ("g l cos(theta)", "g l sin(theta)", "cos(theta)"),
         ("= F l cos(beta + theta)/sin(beta)", "= F", "F"),
-        ("V = n g l sin(theta)", "V = n g l cos(theta)", "Sine and cosine are exchanged in V"),
+        ("V = n g l sin(theta)", "V = n g l cos(theta)", "Sine and cosine are exchanged in the weights"),
     ],
 )
 def test_a_mistake_is_named_there_and_right_lines_are_right(written: str, instead: str, said: str) -> None:

@@ -53,7 +53,8 @@ _BUT = re.compile(r"\b(?:but|aber|mais)\b", re.IGNORECASE)
 _NO_LONGER = re.compile(r"\b(?:originally|at first|ursprünglich)\b", re.IGNORECASE)
 """Words for what is so no longer; "first" may be the first step."""
 _NAMED = re.compile(r"(?<![\w\\*])(\\?[^\W\d](?:\w|[{}*]){0,24}+)[ \t$&]{0,4}\Z")
-_TWICE = re.compile(r"\\ddot[ ]?\{?(?P<in_latex>\\?\w{1,24})|(?P<name>\w{1,24}+)(?:''|’’|′′|″|\u0308)")
+_TWICE = re.compile(r"\\ddot[ ]?\{?(?P<in_latex>\\?\w{1,24})|(?P<name>\w{1,24}+)(?:''|’’|′′|″|\u0308(?![a-z]))")
+"""An acceleration; the dots within a word are no rates: zählte."""
 _WHY = re.compile(r"\b(?:because|since|weil|da|car)\b", re.IGNORECASE)
 """Words that say why it was there."""
 _WORDS = ("crossed", "struck", "scratched", "gestrichen", "wrong", "incorrect", "falsch", "verworfen", " that", " this")
