@@ -106,7 +106,12 @@ def _stated_forces(truth: Reference, line: AnsweredLine) -> dict[int, sp.Expr]:
 
 
 def _right_forces(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
-    """The generalized forces that a virtual work states, if it is that of all forces and every one of them is right."""
+    """The generalized forces that a virtual work states, if it is that of all forces and every one of them is right.
+
+    None beside multipliers: a coordinate that a constraint gives may be put in below.
+    """
+    if truth.derivation.multipliers:
+        return []
     stated = _stated_forces(truth, line)
     exact = list(_exact(truth, line, stated)) if all(_known(truth, x) for x in stated.values()) else []
     return exact if stated and len(exact) == truth.n else []
