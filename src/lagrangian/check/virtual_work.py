@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -15,6 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.all_forces import holds_potential, whole_force
 from lagrangian.check.lines import filled
 from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reading.placeholders import displacements
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, compare, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
@@ -27,7 +28,6 @@ MOST, MOST_TERMS = 4, 24
 ALIKE = 0.5
 """The share of factors that a wrong term has in common with the right one in whose place it stands."""
 
-_DISPLACED = re.compile("\u27e8delta (.{1,40})\u27e9")
 _OF_WORK = re.compile(r"[WA](?:_?\w{0,8})")
 
 
@@ -58,17 +58,15 @@ def judged_with_work(
 def _wrong_equations(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:
     """The wrong ones of the equations of motion that d'Alembert's principle holds: what multiplies each δξ is 0."""
     claims = line.kind == "statement" and "=" in line.text and accelerates(line.expr)
-    moved = _displacements(line.expr) if claims else {}
+    moved = displacements(line.expr) if claims else {}
     places = {key(c.name) for c in truth.model.coordinates}
     if not moved or truth.derivation.multipliers or any(key(name) not in places for name in moved.values()):
         return []
-    value = bounded.expand(line.expr)
-    factors = [cast("sp.Expr", value.coeff(x)) for x in moved]
-    whole = sp.Add(*[x * f for x, f in zip(moved, factors, strict=True)])
-    if bounded.expand(value - whole) != 0 or any(not bounded.letters(f) <= truth.names for f in factors):
+    factors = _linear(line.expr, moved)
+    if factors is None or any(not bounded.letters(f) <= truth.names for f in factors.values()):
         return []
-    rows = compare(truth, factors).rows
-    wrong = [f for f, row in zip(factors, rows, strict=True) if not row.true and row.kind is not Kind.NOTHING]
+    rows = compare(truth, list(factors.values())).rows
+    wrong = [f for f, row in zip(factors.values(), rows, strict=True) if not row.true and row.kind is not Kind.NOTHING]
     return [replace(line, kind="equation", name=None, expr=f) for f in wrong]
 
 
@@ -77,32 +75,31 @@ def _is_work(truth: Reference, line: AnsweredLine) -> bool:
     return line.kind == "statement" and bool(_works_in(truth, line.expr))
 
 
-def _displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
-    """The virtual displacements and works in an expression, with their names."""
-    found = {x: _DISPLACED.fullmatch(x.func.__name__) for x in expr.atoms(AppliedUndef)}
-    return {x: m[1] for x, m in found.items() if m is not None}
+def _linear(expr: sp.Expr, moved: Iterable[AppliedUndef]) -> dict[AppliedUndef, sp.Expr] | None:
+    """The factors of virtual displacements in a sum of these; None if it is no such sum."""
+    value = bounded.expand(expr)
+    factors = {x: cast("sp.Expr", value.coeff(x)) for x in moved}
+    return factors if bounded.expand(value - sp.Add(*[x * f for x, f in factors.items()])) == 0 else None
 
 
 def _works_in(truth: Reference, expr: sp.Expr) -> list[AppliedUndef]:
     """The virtual works among these: δW, and no δA of a coordinate A."""
     coordinates = {key(c.name) for c in truth.model.coordinates}
-    found = _displacements(expr).items()
+    found = displacements(expr).items()
     return [x for x, name in found if _OF_WORK.fullmatch(name) and key(name) not in coordinates]
 
 
 def _stated_forces(truth: Reference, line: AnsweredLine) -> dict[int, sp.Expr]:
     """The factor of the virtual displacement of each coordinate in a virtual work; none if it is in others."""
-    moved = _displacements(line.expr)
+    moved = displacements(line.expr)
     works = _works_in(truth, line.expr)
     places = {key(c.name): i for i, c in enumerate(truth.model.coordinates)}
     if len(works) != 1 or any(key(name) not in places for x, name in moved.items() if x not in works):
         return {}
-    value = bounded.expand(line.expr)
-    sign = cast("sp.Expr", value.coeff(works[0]))
-    whole = sp.Add(*[x * value.coeff(x) for x in moved])
-    if sign not in (1, -1) or bounded.expand(value - whole) != 0:
+    factors = _linear(line.expr, moved)
+    if factors is None or (sign := factors[works[0]]) not in (1, -1):
         return {}
-    return {places[key(name)]: -sign * value.coeff(x) for x, name in moved.items() if x not in works}
+    return {places[key(name)]: -sign * factors[x] for x, name in moved.items() if x not in works}
 
 
 def _right_forces(truth: Reference, line: AnsweredLine) -> list[AnsweredLine]:

@@ -9,6 +9,7 @@ from typing import cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.reading.line_forms import accelerates
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
@@ -100,5 +101,4 @@ def slope_of(expr: sp.Expr, name: sp.Basic) -> sp.Expr | None:
     if not expr.has(name) or any(d.has(name) for d in expr.atoms(sp.Derivative)):
         return None
     slope = bounded.diff(expr, name)
-    inertia = any(d.derivative_count > 1 for d in slope.atoms(sp.Derivative))
-    return None if slope == 0 or slope.has(name) or inertia else slope
+    return None if slope == 0 or slope.has(name) or accelerates(slope) else slope

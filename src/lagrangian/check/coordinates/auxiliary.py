@@ -21,6 +21,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reading import is_placeholder
+from lagrangian.check.reading.placeholders import called
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
@@ -68,7 +69,7 @@ def _written_out(lines: Sequence[AnsweredLine], unknown: set[Any]) -> tuple[list
         solved[name] = k
         rate = sp.Derivative(name, time)
         out = [replace(x, kind="equation", name=None, expr=rate - x.expr) if _rated(x, name) else x for x in out]
-        out[k] = replace(out[k], kind="definition", name=_called(name), expr=value)
+        out[k] = replace(out[k], kind="definition", name=called(name), expr=value)
         out = [
             x if j == k or not x.expr.has(name) else replace(x, expr=_put(x.expr, name, value))
             for j, x in enumerate(out)
@@ -112,14 +113,9 @@ def _turns(truth: Reference, name: Any, value: sp.Expr) -> bool:
     )
 
 
-def _called(name: Any) -> str:
-    """The letters of a name, which may be a function of time."""
-    return str(name.func) if isinstance(name, AppliedUndef) else str(name)
-
-
 def _rated(line: AnsweredLine, name: Any) -> bool:
     """Whether a line states the rate of a name, which was not known when it was read: p' = -k x."""
-    if line.kind != "definition" or line.name != _called(name):
+    if line.kind != "definition" or line.name != called(name):
         return False
     rate = _RATE.fullmatch(normalize("NFD", line.text.partition("=")[0]).strip())
     return rate is not None and key(_SET.sub("", next(filter(None, rate.groups())))) == key(str(line.name))

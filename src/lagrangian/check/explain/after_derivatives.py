@@ -55,11 +55,7 @@ def _right_derivative(truth: Reference, finding: Finding, own: StatedQuantity) -
         return finding
     c = truth.model.coordinates[i]
     energy = line.kind[0]
-    mine, right = {
-        "T": (own.T, truth.T),
-        "V": (own.V, truth.V),
-        "D": (own.D, dissipation(truth)),
-    }[energy]
+    mine, right = getattr(own, energy), dissipation(truth) if energy == "D" else getattr(truth, energy)
     rest = (sp.S.Zero if mine is None else mine) - right
     by = c.symbol if line.kind in ("T-slope", "V-slope") else c.rate
     rest = bounded.diff(rest, by, time) if line.kind == "T-rate" else bounded.diff(rest, by)

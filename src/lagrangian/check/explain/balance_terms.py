@@ -71,9 +71,8 @@ def plainest(listed: Mapping[int, Sequence[Mend]]) -> tuple[int, WrongTerm] | No
         return None
     best, k, term = every[0]
     near = [(at, x) for cost, at, x in every if cost < best + CLEAR]
-    alike = [
-        x for at, x in near if at == k and x.factor != sp.oo and x.term / term.term in (2, -2)
-    ]  # 2 M g for M g, not M g more
+    own = [x for at, x in near if at == k and x.factor != sp.oo]
+    alike = [x for x in own if x.term / term.term in (2, -2)]  # 2 M g for M g, not M g more
     near = [x for x in near if x[1] not in (term, *alike)]
     return None if near else (k, alike[0] if term.factor == sp.oo and alike else term)
 

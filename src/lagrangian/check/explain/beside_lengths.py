@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import sympy as sp
 
@@ -50,7 +51,7 @@ def _shows(pool: Pool, explanation: Explanation, lines: Sequence[AnsweredLine]) 
         return False
     half = f"taken {HALF} as far" in str(wrong.variant.what)
     arms = _lengths(pool.truth, wrong.variant.V)
-    weights = {x for e in pool.truth.model.elements if isinstance(e, Gravity) for x in bounded.letters(e.g)}
+    weights = _of_gravity(pool.truth)
     for line in lines:
         if not line.expr.has(*weights) or not arms:
             continue
@@ -59,9 +60,14 @@ def _shows(pool: Pool, explanation: Explanation, lines: Sequence[AnsweredLine]) 
     return False
 
 
+def _of_gravity(truth: Reference) -> set[Any]:
+    """The letters of the accelerations of gravity."""
+    return {x for e in truth.model.elements if isinstance(e, Gravity) for x in bounded.letters(e.g)}
+
+
 def _lengths(truth: Reference, energy: sp.Expr) -> set[str]:
     """The keys of the lengths of a weight that stand in V without a number; a number beside others may be right."""
-    others = {x for e in truth.model.elements if isinstance(e, Gravity) for x in bounded.letters(e.g)}
+    others = _of_gravity(truth)
     others |= {x for b in truth.model.bodies for x in bounded.letters(sp.sympify(b.mass))}
     own = {p.symbol for p in truth.model.parameters} & bounded.letters(energy) - others
     terms = sp.Add.make_args(bounded.expand(truth.V))

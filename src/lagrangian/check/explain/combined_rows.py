@@ -155,29 +155,21 @@ def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Arr
     ``values`` are those of the accelerations and of the forces in it. Of two sides that differ by a sign or a letter,
     that without accelerations is wrong: a moment or a force. By a number, it may be either.
     """
-    wrong, listed = _wrong_factors(truth, expr, values)
+    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
+    if not 1 < len(own) <= MOST_TERMS:
+        return None
+    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
+    if not np.isfinite(found).all():
+        return None
+    listed = sorted(in_factors(truth, found[0], dict(zip(own, found[1:], strict=True))), key=lambda x: x[0])
     if not listed:
-        return None if wrong is None else _missing(truth, wrong, values)
+        return _missing(truth, found[0], values)
     best = [x for rank, x in listed if rank == listed[0][0]]
     moving = [c.acceleration for c in truth.model.coordinates]
     still = [x for _, x in listed if not x.term.has(*moving) and any(x.factor * y.factor == 1 for y in best)]
     if len(still) == 1 and any(x.term.has(*moving) for x in best):
         return None if still[0].factor in (2, sp.S.Half) else still[0]
     return best[0] if len(best) == 1 else None
-
-
-def _wrong_factors(
-    truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]
-) -> tuple[Array | None, list[tuple[int, WrongTerm]]]:
-    """What is wrong in a line along the right motion, and its terms that have a wrong factor, the plainest first."""
-    own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
-    if not 1 < len(own) <= MOST_TERMS:
-        return None, []
-    found = CompiledExpressions([expr, *own]).at(truth.states, values).reshape(len(own) + 1, SETS * PLACES, -1)
-    if not np.isfinite(found).all():
-        return None, []
-    listed = in_factors(truth, found[0], dict(zip(own, found[1:], strict=True)))
-    return found[0], sorted(listed, key=lambda x: x[0])
 
 
 def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:

@@ -16,6 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reading.line_forms import accelerates
+from lagrangian.check.reading.placeholders import called
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -107,7 +108,7 @@ def unused_in_motion(
     A result is what a line alone determines: λ = m g cos θ. It may be the force of a constraint and is judged.
     """
     virtual = {f"delta{name}" for name in coordinates}
-    named = [x for x in unknown if _called(x).replace("_", "") in virtual]
+    named = [x for x in unknown if called(x).replace("_", "") in virtual]
     for x in unknown:
         held = [line.expr for line in lines if line.expr.has(x)]
         others = [y for y in unknown if y != x and not isinstance(y, AppliedUndef)]  # no angles
@@ -115,11 +116,6 @@ def unused_in_motion(
         if not any(map(accelerates, held)) and all(_slope(e, x) is None for e in alone):
             named.append(x)
     return named
-
-
-def _called(name: sp.Basic) -> str:
-    """The letters of a name, which may be a function of time."""
-    return str(name.func) if isinstance(name, AppliedUndef) else str(name)
 
 
 def _values(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Iterator[AnsweredLine]:

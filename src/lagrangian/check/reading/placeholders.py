@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -12,6 +14,9 @@ ENERGIES: dict[str, AppliedUndef] = {kind: moving_symbol(f"\u27e8{kind}\u27e9") 
 """The placeholder of each energy, a function of time, with a name that nobody can type."""
 
 
+_VARIED = re.compile("\u27e8delta (.{1,40})\u27e9")
+
+
 def generalized_force(coordinate: str) -> AppliedUndef:
     """Return the placeholder for the Ξ of a coordinate."""
     return moving_symbol(f"\u27e8Xi {coordinate}\u27e9")
@@ -20,6 +25,17 @@ def generalized_force(coordinate: str) -> AppliedUndef:
 def variation(name: str) -> AppliedUndef:
     """Return the placeholder for a virtual displacement or virtual work: δθ, δW."""
     return moving_symbol(f"\u27e8delta {name}\u27e9")
+
+
+def displacements(expr: sp.Expr) -> dict[AppliedUndef, str]:
+    """The virtual displacements and works in an expression, with their names."""
+    found = {x: _VARIED.fullmatch(x.func.__name__) for x in expr.atoms(AppliedUndef)}
+    return {x: m[1] for x, m in found.items() if m is not None}
+
+
+def called(symbol: sp.Basic) -> str:
+    """The letters of a symbol, which may be a function of time."""
+    return str(symbol.func) if isinstance(symbol, AppliedUndef) else str(symbol)
 
 
 def vector(name: str) -> AppliedUndef:

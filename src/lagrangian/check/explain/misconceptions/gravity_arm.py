@@ -26,8 +26,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"The height of {body.title} is taken {word} as far out as its centre of mass.")
             if not s.angles(own):
                 continue  # on an incline there is no arm: then the weight counts twice or half
-            numbered = any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own)))
-            doubt = 0 if numbered else 1
+            doubt = 0 if any(x.as_coeff_Mul()[0] not in (1, -1) for x in sp.Add.make_args(bounded.expand(own))) else 1
             if s.moves(own):  # a middle that has a letter of its own is not taken for an end
                 yield Variant(what=what, V=times * mg * own, element=gravity, doubt=doubt)
             if mg * own != V:
