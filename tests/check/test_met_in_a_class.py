@@ -11,9 +11,11 @@ from functools import cache
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.drawn.side_by_side import side_by_side
+from lagrangian.check.verb import check_answer
 
 
 @cache
@@ -112,3 +114,44 @@ def test_j_about_a_pivot_is_counted_twice_and_no_half_is_missing() -> None:
 )
 def test_a_division_from_the_left_is_no_latex(text: str, is_latex: bool) -> None:
     assert (LATEX.search(text) is not None) == is_latex
+
+
+PENDULUM = "m L^2 theta'' + b theta' + m g L sin(theta) = 0"
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "For small theta without friction: theta'' + g/L theta = 0, as in the book.",
+        "Without gravity: m L^2 theta'' + b theta' = 0",
+        "5. units: m g L = kg * m * 1/s^2 * m = N m, b theta' = N m",
+        "Check: for $b=0$, $\\theta=0$ is an equilibrium. ✔",
+        "Check: for $b=0$ and no gravity $\\dot\\theta=$ const., $\\theta=0$ is an equilibrium.",
+    ],
+)
+def test_a_case_in_words_units_and_what_is_constant_are_beside_the_equations(remark: str) -> None:
+    assert check_answer(built_in.derivation("pendulum"), f"{PENDULUM}\n{remark}").right
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "Without gravity: m L^2 theta'' - b theta' = 0",
+        "For small theta without friction: theta'' + 2 g/L theta = 0",
+        "Without energies, by moments: m L^2 theta'' + b theta' - m g L sin(theta) = 0",
+    ],
+)
+def test_a_wrong_equation_behind_words_is_none_of_a_special_case(remark: str) -> None:
+    assert not check_answer(built_in.derivation("pendulum"), f"{PENDULUM}\n{remark}").right
+
+
+def test_a_case_in_words_alone_is_no_answer() -> None:
+    alone = "Without friction: m L^2 theta'' + m g L sin(theta) = 0"
+    assert not check_answer(built_in.derivation("pendulum"), alone).right
+
+
+def test_a_name_behind_a_sentence_with_a_plus_is_given_a_value() -> None:
+    said = "Moments of the force at the hinge + acceleration of the centre of the rod about it give with Steiner"
+    good = f"{said} Jh = m L^2:\nJh theta'' + b theta' + m g L sin(theta) = 0"
+    assert check_answer(built_in.derivation("pendulum"), good).right
+    assert not check_answer(built_in.derivation("pendulum"), good.replace("m L^2", "2 m L^2")).right

@@ -84,7 +84,7 @@ def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, sai
     It is where it is ``said``, except for θ = 0, and where coordinates get a value that is not 0: that may be any
     position, x = L/2, unless it is a product of letters; k x = F may be meant as an equation of motion.
     """
-    if expr.has(sp.Derivative):
+    if expr.has(sp.Derivative) or expr.is_Symbol:  # for b = 0
         return None
     coordinates = [c.symbol for c in truth.model.coordinates]
     slopes = [expr.diff(q) for q in coordinates]

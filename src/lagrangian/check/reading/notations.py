@@ -49,6 +49,7 @@ from lagrangian.check.reading.said.subscripts import with_index_of_time
 from lagrangian.check.reading.said.tables import with_tables
 from lagrangian.check.reading.star_math import without_star_math
 from lagrangian.check.reading.traced_text import TracedText
+from lagrangian.check.reading.unit_checks import without_unit_checks
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key
 
@@ -99,7 +100,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    referred = without_legend(without_references(indexed))
+    referred = without_unit_checks(without_legend(without_references(indexed)))
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)

@@ -91,6 +91,11 @@ _ABSENT = re.compile(
     re.IGNORECASE,
 )
 """Words of what a check leaves out: no friction, small angles."""
+_LED = re.compile(
+    r"\W{0,4}+(?:if|for|with|without|when|neglecting|ignoring|wenn|falls|für|bei|mit|ohne|si|pour|avec|sans)\b(?P<what>[^.;:=\n]{3,80}):",
+    re.IGNORECASE,
+)
+"""A case in words, in front of what holds in it: for small β without gravity: …"""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -109,11 +114,12 @@ _SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "
 
 @dataclass(frozen=True)
 class _Remark:
-    """A part of a text, and whether it is about a case that is not every motion."""
+    """A part of a text, whether it is about a case that is not every motion, and whether words alone say so."""
 
     start: int
     end: int
     case: bool
+    led: bool = False
 
 
 @dataclass(frozen=True)
@@ -157,7 +163,10 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
         inside = range(bisect_right(starts, r.start) - 1, bisect_right(starts, r.end - 1))
         rests = any(_REST.search(lines[k]) for k in inside[:1])
         for k in inside:
-            said[k + 1] = said.get(k + 1, frozenset()) | {"case" if r.case else "check", *(["rest"] if rests else [])}
+            said[k + 1] = said.get(k + 1, frozenset()) | {
+                "case" if r.case and not r.led else "check",
+                *(["rest"] if rests else []),
+            }
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
@@ -227,6 +236,11 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
 def _leaves_out(part: str) -> bool:
     """Whether words in front of the first statement say that something is left out: no rotation, no friction: …"""
     return _ABSENT.search(part.split("=", 1)[0]) is not None
+
+
+def _is_led(part: str) -> bool:
+    """Whether words in front of a colon say that what stands behind it leaves something out."""
+    return (led := _LED.match(part)) is not None and _leaves_out(led.group())
 
 
 def _kind(line: str) -> str | None:
@@ -302,11 +316,13 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
         case = bool(part.strip()) and _is_case(part, known, led=_LABEL.match(part) is not None)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
         case = case or kind == "case" or (kind is not None and _leaves_out(part))
-        if case or kind or _HELD.match(part):
+        led = not case and _is_led(part)
+        if case or kind or led or _HELD.match(part):
             last = k
             if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
                 last = k + 1
-            yield _Remark(starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case)
+            upto = starts[k] + end if last == k else starts[last] + len(lines[last])
+            yield _Remark(starts[k] + start, upto, case or led, led)
         start = end
 
 

@@ -47,12 +47,17 @@ _MULTIPLIER = re.compile(
     r"(?<=[\w)²³])[ \t]{3,60}+[(\[]?(?:\|[ \t]?)?(?:λ|μ|lambda|lam|mu)[_ ]?(?:\d|[₁₂₃])?[)\]]?[ \t]*$", re.MULTILINE
 )
 """The multiplier of a constraint, behind a gap at the end of its line."""
+_CONSTANT = re.compile(
+    r"\$[^$=\n]{1,40}=[ \t]*\$[ \t]*(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?", re.IGNORECASE
+)
+"""That something is constant, in a formula and a word: $x =$ const."""
 
 
 def without_legend(written: TracedText) -> TracedText:
     """Return an answer without the parts that only say how rates are spelled, what a name on the line means, or which
-    multiplier belongs to a constraint."""
+    multiplier belongs to a constraint, or that something is constant."""
     written = written.sub(_LEGEND, _blank).sub(_BEHIND, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
+    written = written.sub(_CONSTANT, _blank)
     return written.sub(_MULTIPLIER, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
 
 
