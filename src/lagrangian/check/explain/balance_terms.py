@@ -27,6 +27,8 @@ COSTS: dict[sp.Expr, float] = {sp.S.NegativeOne: 1.0, sp.Integer(2): 1.0, sp.S.Z
 """How far-fetched it is that a term has to be multiplied by a number: a factor is forgotten rather than invented."""
 LETTER, INVERSE, RATIO, MOVING = 2.0, 2.5, 3.0, 0.5
 """The same for a letter or an angle, for what a term is divided by, for both; more for a term with an acceleration."""
+EXCHANGED = 1.2
+"""What a sine for a cosine costs."""
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
 """What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
 OTHER_INERTIA = 1.7
@@ -51,6 +53,8 @@ def mends(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array], for
     own = own_terms_of(expr) if terms(expr) <= MOST_TERMS else []
     if not 1 < len(own) <= MOST_TERMS:
         return []
+    held = [t for t in own if t.has(*forces)] if forces else []
+    own += [cast("sp.Expr", sp.Add(*held))] if 1 < len(held) < len(own) else []
     found = CompiledExpressions([expr, *own]).at(truth.states, values)
     if not np.isfinite(found).all() or not np.abs(found[0]).max():
         return []
@@ -83,6 +87,9 @@ def _cost(truth: Reference, wrong: WrongTerm) -> float:
     more = MOVING if wrong.term.has(*(c.acceleration for c in truth.model.coordinates)) else 0.0
     if factor in COSTS:
         return COSTS[factor] + more
+    if (tangent := next(iter(factor.atoms(sp.tan)), None)) is not None:
+        there = sp.cos if factor == tangent else sp.sin
+        return more + (EXCHANGED if wrong.term.has(there(tangent.args[0])) else RATIO)
     above, below = factor.as_numer_denom()
     return more + (LETTER if below == 1 else INVERSE if above == 1 else RATIO)
 
@@ -163,7 +170,7 @@ def _missing(
 def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Iterator[tuple[float, sp.Expr]]:
     """Forces of the answer's own and of the system, and masses times accelerations of one kind."""
     model = truth.model
-    masses = [p.symbol for p in model.parameters if _is_mass(truth, p.symbol)][:MOST_LETTERS]
+    masses = [p.symbol for p in model.parameters if is_mass(truth, p.symbol)][:MOST_LETTERS]
     rates = [c.rate for c in model.coordinates]
     kinds = [c.acceleration for c in model.coordinates]
     kinds += [2 * a * b if a != b else a * b for a, b in combinations_with_replacement(rates, 2)]
@@ -183,7 +190,7 @@ def _bases(truth: Reference, expr: sp.Expr, forces: Sequence[sp.Basic]) -> Itera
     yield from ((cost, x) for x, cost in found.items())
 
 
-def _is_mass(truth: Reference, letter: sp.Symbol) -> bool:
+def is_mass(truth: Reference, letter: sp.Symbol) -> bool:
     """Whether the kinetic energy is linear in a letter: a mass or a moment of inertia."""
     return truth.T.has(letter) and not bounded.diff(truth.T, letter).has(letter)
 

@@ -25,6 +25,8 @@ from lagrangian.records import dataclass
 
 MOST_TERMS, MOST_LETTERS = 60, 12
 """The most terms of a line that are tried, and the most letters that may be a factor."""
+MOST_ANGLES = 8
+"""The most angles of which a sine or a cosine may be a factor."""
 MOST_PRODUCTS = 400
 """The most products of a term and an arm that a line may lack."""
 NEAR = 1e-8
@@ -116,7 +118,8 @@ def difference(truth: Reference, wrong: WrongTerm, coordinate: str | None) -> Te
     if wrong.factor == sp.oo:
         return TermDifference("missing", wrong.term, sp.S.Zero, coordinate)
     kind = {sp.S.Zero: "extra", sp.S.NegativeOne: "sign"}.get(wrong.factor, "coefficient")
-    right = wrong.term if kind == "extra" else cast("sp.Expr", wrong.term * wrong.factor)
+    tangents = {x: sp.sin(x.args[0]) / sp.cos(x.args[0]) for x in wrong.factor.atoms(sp.tan)}
+    right = wrong.term if kind == "extra" else cast("sp.Expr", wrong.term * wrong.factor.xreplace(tangents))
     moving = (c.name for c in truth.model.coordinates if wrong.term.has(c.acceleration))
     return TermDifference(kind, right, wrong.term, next(moving, coordinate))
 
@@ -280,7 +283,10 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
         yield factor, np.full(places, number)
     letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
     listed: list[sp.Expr] = [*letters, *(1 / x for x in letters), *(x / y for x in letters for y in letters if x != y)]
-    for c in truth.model.coordinates:
-        listed += [sp.tan(c.symbol), 1 / sp.tan(c.symbol), sp.sin(c.symbol), sp.cos(c.symbol)]
+    angles = {x.args[0] for row in truth.rows for x in row.atoms(sp.sin, sp.cos)} | {
+        c.symbol for c in truth.model.coordinates
+    }
+    for angle in sorted(angles, key=sp.default_sort_key)[:MOST_ANGLES]:
+        listed += [sp.tan(angle), 1 / sp.tan(angle), sp.sin(angle), sp.cos(angle)]
     values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
     yield from zip(listed, values, strict=True)

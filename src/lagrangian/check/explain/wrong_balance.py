@@ -18,6 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
+from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, wrong_law
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
@@ -39,6 +40,8 @@ MOST_TOLD = 3
 """The most lines of which one is said to be wrong."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
+MOMENT = 0.4
+"""By how much likelier an arm or a sign is wrong in a moment than in a sum of forces."""
 WHY = text("Draw a free-body diagram of the body of this line: every force with its sign, every moment with its arm.")
 WHY_SOLVED = text("The lines from which this was solved are right: solve them once more, term by term.")
 ENERGIES = ("T", "V", "L")
@@ -94,18 +97,22 @@ class Balances:
 def with_wrong_balance(
     truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict, later: Sequence[AnsweredLine] = ()
 ) -> Verdict:
-    """The verdict on an answer by Newton's laws in which one line alone is wrong and the others are right.
+    """The verdict on an answer by Newton's laws in which one line alone is wrong and the others are right, among these
+    the forces of springs and dampers that have names.
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
     if verdict.status is not Status.WRONG or truth.n < 2 or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
+        return verdict
+    if any(wrong_law(truth, x) for x in lines):
         return verdict
     on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
     if on is None or (balances := _balances(on, lines)) is None:
         return verdict
     if len(balances.forces) <= len(truth.derivation.multipliers):
         return verdict  # multipliers
-    if (solved := _one_blamed(on, balances, later)) is None:
+    parts = known_parts(truth, balances.lines, balances.forces)
+    if (solved := _one_blamed(on, balances, later, parts)) is None:
         return _without_invented(balances, verdict)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
     plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
@@ -120,24 +127,30 @@ def with_wrong_balance(
     follow = [x for x, follows in zip(below, holds, strict=True) if follows]
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
+    theirs = solved.known is not None or (solved.term is not None and solved.term.term.has(*balances.forces))
+    plain &= theirs or k is None or k in parts
     if verdict.mistakes and roots == {_at(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
+    if solved.known is not None and solved.known.said is not None:
+        title = None if solved.known.element is None else solved.known.element.title
+        mistake = replace(mistake, what=solved.known.said, element=title)
     return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
 
 
 @dataclass(frozen=True, eq=False)
 class WrongBalance:
     """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
-    later lines that are; ``few``: its term alone tells it from others."""
+    later lines that are; ``few``: its term alone tells it from others; ``known``: what it has wrong that is known."""
 
     k: int | None
     line: AnsweredLine
     term: WrongTerm | None
     false: tuple[AnsweredLine, ...] = ()
     few: bool = False
+    known: KnownPart | None = None
 
 
 def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
@@ -163,9 +176,20 @@ def _of_derivatives(mistake: Mistake) -> bool:
     return any(x in str(told) for told in (mistake.what, mistake.why) for x in ("∂L", "∂ℒ", "∂T", "T*"))
 
 
-def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLine]) -> WrongBalance | None:
-    """The line that is wrong; None if it may be several, and none of them would be right with a plain term."""
+def _one_blamed(
+    truth: Reference, balances: Balances, later: Sequence[AnsweredLine], parts: Mapping[int, KnownPart]
+) -> WrongBalance | None:
+    """The line that is wrong; None if it may be several, and none of them would be right with a plain term.
+
+    One with a known force that is wrong comes first; in one whose known ``parts`` are right its own forces are wrong.
+    """
     every, left_out = range(len(balances.lines)), _left_out(balances)
+    told = [i for i in every if i in parts and parts[i].said is not None and (not left_out or i in left_out)]
+    for i in told:
+        u = balances.forces_without(i) if left_out else None
+        if u is not None and _is_true(truth, balances.lines[i], truth.accelerations | u, parts[i].excess):
+            false = tuple(x for x in later if not _is_true(truth, x, truth.accelerations | u))
+            return WrongBalance(i, balances.lines[i], None, false, few=True, known=parts[i])
     k = left_out[0] if len(left_out) == 1 else None
     rest = [i for i in every if i != k]
     if len(left_out) <= 1 and balances.compared(rest) and (u := balances.solved(rest)) is not None:
@@ -183,12 +207,23 @@ def _one_blamed(truth: Reference, balances: Balances, later: Sequence[AnsweredLi
     for i in left_out:
         if (u := balances.forces_without(i)) is not None:
             given[i] = truth.accelerations | u
-            listed[i] = mends(truth, balances.lines[i].expr, given[i], list(u))
+            found = mends(truth, balances.lines[i].expr, given[i], list(u))
+            if (part := parts.get(i)) is not None and part.right:
+                found = [m for m in found if _may_be(truth, part, m.term, balances.forces)]
+            if part is not None and part.moment:
+                found = [replace(m, cost=m.cost - MOMENT) for m in found]
+            listed[i] = found
     if (best := plainest(listed)) is None:
-        return None
+        i = next(iter(told), None)
+        return None if i is None else WrongBalance(i, balances.lines[i], None, few=True, known=parts[i])
     i, term = best
     false = tuple(x for x in later if not _is_true(truth, x, given[i]))
     return WrongBalance(i, balances.lines[i], term, false, few=True)
+
+
+def _may_be(truth: Reference, part: KnownPart, wrong: WrongTerm, forces: Sequence[sp.Basic]) -> bool:
+    """Whether a term may be wrong in a line whose known forces are right: one with forces of the answer's own."""
+    return wrong.term.has(*forces) or (wrong.factor == sp.oo and part.may_lack(truth, wrong.term))
 
 
 def with_forces_of_below(
@@ -201,7 +236,7 @@ def with_forces_of_below(
     if verdict.status is not Status.WRONG or any(x.kind in ENERGIES for x in lines):
         return verdict
     solved = [x for x in lines if x.kind == "definition" and x.name and _is_force(truth, x, lines)]
-    if not solved or len({x.name for x in solved}) < len(solved):
+    if not solved or len({x.name for x in solved}) < len({x.number for x in solved}):
         return verdict
     numbers = frozenset(x.number for x in solved)
     if any(x.number in numbers and not any(x is y for y in solved) for x in lines):
@@ -220,7 +255,12 @@ def with_forces_of_below(
 
 
 def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether a definition was solved from an equation of motion: it has accelerations, or stands below such."""
+    """Whether a definition was solved from an equation of motion: it has accelerations, or stands below such.
+
+    An acceleration a_x = l θ″ was not, and neither was the law of a spring or damper, F = k (y − s).
+    """
+    if not weighs(truth, line):
+        return False
     moving = line.expr.has(*(c.acceleration for c in truth.model.coordinates))
     return moving or _stands_above(line, lines)
 
@@ -275,10 +315,13 @@ def _left_out(balances: Balances) -> list[int]:
     return [k for k in every if balances.solved([i for i in every if i != k]) is not None]
 
 
-def _is_true(truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array]) -> bool:
-    """Whether a line holds along the right motion."""
+def _is_true(
+    truth: Reference, line: AnsweredLine, values: Mapping[sp.Basic, Array], excess: Array | None = None
+) -> bool:
+    """Whether a line, without an ``excess``, holds along the right motion."""
     compiled = CompiledExpressions([line.expr])
-    return small(compiled.at(truth.states, values)[0], float(np.abs(compiled.at(truth.states)[0]).max()))
+    found = compiled.at(truth.states, values)[0]
+    return small(found - (0 if excess is None else excess), float(np.abs(compiled.at(truth.states)[0]).max()))
 
 
 def _hold(
@@ -293,12 +336,18 @@ def _hold(
     b = compiled.at(truth.states, still).T
     if not (np.isfinite(A).all() and np.isfinite(b).all()):
         return none
-    if (np.linalg.matrix_rank(A[:, :k]) < len(wanted)).any():
+    used = list(range(k))
+    for i, x in enumerate(below, k):  # what the balances do not say: the equation of a body without these forces
+        if np.linalg.matrix_rank(A[0, [*used, i]]) > np.linalg.matrix_rank(A[0, used]) and _is_true(
+            truth, x, truth.accelerations
+        ):
+            used.append(i)
+    if (np.linalg.matrix_rank(A[:, used]) < len(wanted)).any():
         return none
-    motion = -(np.linalg.pinv(A[:, :k]) @ b[:, :k, None])
+    motion = -(np.linalg.pinv(A[:, used]) @ b[:, used, None])
     scale = (np.abs(A) * np.abs(motion.transpose(0, 2, 1))).sum(axis=2) + np.abs(b)
     holds = (np.abs((A @ motion)[:, :, 0] + b) <= 1e-6 * np.maximum(scale, 1e-300)).all(axis=0)
-    return [bool(x) for x in holds[k:]] if holds[:k].all() else none
+    return [bool(x) for x in holds[k:]] if holds[used].all() else none
 
 
 def _marked(

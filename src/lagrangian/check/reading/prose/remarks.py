@@ -43,6 +43,13 @@ _BEHIND = re.compile(
     re.MULTILINE,
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
+_TOLD_BEHIND = re.compile(
+    r"(?<=\S)[ \t]{4,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
+    r"(?:(?!(?:alpha|beta|gamma|delta|theta|phi|psi|omega|sin|cos|tan|sqrt|exp|sign|sgn|ddot|dot)\b)[a-zäöüß]{2,24}"
+    r"[ \t]){2,8}(?![a-z]{0,24}[ \t]*[*/^+-])[a-zäöüß]{3,24}[ \t]*$",
+    re.MULTILINE,
+)
+"""The same without a colon: a_x, a_y acceleration of the table."""
 _MULTIPLIER = re.compile(
     r"(?<=[\w)²³])[ \t]{3,60}+[(\[]?(?:\|[ \t]?)?(?:λ|μ|lambda|lam|mu)[_ ]?(?:\d|[₁₂₃])?[)\]]?[ \t]*$", re.MULTILINE
 )
@@ -56,7 +63,9 @@ _CONSTANT = re.compile(
 def without_legend(written: TracedText) -> TracedText:
     """Return an answer without the parts that only say how rates are spelled, what a name on the line means, or which
     multiplier belongs to a constraint, or that something is constant."""
-    written = written.sub(_LEGEND, _blank).sub(_BEHIND, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
+    written = written.sub(_LEGEND, _blank)
+    for form in (_BEHIND, _TOLD_BEHIND):
+        written = written.sub(form, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
     written = written.sub(_CONSTANT, _blank)
     return written.sub(_MULTIPLIER, lambda m: _blank(m) if "=" in _line_of(m) else m.group())
 

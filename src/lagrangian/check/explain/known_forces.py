@@ -1,0 +1,197 @@
+"""Tells which known forces a body's own balance, with forces of the answer's own beside them, has wrongly.
+
+Where all that is known in a line is right, only its own forces can be wrong in it: a sign, an arm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.balance_terms import is_mass
+from lagrangian.check.explain.free_bodies import Match, free_bodies
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+from lagrangian.model import Damper, Element, Force, Gravity, Spring, Torque, time
+from lagrangian.page.formula import Text, text
+from lagrangian.records import dataclass
+
+MOST_LETTERS = 12
+"""The most letters that may be a factor of a force."""
+MOST_LAWS = 6
+"""The most springs and dampers of which a name may be the force."""
+NEAR = 1e-8
+"""The relative size of what is rounding."""
+NUMBERS = tuple(sign * sp.Rational(p, q) for p in range(1, 9) for q in range(1, 9) for sign in (1, -1))
+"""The numbers by which a line may be multiplied, or a force be wrong."""
+SAID: dict[sp.Expr, str] = {
+    sp.S.NegativeOne: "the wrong sign",
+    sp.Integer(2): "twice",
+    sp.S.Half: "half",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class KnownPart:
+    """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
+    element if it is one, by how much the line is wrong at every state, and the elements that act in it."""
+
+    right: bool
+    moment: bool
+    said: Text | None = None
+    element: Element | None = None
+    excess: Array | None = None
+    acting: frozenset[Element] = frozenset()
+
+    def may_lack(self, truth: Reference, term: sp.Expr) -> bool:
+        """Whether a line with right known forces may still lack a term: one of an element that is not known to act."""
+        others = (e for e in truth.model.elements if e not in self.acting and isinstance(e, (Spring, Damper)))
+        sizes = (e.k if isinstance(e, Spring) else e.b for e in others)
+        return any(truth.expand(x).free_symbols & term.free_symbols for x in sizes if x is not None)
+
+
+def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequence[sp.Basic]) -> dict[int, KnownPart]:
+    """What is known in those of some lines that are balances of bodies, by the place of the line."""
+    none = dict.fromkeys(forces, np.zeros(truth.states.size))
+    bodies = free_bodies(truth)
+    factors, alike = _factors(truth), _alike(truth)
+    matches: dict[int, Match] = {}
+    for i, x in enumerate(lines):
+        found = [m for m in bodies.matches(x.expr, none) if _is_plain(m, _factor(factors, m.scale), alike)]
+        if found:
+            matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
+    explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
+    return {i: _part(factors, lines[i], m, explicit) for i, m in matches.items()}
+
+
+def _part(factors: Mapping[sp.Expr, Array], line: AnsweredLine, match: Match, explicit: set[Element]) -> KnownPart:
+    """What is known in one line; a spring that other lines have under its own letter is missing in it."""
+    moment = match.balance.moment
+    missing = [e for e in match.omitted if e in explicit and isinstance(e, (Spring, Damper))]
+    if match.wrong:
+        listed = {e: _factor(factors, x) for e, x in match.wrong.items()}
+        times = next(iter(listed.values()))
+        if times is None or len(set(listed.values())) > 1:
+            return KnownPart(False, moment)
+        return _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
+    if missing:
+        return _said(line, match, missing, ["are missing" if len(missing) > 1 else "is missing"])
+    return KnownPart(not match.omitted, moment, acting=frozenset(match.counts))
+
+
+def _is_plain(match: Match, scale: sp.Expr | None, alike: set[sp.Expr]) -> bool:
+    """Whether a line may be such a multiple of a balance: any plain one if its forces are the same multiple, otherwise
+    by letters, or that of one of several bodies that are ``alike``."""
+    if scale is None:
+        return False
+    anchored = any(e not in match.wrong and e not in match.omitted for e in match.counts)
+    return anchored or abs(scale.as_coeff_Mul()[0]) in alike
+
+
+def _alike(truth: Reference) -> set[sp.Expr]:
+    """1, and 1/4 where the mass of a body is 4 m_w: four wheels."""
+    sizes = [x for b in truth.model.bodies for x in (b.mass, *(y for row in b.tensor for y in row))]
+    numbers = {abs(sp.sympify(x).as_coeff_Mul()[0]) for x in sizes}
+    return {sp.S.One, *(1 / n for n in numbers if n.is_Integer and n > 1)}
+
+
+# -- definitions ------------------------------------------------------------------------------------------------------
+
+
+def weighs(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a definition has masses, weights, inputs, or unknown names: a_x = l θ″ and F = k (y − s) have none."""
+    model = truth.model
+    inert = {p.symbol for p in model.parameters if is_mass(truth, p.symbol)}
+    weights = {x for e in model.elements if isinstance(e, Gravity) for x in truth.expand(e.g).free_symbols}
+    known = {x.symbol for x in (*model.parameters, *model.coordinates)}
+    letters = bounded.letters(line.expr)
+    return bool(letters & (inert | weights) or letters - known - {time})
+
+
+def wrong_law(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a definition is meant to be the force of springs and dampers, F = k (y − s) + d ẏ, and is another one."""
+    moving = [c.acceleration for c in truth.model.coordinates]
+    if line.kind != "definition" or line.expr.has(*moving) or weighs(truth, line):
+        return False
+    letters = bounded.letters(line.expr)
+    efforts = [effort for own, effort in _laws(truth) if own & letters]
+    if not efforts:
+        return False
+    values = CompiledExpressions([line.expr, *efforts]).at(truth.states)
+    size = np.abs(values[0]).max()
+    signs = map(np.array, product((1.0, -1.0), repeat=len(efforts)))
+    return not any(np.abs(values[0] - s @ values[1:]).max() <= NEAR * size for s in signs)
+
+
+def _laws(truth: Reference) -> list[tuple[set[sp.Basic], sp.Expr]]:
+    """The letters k and b of every linear spring and damper, and its force."""
+    model = truth.model
+    found: list[tuple[set[sp.Basic], sp.Expr]] = []
+    for e in model.elements:
+        if isinstance(e, Spring) and e.k is not None:
+            found.append((truth.expand(e.k).free_symbols, truth.expand(e.k * e.extension(model))))
+        elif isinstance(e, Damper) and e.b is not None:
+            found.append((truth.expand(e.b).free_symbols, truth.expand(e.b * e.rate(model))))
+    return found[:MOST_LAWS]
+
+
+# -- words and factors ------------------------------------------------------------------------------------------------
+
+
+def _said(line: AnsweredLine, match: Match, elements: Sequence[Element], what: Sequence[str | sp.Expr]) -> KnownPart:
+    titles = " and ".join(map(_title, elements))
+    said = text(f"In {line.title}, {titles} ", *what, ".")
+    element = elements[0] if len(elements) == 1 else None
+    return KnownPart(False, match.balance.moment, said, element, match.excess(elements))
+
+
+def _title(element: Element) -> str:
+    named = element.title
+    return named if isinstance(element, (Force, Torque)) else f"the force of {named}"
+
+
+def _wrong_by(times: sp.Expr, *, several: bool) -> list[str | sp.Expr]:
+    """What is wrong with forces that a line has so many times."""
+    have, count, lack = ("have", "count", "lack") if several else ("has", "counts", "lacks")
+    if times == -1:
+        return [f"{have} the wrong sign"]
+    if times in SAID:
+        return [f"{count} {SAID[times]}"]
+    above, below = times.as_numer_denom()
+    if times.is_number:
+        return [f"{count} ", times, " times"]
+    if above == 1:
+        return [f"{lack} the factor ", below]
+    if below == 1:
+        return [f"{have} the factor ", above, " too much"]
+    return [f"{have} the factor ", above, " in place of ", below]
+
+
+def _factors(truth: Reference) -> dict[sp.Expr, Array]:
+    """What a line may be multiplied by, with its values for every set of parameters."""
+    letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
+    one = {x: truth.states.of(x).reshape(SETS, -1)[:, 0] for x in letters}
+    listed: dict[sp.Expr, Array] = {sp.S.One: np.ones(SETS)}
+    listed |= {**one, **{1 / x: 1 / v for x, v in one.items()}}
+    for (x, a), (y, b) in product(one.items(), repeat=2):
+        listed.setdefault(x * y, a * b)
+        listed.setdefault(1 / (x * y), 1 / (a * b))
+        listed.setdefault(x / y, a / b)
+    return listed
+
+
+def _factor(factors: Mapping[sp.Expr, Array], values: Array) -> sp.Expr | None:
+    """A plain factor with these values, one for every set of parameters; None if it is none."""
+    for factor, known in factors.items():
+        ratio = values / known
+        if np.ptp(ratio) > 1e-7 * np.abs(ratio).max():
+            continue
+        number = next((n for n in NUMBERS if abs(float(n) - ratio[0]) <= 1e-7 * abs(ratio[0])), None)
+        if number is not None:
+            return number * factor
+    return None

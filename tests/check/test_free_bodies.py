@@ -1,0 +1,115 @@
+"""Balances of single bodies with forces of the answer's own: which line is wrong, and what in it.
+
+Oracle: free-body diagrams by hand. A lift: cage M, sheave J of radius R with a motor, a rope S that does not stretch to
+the cage and one F = k (y − x) that does to the counterweight m. A roller on a table that slides, with a spring between.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import lagrangian as lg
+from lagrangian.check.explain.free_bodies import free_bodies
+from lagrangian.check.explain.known_forces import known_parts
+from lagrangian.check.reference import truth_of
+from lagrangian.check.verb import check_answer
+from lagrangian.check.verdict import AnsweredLine
+
+LIFT = """M x'' = S - M g
+J x''/R = F R - S R + tau
+m y'' = m g - F
+F = k (y - x)
+S = M x'' + M g
+(M + J/R^2) x'' - k (y - x) + M g = tau/R
+m y'' + k (y - x) = m g"""
+
+
+@cache
+def lift() -> lg.Derivation:
+    s = lg.System("lift")
+    x, y = s.coordinates("x y")
+    M, m, J, R, k, g = s.parameters("M m J R k g")
+    s.particle(M, at=s.point("cage", (0, x)), name="cage")
+    s.particle(m, at=s.point("weight", (R, -y)), name="counterweight")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(-x / R, name="sheave"), name="sheave")
+    s.gravity((0, -1), g)
+    s.spring(k=k, deflection=y - x)
+    s.force(s.inputs("tau"), deflection=x / R)
+    return s.derive()
+
+
+@cache
+def table() -> lg.Derivation:
+    """A roller m, J, r on a sliding table M, held to it by a spring k and a damper b."""
+    s = lg.System("roller on a table")
+    x, u = s.coordinates("x u")
+    M, m, J, r, k, b = s.parameters("M m J r k b")
+    s.particle(M, at=s.point("T", (x, 0)), name="table")
+    s.rigid_body(m, inertia=J, at=s.point("P", (x + u, r)), frame=s.frame(-u / r, name="roller"), name="roller")
+    s.spring(k=k, deflection=u)
+    s.damper(b=b, deflection=u)
+    s.force((s.inputs("F"), 0), at=s.point("T2", (x, 0)))
+    return s.derive()
+
+
+TABLE = """m (x'' + u'') = B - k u - b u'
+J u''/r = -B r
+M x'' = F - B + k u + b u'
+B = -J u''/r^2
+(m + J/r^2) u'' + m x'' + k u + b u' = 0
+(M + m) x'' + m u'' = F"""
+
+
+def told(derivation: lg.Derivation, answer: str) -> str:
+    verdict = check_answer(derivation, answer)
+    assert not verdict.right
+    return str(verdict.mistakes[0].what)
+
+
+@pytest.mark.parametrize(("derivation", "answer"), [(lift, LIFT), (table, TABLE)])
+def test_right_balances_are_right(derivation: object, answer: str) -> None:
+    assert check_answer(derivation(), answer).right  # type: ignore[operator]
+
+
+def test_a_moment_with_forces_in_place_of_moments() -> None:
+    wrong = LIFT.replace("F R - S R + tau", "F - S + tau").replace("J/R^2", "J/R").replace("= tau/R", "= tau")
+    assert told(lift(), wrong) == "In line 2, the force of spring 'k' lacks the factor R."
+
+
+def test_the_sign_of_an_own_force() -> None:
+    wrong = TABLE.replace("= -B r", "= B r").replace("B = -J u", "B = J u").replace("(m + J/r^2)", "(m - J/r^2)")
+    assert told(table(), wrong) == "In line 2, on the right-hand side, B*r has the wrong sign."
+
+
+def test_a_reaction_that_is_forgotten() -> None:
+    wrong = TABLE.replace("F - B + k u + b u'", "F - B").replace("m u'' = F", "m u'' = F - k u - b u'")
+    assert told(table(), wrong).startswith("In line 3, the force of")
+    assert "missing" in told(table(), wrong)
+
+
+def test_the_sign_of_an_inertia_in_a_solved_force() -> None:
+    wrong = LIFT.replace("M x'' = S - M g", "S = M g - M x''").replace("S = M x'' + M g\n", "")
+    wrong = wrong.replace("(M + J/R^2)", "(J/R^2 - M)")
+    assert told(lift(), wrong) == "In line 1, on the right-hand side, -M*x'' has the wrong sign."
+
+
+def test_a_wrong_law_is_not_said_of_a_balance() -> None:
+    wrong = LIFT.replace("k (y - x)", "k (y + x)")
+    assert "line 1" not in told(lift(), wrong) and "line 2" not in told(lift(), wrong)
+
+
+def test_known_forces_are_counted_on_every_body() -> None:
+    derivation = lift()
+    truth = truth_of(derivation)
+    p = {q.name: q.symbol for q in truth.model.parameters}
+    line = p["M"] * truth.model.coordinates[0].acceleration + 2 * p["M"] * p["g"]
+    (found,) = [m for m in free_bodies(truth).matches(line, {}) if np.allclose(m.scale, 1) and len(m.counts) == 1]
+    (count,) = found.counts.values()
+    assert np.allclose(count, 2)
+    assert {e.title for e in found.wrong} == {"gravity 'g'"}
+    parts = known_parts(truth, [AnsweredLine("equation", line, 1)], [])
+    assert not parts[0].right
+    assert str(parts[0].said).endswith("counts twice.")
