@@ -110,10 +110,13 @@ def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
     or a coordinate is held at 0, whose own equation says how it is held."""
     if (form := truth.form(expr)) is None:
         return "it is a remark beside the equations"
-    for like, right in zip(likeness(form, truth.forms), truth.forms, strict=True):
-        told = differences(truth, form, right, like.factor, like.index) if right is not None and like.score > 0 else ()
-        if told and all(x.kind == "missing" and x.written == 0 for x in told):
-            return "it lacks terms of a right equation, which may be 0 in a special case"
+    small_ones = ([truth.form(row) for row in rows] for rows in _rows_for_small(truth) if rows)
+    for forms in (truth.forms, *small_ones):
+        for like, right in zip(likeness(form, forms), forms, strict=True):
+            known = right if like.score > 0 else None
+            told = () if known is None else differences(truth, form, known, like.factor, like.index)
+            if told and all(x.kind == "missing" and x.written == 0 for x in told):
+                return "it lacks terms of a right equation, which may be 0 in a special case"
     P = CompiledExpressions([expr]).at(truth.states)
     for i, c in enumerate(truth.model.coordinates):
         table = dict.fromkeys((c.symbol, c.rate, c.acceleration), sp.S.Zero)

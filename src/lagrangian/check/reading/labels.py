@@ -309,10 +309,15 @@ def without_units(text: str, words: Words) -> str:
     return _UNIT.sub(lambda m: " " * len(m.group()) if _is_unit(m["unit"], words, m["gap"]) else m.group(), text)
 
 
+def is_unit(word: str) -> bool:
+    """Whether a word is a unit, or several without a gap."""
+    return lookup(word) is not None or word in ("Nm", "kgm", "Nms")
+
+
 def _is_unit(written: str, words: Words, gap: str) -> bool:
     """Whether all words in brackets are units, and one no letter that is a name; far from a statement, all may be."""
     found = re.findall("[A-Za-zµΩ]+", written)
-    if not found or any(lookup(x) is None and x not in ("Nm", "kgm", "Nms") for x in found):
+    if not found or not all(map(is_unit, found)):
         return False
     return len(gap) > 1 or not all(len(x) == 1 and words.is_name(x) for x in found)
 

@@ -15,6 +15,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
+from lagrangian.check.reading.labels import is_unit
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.set_aside import MOST_TOLD
@@ -37,7 +38,10 @@ _CASES = (
     "static statics statisch statische statischer steady stationär stationäre "
     "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
 )
-CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
+_UNITS = frozenset(
+    ["unit", "units", "dimension", "dimensions", "einheit", "einheiten", "dimensionen", "unité", "unités"]
+)
+CHECKS, CASES = frozenset(_CHECKS.split()) | _UNITS, frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
 
 _REST = re.compile(
@@ -91,6 +95,15 @@ _ABSENT = re.compile(
     re.IGNORECASE,
 )
 """Words of what a check leaves out: no friction, small angles."""
+_LACKS = re.compile(
+    r"\W{0,4}(?:[^\s=:,.;]{1,20}[ ]){0,6}?(?:no|without|neglecting|ignoring|ohne|kein(?:e[nr]?)?|sans)[ ]"
+    r"(?:[^\W\d_]{2,12}[ ]){0,2}?"
+    r"(?:gravity|weight|friction|damp\w{0,6}|drag|force|input|torque|drive|motor|load|springs?|losses|"
+    r"dissipation|excitation|schwerkraft|gewicht|reibung|dämpf\w{0,6}|kraft|moment|antrieb|federn?|pesanteur|"
+    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b[^=\n:,]{0,30}[:,]",
+    re.IGNORECASE,
+)
+"""A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -109,11 +122,12 @@ _SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "
 
 @dataclass(frozen=True)
 class _Remark:
-    """A part of a text, and whether it is about a case that is not every motion."""
+    """A part of a text, and whether it is about a case that is not every motion, or leaves out a force."""
 
     start: int
     end: int
     case: bool
+    lacks: bool = False
 
 
 @dataclass(frozen=True)
@@ -138,8 +152,8 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
     resting = [r for r in found if _REST.search(text[r.start : r.end].split("=", 1)[0])]
-    if sum(n for r, n in zip(found, moving, strict=True) if not r.case) >= len(model.coordinates):
-        found = [r for r in found if r.case]
+    if sum(n for r, n in zip(found, moving, strict=True) if not r.case and not r.lacks) >= len(model.coordinates):
+        found = [r for r in found if r.case or r.lacks]
     elif model.constraints:  # a remark may state a constraint
         found = [r for r, n in zip(found, moving, strict=True) if r.case or n or r in resting]
     bare = _blanked(text, found)
@@ -219,7 +233,12 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
             k += 1
             continue
         end = _closed(lines, k) or (_end(lines, k) if _is_open(lines, k) else k + 1)
-        case = kind == "case" or _leaves_out(lines[k]) or _is_case(" ".join(lines[k:end][:2]), known, led=True)
+        case = (
+            kind == "case"
+            or _leaves_out(lines[k])
+            or _is_of_units(lines[k:end])
+            or _is_case(" ".join(lines[k:end][:2]), known, led=True)
+        )
         yield _Remark(starts[k], starts[end] - 1, case)
         k = end
 
@@ -227,6 +246,15 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
 def _leaves_out(part: str) -> bool:
     """Whether words in front of the first statement say that something is left out: no rotation, no friction: …"""
     return _ABSENT.search(part.split("=", 1)[0]) is not None
+
+
+def _is_of_units(lines: Sequence[str]) -> bool:
+    """Whether lines about units end in these: units: m s Omega^2 e = kg * m * 1/s^2 * m = N m, k theta = N m."""
+    if not _UNITS & {x.lower() for x in _WORD.findall(lines[0].split("=", 1)[0])}:
+        return False
+    ends = [x.rsplit("=", 1)[1] for line in lines for x in re.split(r"[,;]", line) if "=" in x]
+    words = [re.findall("[A-Za-zµΩ]+", x) for x in ends]
+    return bool(words) and all(found and all(map(is_unit, found)) for found in words)
 
 
 def _kind(line: str) -> str | None:
@@ -302,11 +330,14 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
         case = bool(part.strip()) and _is_case(part, known, led=_LABEL.match(part) is not None)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
         case = case or kind == "case" or (kind is not None and _leaves_out(part))
-        if case or kind or _HELD.match(part):
+        lacks = not case and _LACKS.match(part) is not None
+        if case or kind or lacks or _HELD.match(part):
             last = k
             if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
                 last = k + 1
-            yield _Remark(starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case)
+            yield _Remark(
+                starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case, lacks
+            )
         start = end
 
 
