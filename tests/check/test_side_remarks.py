@@ -134,14 +134,13 @@ def test_units_beside_equations_are_a_remark() -> None:
 
 def test_a_case_of_a_constant_beside_an_equilibrium_is_a_remark() -> None:
     sys = System("block on a slope")
-    x = sys.coordinates("x")
-    m, beta, g, b = sys.parameters("m beta g b")
-    sys.kinetic(m * x.diff() ** 2 / 2)
-    sys.potential(-m * g * x * sp.sin(beta))
-    sys.damper(b, deflection=x)
+    x, phi = sys.coordinates("x phi")
+    m, beta, g, b, J = sys.parameters("m beta g b J")
+    sys.kinetic(m * x.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    sys.potential(-m * g * x * sp.sin(beta) - b * sp.cos(phi))
     block = sys.derive()
-    row = r"$$m\ddot x + b\dot x = m g\sin\beta$$"
-    case = r"Check: for $\beta=0$ and no friction $x=$ const., $\dot x=0$ is an equilibrium."
+    row = r"$$m\ddot x = m g\sin\beta,\quad J\ddot\varphi + b\sin\varphi = 0$$"
+    case = r"Check: for $\beta=0$ and no friction $x=$ const., $\varphi=0$ is an equilibrium."
     assert block.check(f"{row}\n{case}", hint=0).right
     bare = case.replace("$x=$ const., ", "")
     assert block.check(f"{row}\n{bare}", hint=0).right
