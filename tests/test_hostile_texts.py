@@ -116,6 +116,8 @@ ANSWERS = {
     "a comment behind blanks": "x1 = 1" + BLANK + "#" * (N // 10) + "x1'' + x1 = 0",
     "returns": "A = [1]\n" + "return   " * (N // 9) + "a.b.c.solve(A, ",
     "signs between words": "x1'' = 0\n" + "mast + arm " * (N // 11) + ". And",
+    "signs between words in front of a name": "x1'' = 0\n" + "mast + arm " * (N // 11) + " give J2 = 1",
+    "what is left out in words": "x1'' = 0\n" + "without the " * (N // 12) + "force = 1",
     "quotation marks": "x1'' = 0\n" + ('a a a "b = ' * (N // 400) + "\n") * 30,
     "rates of rates": "d/dt " * (N // 5) + "x1'' = 0",
     "labels of slopes": "d/dt ∂T/∂x1" + BLANK + "y: x1'' = 0",

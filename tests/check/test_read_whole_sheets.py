@@ -133,3 +133,10 @@ def test_what_goes_on_below_a_letter_that_is_explained_belongs_to_the_equation(s
     above = f"T = {first} + 1/2 J_A theta'^2{said}\n  = {first}"
     assert right(f"{above} + 1/2 (J + m l^2) theta'^2")
     assert not right(f"{above} + 1/2 (J - m l^2) theta'^2")
+
+
+def test_signs_between_words_in_front_of_a_definition_are_no_mathematics() -> None:
+    said = "Moment from the hinge force + acceleration of the centre gives with Steiner Jh = J + m l^2:\n"
+    rows = f"{CART}\nJh theta'' + m l x'' cos(theta) - m g l sin(theta) = 0"
+    assert right(said + rows)
+    assert not right(said.replace("+ m l^2", "+ 2 m l^2") + rows)

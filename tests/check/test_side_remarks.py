@@ -7,6 +7,7 @@ where a remark states an energy, explains a name or repeats all equations, it is
 from __future__ import annotations
 
 import pytest
+import sympy as sp
 
 from built_in import derivation
 from lagrangian import System
@@ -104,6 +105,46 @@ def test_a_special_case_in_words_must_be_one(remark: str) -> None:
     assert not right(f"{CART}\n{POLE}\n{remark.replace('m)', '2 m)').replace('= m g', '= 2 m g')}")
     assert not right(f"{CART}\n{POLE}\n{remark.replace('+ b', '- b').replace('= m g', '= -m g')}")
     assert not right(f"{CART}\n{WRONG_POLE}\n{remark}")
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "For small theta without gravity: (J + m l^2) theta'' + m l x'' = 0, so the pole drifts.",
+        "Without gravity: (J + m l^2) theta'' + m l x'' cos theta = 0.",
+        "For small angles and no friction, (M + m) x'' + m l theta'' = F",
+        "Ohne Reibung: (M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta = F",
+    ],
+)
+def test_a_sentence_that_leaves_out_a_force_lacks_terms_alone(remark: str) -> None:
+    assert right(f"{CART}\n{POLE}\n{remark}")
+    assert not right(f"{CART}\n{POLE}\n{remark.replace('+ m l', '- m l')}")
+    assert not right(f"{CART}\n{POLE}\n{remark.replace('m l', '2 m l')}")
+    assert not right(f"{CART}\n{WRONG_POLE}\n{remark}")
+    assert not right(f"{remark.split(':')[0]}:\n{CART}\n{POLE.replace('- m g l sin theta', '')}")
+
+
+def test_units_beside_equations_are_a_remark() -> None:
+    units = "5. units: m l theta'' = kg * m * 1/s^2 = N, b x' = kg/s m/s = N, J theta'' = kg m^2/s^2 = N m"
+    assert right(f"{CART}\n{POLE}\n{units}")
+    assert not right(f"{CART}\n{WRONG_POLE}\n{units}")
+    assert not right(f"{CART}\n{POLE}\nunits: (J + m l^2) theta'' + 2 m l x'' cos theta = m g l sin theta")
+    assert not right(f"{CART}\n{POLE}\ncheck: (M + m) x'' + 2 m l theta'' cos theta = F")
+
+
+def test_a_case_of_a_constant_beside_an_equilibrium_is_a_remark() -> None:
+    sys = System("block on a slope")
+    x, phi = sys.coordinates("x phi")
+    m, beta, g, b, J = sys.parameters("m beta g b J")
+    sys.kinetic(m * x.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2)
+    sys.potential(-m * g * x * sp.sin(beta) - b * sp.cos(phi))
+    block = sys.derive()
+    row = r"$$m\ddot x = m g\sin\beta,\quad J\ddot\varphi + b\sin\varphi = 0$$"
+    case = r"Check: for $\beta=0$ and no friction $x=$ const., $\varphi=0$ is an equilibrium."
+    assert block.check(f"{row}\n{case}", hint=0).right
+    bare = case.replace("$x=$ const., ", "")
+    assert block.check(f"{row}\n{bare}", hint=0).right
+    assert not block.check(f"{row.replace('+ b', '- b')}\n{bare}", hint=0).right
 
 
 def test_what_a_name_is_in_a_special_case_is_not_said_of_all_motions() -> None:

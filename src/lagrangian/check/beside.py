@@ -23,7 +23,7 @@ from lagrangian.check.places import (
     prescribed_angles,
     rests,
 )
-from lagrangian.check.reference import Reference, terms
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import Kind, RowComparison, factors_of
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -34,8 +34,6 @@ from lagrangian.read.letters import key
 _D = r"(?:\\partial(?![a-z])|∂|\\(?:mathrm|text)\{d\}|d)"
 _SLOPE = re.compile(rf"[ \t$&]*+(?:\\[dt]?frac[ \t]?\{{)?{_D}[^=\n/]{{1,40}}?(?:/|\}}[ \t]?\{{){_D}")
 """A derivative on the left: dI/dθ = …, which is said of all positions unless it is zero."""
-MOST_TERMS = 60
-"""The most terms of an equation that is held against one of small motions."""
 _ZERO = re.compile(r"=[ \t]*0[ \t.$;,]*\Z")
 
 
@@ -112,32 +110,20 @@ def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
     or a coordinate is held at 0, whose own equation says how it is held."""
     if (form := truth.form(expr)) is None:
         return "it is a remark beside the equations"
-    for like, right in zip(likeness(form, truth.forms), truth.forms, strict=True):
-        told = differences(truth, form, right, like.factor, like.index) if right is not None and like.score > 0 else ()
-        if told and all(x.kind == "missing" and x.written == 0 for x in told):
-            return "it lacks terms of a right equation, which may be 0 in a special case"
+    small_ones = ([truth.form(row) for row in rows] for rows in _rows_for_small(truth) if rows)
+    for forms in (truth.forms, *small_ones):
+        for like, right in zip(likeness(form, forms), forms, strict=True):
+            known = right if like.score > 0 else None
+            told = () if known is None else differences(truth, form, known, like.factor, like.index)
+            if told and all(x.kind == "missing" and x.written == 0 for x in told):
+                return "it lacks terms of a right equation, which may be 0 in a special case"
     P = CompiledExpressions([expr]).at(truth.states)
     for i, c in enumerate(truth.model.coordinates):
         table = dict.fromkeys((c.symbol, c.rate, c.acceleration), sp.S.Zero)
         rows = [cast("sp.Expr", row.xreplace(table)) for j, row in enumerate(truth.rows) if j != i]
         if rows and factors_of(truth, P, CompiledExpressions(rows).at(truth.states))[1][0]:
             return f"it holds for {c.name} = 0 alone"
-    if any(_lacks_terms(truth, expr, row) for rows in _rows_for_small(truth) for row in rows):
-        return "it lacks terms of an equation of small motions, which may be 0 in a special case"
     return None
-
-
-def _lacks_terms(truth: Reference, expr: sp.Expr, row: sp.Expr) -> bool:
-    """Whether an equation is a right one, or a multiple of it, but for terms that it does not have."""
-    if terms(expr) > MOST_TERMS or terms(row) > MOST_TERMS:
-        return False
-    own, right = bounded.expand(expr), bounded.expand(row)
-    for c in truth.model.coordinates:
-        if (mass := right.coeff(c.acceleration)) == 0 or (found := own.coeff(c.acceleration)) == 0:
-            continue
-        kept = bounded.expand(own * bounded.cancel(mass / found))
-        return set(sp.Add.make_args(kept)) < set(sp.Add.make_args(right))
-    return False
 
 
 def _small_ones(truth: Reference, exprs: Sequence[sp.Expr]) -> list[bool]:

@@ -84,8 +84,8 @@ def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, sai
     It is where it is ``said``, except for θ = 0, and where coordinates get a value that is not 0: that may be any
     position, x = L/2, unless it is a product of letters; k x = F may be meant as an equation of motion.
     """
-    if expr.has(sp.Derivative) or expr.is_Symbol:  # for b = 0
-        return None
+    if expr.has(sp.Derivative) or (not expr.atoms(AppliedUndef) and len(expr.free_symbols) == 1):
+        return None  # a rate, or a case of a constant: for β = 0
     coordinates = [c.symbol for c in truth.model.coordinates]
     slopes = [expr.diff(q) for q in coordinates]
     value = bounded.expand(cast("sp.Expr", expr.xreplace(dict.fromkeys(coordinates, sp.S.Zero))))

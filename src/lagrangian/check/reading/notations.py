@@ -100,7 +100,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
     moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
-    referred = without_unit_checks(without_legend(without_references(indexed)))
+    referred = without_unit_checks(without_legend(without_references(indexed)), taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)
     latex = bool(LATEX.search(tagless.text))
     tagless = tagless if latex else with_functions_applied(tagless, taken, names.notes)

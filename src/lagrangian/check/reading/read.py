@@ -38,6 +38,7 @@ from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
+from lagrangian.check.reading.read_steps import read_steps
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
@@ -59,10 +60,6 @@ MAX_ANSWER = 60_000
 
 LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
-
-CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
-"""The note on a program whose lines are not read as they stand."""
-COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _BEGINS = r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
@@ -109,15 +106,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     if program is None:
         return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
 
-    def by_steps() -> Answer:
-        try:
-            found, notes = _declared(program.text, model, place), (CARRIED_OUT,)
-        except ParseError:
-            if program.bare == program.text:
-                raise
-            found, notes = _declared(program.bare, model, place), (CARRIED_OUT, COMMENTS_LEFT_OUT)
-        return replace(found, notes=(*notes, *program.notes, *found.notes), program=True)
-
+    by_steps = partial(read_steps, program, partial(_declared, model=model, place=place))
     typed: Answer | ParseError
     try:
         typed = _declared(text, model, place)

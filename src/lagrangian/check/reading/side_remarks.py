@@ -91,11 +91,15 @@ _ABSENT = re.compile(
     re.IGNORECASE,
 )
 """Words of what a check leaves out: no friction, small angles."""
-_LED = re.compile(
-    r"\W{0,4}+(?:if|for|with|without|when|neglecting|ignoring|wenn|falls|für|bei|mit|ohne|si|pour|avec|sans)\b(?P<what>[^.;:=\n]{3,80}):",
+_LACKS = re.compile(
+    r"\W{0,4}(?:[^\s=:,.;]{1,20}[ ]){0,6}?(?:no|without|neglecting|ignoring|ohne|kein(?:e[nr]?)?|sans)[ ]"
+    r"(?:[^\W\d_]{2,12}[ ]){0,2}?"
+    r"(?:gravity|weight|friction|damp\w{0,6}|drag|force|input|torque|drive|motor|load|springs?|losses|"
+    r"dissipation|excitation|schwerkraft|gewicht|reibung|dämpf\w{0,6}|kraft|moment|antrieb|federn?|pesanteur|"
+    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b[^=\n:,]{0,30}[:,]",
     re.IGNORECASE,
 )
-"""A case in words, in front of what holds in it: for small β without gravity: …"""
+"""A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -114,12 +118,12 @@ _SIGNS = {"equiv": "=", "approx": "=", "to": "→", "rightarrow": "→", "ll": "
 
 @dataclass(frozen=True)
 class _Remark:
-    """A part of a text, whether it is about a case that is not every motion, and whether words alone say so."""
+    """A part of a text, and whether it is about a case that is not every motion, or leaves out a force."""
 
     start: int
     end: int
     case: bool
-    led: bool = False
+    lacks: bool = False
 
 
 @dataclass(frozen=True)
@@ -144,8 +148,8 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     found = [r for r in found if _is_whole(part := text[r.start : r.end]) and not _states(part, model)]
     moving = [sum(map(accelerates_in, _general(text[r.start : r.end], known))) for r in found]
     resting = [r for r in found if _REST.search(text[r.start : r.end].split("=", 1)[0])]
-    if sum(n for r, n in zip(found, moving, strict=True) if not r.case) >= len(model.coordinates):
-        found = [r for r in found if r.case]
+    if sum(n for r, n in zip(found, moving, strict=True) if not r.case and not r.lacks) >= len(model.coordinates):
+        found = [r for r in found if r.case or r.lacks]
     elif model.constraints:  # a remark may state a constraint
         found = [r for r, n in zip(found, moving, strict=True) if r.case or n or r in resting]
     bare = _blanked(text, found)
@@ -163,10 +167,7 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
         inside = range(bisect_right(starts, r.start) - 1, bisect_right(starts, r.end - 1))
         rests = any(_REST.search(lines[k]) for k in inside[:1])
         for k in inside:
-            said[k + 1] = said.get(k + 1, frozenset()) | {
-                "case" if r.case and not r.led else "check",
-                *(["rest"] if rests else []),
-            }
+            said[k + 1] = said.get(k + 1, frozenset()) | {"case" if r.case else "check", *(["rest"] if rests else [])}
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
@@ -236,11 +237,6 @@ def _remarks(lines: Sequence[str], starts: Sequence[int], known: Callable[[str],
 def _leaves_out(part: str) -> bool:
     """Whether words in front of the first statement say that something is left out: no rotation, no friction: …"""
     return _ABSENT.search(part.split("=", 1)[0]) is not None
-
-
-def _is_led(part: str) -> bool:
-    """Whether words in front of a colon say that what stands behind it leaves something out."""
-    return (led := _LED.match(part)) is not None and _leaves_out(led.group())
 
 
 def _kind(line: str) -> str | None:
@@ -316,13 +312,14 @@ def _sentences(lines: Sequence[str], k: int, starts: Sequence[int], known: Calla
         case = bool(part.strip()) and _is_case(part, known, led=_LABEL.match(part) is not None)
         kind = _kind(part) if start and ":" in part and "=" in part else None  # one that begins a line is taken above
         case = case or kind == "case" or (kind is not None and _leaves_out(part))
-        led = not case and _is_led(part)
-        if case or kind or led or _HELD.match(part):
+        lacks = not case and _LACKS.match(part) is not None
+        if case or kind or lacks or _HELD.match(part):
             last = k
             if end == len(line) and not _ENDS.search(line) and not _rest_states(part) and k + 1 < len(lines):
                 last = k + 1
-            upto = starts[k] + end if last == k else starts[last] + len(lines[last])
-            yield _Remark(starts[k] + start, upto, case or led, led)
+            yield _Remark(
+                starts[k] + start, starts[k] + end if last == k else starts[last] + len(lines[last]), case, lacks
+            )
         start = end
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.traced_text import Edit, TracedText
 from lagrangian.quantities.units import joined, lookup
 
@@ -17,23 +16,25 @@ _OTHER = re.compile(r"[\w\s*·./^()\[\]{}²³⁻¹−$-]*")
 """What a product of units consists of."""
 
 
-def without_unit_checks(written: TracedText) -> TracedText:
-    """Return an answer without what is equated to units on lines that say that they check these."""
-    return written.edited(_checks(written.text))
+def without_unit_checks(written: TracedText, taken: Callable[[str], bool]) -> TracedText:
+    """Return an answer without what is equated to units on lines that say that they check these; ``taken``: whether
+    the system has a name, which is no unit alone."""
+    return written.edited(_checks(written.text, taken))
 
 
-def _checks(text: str) -> Iterator[Edit]:
+def _checks(text: str, taken: Callable[[str], bool]) -> Iterator[Edit]:
     at = 0
     for line in text.splitlines(keepends=True):
         if "=" in line and _SAID.match(line) is not None:
             for part in _PART.finditer(line):
-                if "=" in part.group() and not accelerates_in(part.group()) and _ends_in_units(part.group()):
+                if "=" in part.group() and _ends_in_units(part.group(), taken):
                     yield at + part.start(), at + part.end(), " " * len(part.group())
         at += len(line)
 
 
-def _ends_in_units(part: str) -> bool:
+def _ends_in_units(part: str, taken: Callable[[str], bool]) -> bool:
     """Whether what stands behind the last equals sign is a product of units."""
     last = part.rsplit("=", 1)[1].rstrip(" \t.✓✔")
     names = _NAME.findall(last)
-    return bool(names) and _OTHER.fullmatch(last) is not None and all(lookup(x) or joined(x) for x in names)
+    units = _OTHER.fullmatch(last) is not None and all(lookup(x) or joined(x) for x in names)
+    return units and any(not taken(x) for x in names)

@@ -16,6 +16,8 @@ from lagrangian.check.reading.carried_out.mechanics import combined, made
 from lagrangian.check.reading.carried_out.methods import MechanicsMethod, method
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
 from lagrangian.check.reading.carried_out.values import (
+    LIBRARY,
+    MODULES,
     MOST_ENTRIES,
     MOST_STEPS,
     TIME,
@@ -34,6 +36,7 @@ from lagrangian.check.reading.carried_out.values import (
     State,
     Value,
     added,
+    bind,
     called_name,
     constant,
     entry_of,
@@ -54,9 +57,6 @@ MOST_WORK = 200_000
 """The most operations of all results of a program together."""
 DEEPEST = 8
 """How deep functions may call each other."""
-_OUTSIDE = frozenset(
-    ["np", "numpy", "sp", "sympy", "math", "me", "mechanics", "scipy", "plt", "jnp", "cmath", "la", "linalg", "physics"]
-)
 
 
 @dataclass(eq=False)
@@ -74,7 +74,8 @@ class Evaluator:
     """The names whose values were used."""
     sides: set[str] = field(default_factory=set)
     """The names that are a side of an equation of the program."""
-    called: set[str] = field(default_factory=set)
+    called: set[OwnFunction] = field(default_factory=set)
+    """The functions of the program that another of its values uses."""
     solved: dict[sp.Symbol, tuple[MatrixBase, MatrixBase, tuple[sp.Symbol, ...]]] = field(default_factory=dict)
     """For unknowns of linear equations A x = b: A, b and x."""
     aliases: dict[sp.Symbol, str] = field(default_factory=dict)
@@ -158,8 +159,8 @@ class Evaluator:
             return names[name]
         if name in self.functions:
             return self.functions[name]
-        if name in _OUTSIDE:
-            return UNKNOWN
+        if name in MODULES:
+            return LIBRARY
         if name == "pi":
             return sp.pi
         if name == "t":
@@ -208,6 +209,8 @@ class Evaluator:
         if node.attr == "_t":
             return TIME  # dynamicsymbols._t
         of = self.value(node.value, names)
+        if of is UNKNOWN:
+            return sp.Symbol(node.attr) if self.known(node.attr) else UNKNOWN  # p.m of p = Parameters()
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
         if isinstance(of, Mechanical):
@@ -215,11 +218,13 @@ class Evaluator:
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
         free = isinstance(of, sp.Symbol) and (self.matlab or not hasattr(of, node.attr))
-        if isinstance(of, Fields) or free:
-            return sp.Symbol(node.attr)  # p.m
+        if isinstance(of, Fields):
+            return of.value(node.attr)  # p.m
+        if free:
+            return sp.Symbol(node.attr)
         if node.attr == "T" and isinstance(of, (MatrixBase, list)):
-            made = matrix(of)
-            return made.T if isinstance(of, MatrixBase) else made
+            flat = isinstance(of, list) and not any(isinstance(x, list) for x in of)
+            return matrix(of) if flat else matrix(of).T
         if isinstance(of, Equation) and node.attr in ("lhs", "rhs"):
             return of.left if node.attr == "lhs" else of.right
         return BoundMethod(of, node.attr)
@@ -230,18 +235,9 @@ class Evaluator:
         inner = dict(names)
         found: list[Value] = []
         for x in self.iterated(node.generators[0].iter, names):
-            self._bind(node.generators[0].target, x, inner)
+            bind(node.generators[0].target, x, inner)
             found.append(self.value(node.elt, inner))
         return found
-
-    def _bind(self, target: ast.expr, value: Value, names: dict[str, Value]) -> None:
-        if isinstance(target, ast.Name):
-            names[target.id] = value
-        elif isinstance(target, ast.Tuple):
-            for one, part in zip(target.elts, listed(value), strict=False):
-                self._bind(one, part, names)
-        else:
-            raise AbandonedError
 
     def iterated(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
         """What a loop goes through: a list, range(…), zip(…), enumerate(…)."""
@@ -298,6 +294,8 @@ class Evaluator:
         if (of := made(name, given, options) or method(name, given, options)) is not None:
             self.methods += [(node.lineno, of)] if isinstance(of, MechanicsMethod) else []
             return of
+        if name == "struct" and all(isinstance(x, str) for x in given[::2]):
+            return dict(zip(given[::2], given[1::2], strict=False))
         if name in ("subs", "Subs") and len(given) > 1:
             return self._replaced(given[0], pairs_of(given[1:]))
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
@@ -307,11 +305,12 @@ class Evaluator:
             if isinstance(found, Outside) and all(isinstance(x, sp.Integer) for x in given):
                 return State(name).entry(number(given[0]))  # z(2), where nothing says what z is
             return found
-        return routine(name, given, options) if given or name in ("Function",) else UNKNOWN
+        if not given and name != "Function":
+            return options if options and all(map(is_scalar, options.values())) else UNKNOWN  # dict(m=1, l=2)
+        return routine(name, given, options)
 
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
         """The value of a function of the program, which may have no name but that by which it is ``called``."""
-        self.called.add(of.name)
         if self.known(of.name or called) and list(given) == [TIME]:
             return sp.Symbol(of.name or called)  # an input, of which the program has an example
         self.depth += 1
@@ -364,7 +363,7 @@ class Evaluator:
             return UNKNOWN
         said = names.get(at.id) if isinstance(at, ast.Name) else getattr(at, "value", None)
         if isinstance(of, (Fields, sp.Symbol, Routine)) and isinstance(said, str):
-            return sp.Symbol(said)
+            return of.value(said) if isinstance(of, Fields) else sp.Symbol(said)
         if isinstance(of, dict):
             return of.get(self.value(at, names), UNKNOWN)
         if isinstance(of, Routine) and of.name == "r_":  # np.r_[v, a]

@@ -22,6 +22,7 @@ _COMMENT = re.compile(
 )
 _WORD = re.compile(r"[^\W\d]\w*+")
 _TWICE = re.compile(r"(?<=[\w])(?:''|’’|″)")
+_ONCE = re.compile(rf"(?<!\w)({'|'.join(COLUMNS)})['’′]")
 MOST = 20
 """The most comments that are looked at."""
 
@@ -31,7 +32,7 @@ def equations_in_comments(
 ) -> Iterator[tuple[int, list[sp.Expr]]]:
     """The entries of equations in columns that comments state, with their lines; each entry is 0."""
     for match in islice(_COMMENT.finditer(reader.text), MOST):
-        sides = [_TWICE.sub("dd", match[k]).strip().rstrip(".;,") for k in ("left", "right")]
+        sides = [_ONCE.sub(r"\g<1>d", _TWICE.sub("dd", match[k])).strip().rstrip(".;,") for k in ("left", "right")]
         known = _columns(" ".join(sides), names, reader)
         if known is None:
             continue

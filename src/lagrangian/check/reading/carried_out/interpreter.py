@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from contextlib import suppress
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
+    LIBRARY,
     MOST_ENTRIES,
     TIME,
+    TROUBLES,
     UNKNOWN,
     AbandonedError,
+    Fields,
     Outside,
     OwnFunction,
     ReturnedError,
@@ -26,6 +31,7 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     called_name,
     equated,
+    is_number,
     is_scalar,
     is_sided,
     listed,
@@ -34,7 +40,6 @@ from lagrangian.check.reading.carried_out.values import (
     scalar,
 )
 from lagrangian.check.reading.own_inputs import may_drive
-from lagrangian.errors import Error
 from lagrangian.records import dataclass, field
 
 NEAR = 1e-6
@@ -49,6 +54,10 @@ class Interpreter(Evaluator):
     """The values of the parameters of the system that a program does not name."""
     driven: str | None = None
     """The one input of the system that a program does not name."""
+    said: Set[str] = frozenset()
+    """The names of parameters of the system in the program, as its comments say: Mc = M."""
+    left_out: list[tuple[int, int]] = field(default_factory=list)
+    """The first and the last lines of statements that depend on conditions, which were not carried out."""
     drives: str | None = None
     """The function of the program that is this input."""
 
@@ -62,6 +71,9 @@ class Interpreter(Evaluator):
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
         """The value of a function of the program; one of time alone may be the input that has no name, motor(t)."""
         value = Evaluator.function(self, of, given, called)
+        if given and all(map(is_number, given)):  # acc(0, 0.1), to see what comes out
+            return UNKNOWN if any(_letters(x) & self.solved.keys() for x in self.flat(value)) else value
+        self.called |= {of} if called else set()
         if self.driven is None or not called or list(given) != [TIME] or not is_scalar(value):
             return value
         name, letters = of.name or called, set(scalar(value).free_symbols)
@@ -81,7 +93,7 @@ class Interpreter(Evaluator):
     def _statement(self, s: ast.stmt, names: dict[str, Value]) -> None:
         if isinstance(s, (ast.Import, ast.ImportFrom)):
             for alias in s.names if isinstance(s, ast.Import) else ():
-                names[alias.asname or alias.name.partition(".")[0]] = UNKNOWN
+                names[alias.asname or alias.name.partition(".")[0]] = LIBRARY
         elif isinstance(s, ast.FunctionDef):
             out = s.returns.value if isinstance(s.returns, ast.Constant) else None
             made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
@@ -89,7 +101,7 @@ class Interpreter(Evaluator):
         elif isinstance(s, ast.Assign):
             before = set(self.used)
             self.several = []
-            value = self.value(s.value, names)
+            value = self._value_of(s.value, names)
             if isinstance(s.targets[0], (ast.Tuple, ast.List)) and len(self.several) == len(s.targets[0].elts):
                 value = self.several  # [M, h] = matrices(q)
             self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
@@ -101,17 +113,68 @@ class Interpreter(Evaluator):
             before = self.value(ast.Name(getattr(s.target, "id", ""), ast.Load()), names)
             self._assign(s.target, self.operated(s.op, before, self.value(s.value, names)), names, s.lineno)
         elif isinstance(s, ast.Expr):
-            self._shown(s, names)
+            with suppress(*TROUBLES):
+                self._shown(s, names)
         elif isinstance(s, ast.Return):
             raise ReturnedError(self.value(s.value, names) if s.value is not None else UNKNOWN)
         elif isinstance(s, ast.For):
+            self._loop(s, names)
+        elif isinstance(s, ast.With) or (isinstance(s, ast.If) and "__name__" in ast.dump(s.test)):
+            self.carry_out(s.body, names)
+        elif isinstance(s, (ast.If, ast.While, ast.Try)):
+            self._leave_out(s, names)
+        elif isinstance(s, ast.ClassDef):
+            self._class(s)
+        elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise, ast.Delete)):
+            raise AbandonedError
+
+    def _value_of(self, node: ast.expr, names: dict[str, Value]) -> Value:
+        """The value that a name gets; of one that has no meaning on symbols, nothing is known."""
+        try:
+            return self.value(node, names)
+        except TROUBLES:
+            return UNKNOWN
+
+    def _loop(self, s: ast.For, names: dict[str, Value]) -> None:
+        """Carry out a loop; of what one over too much changes, such as the steps of a solver, nothing is known."""
+        before, stated = dict(names), len(self.stated)
+        try:
             for x in self.iterated(s.iter, names):
                 self._assign(s.target, x, names, s.lineno)
                 self.carry_out(s.body, names)
-        elif isinstance(s, ast.If) and isinstance(s.test, ast.Compare) and "__name__" in ast.dump(s.test):
-            self.carry_out(s.body, names)
-        elif not isinstance(s, (ast.Pass, ast.Global)):
-            raise AbandonedError
+        except TROUBLES:
+            del self.stated[stated:]
+            names.clear()
+            names |= before
+            self._leave_out(s, names)
+
+    def _leave_out(self, s: ast.stmt, names: dict[str, Value]) -> None:
+        """Nothing is known of what a statement with conditions changes, but that a parameter, or an input, is given."""
+        changed = changed_by(s)
+        for name, own in changed.items():
+            names[name] = sp.Symbol(name) if self.known(name) and not own else UNKNOWN
+            self.stated.append(Shown(s.lineno, name, UNKNOWN))
+        if changed:
+            self.left_out.append((s.lineno, s.end_lineno or s.lineno))
+        if returns(s):
+            raise ReturnedError(UNKNOWN)
+
+    def _class(self, s: ast.ClassDef) -> None:
+        """The methods of a class are functions; its object has the fields that its first method sets."""
+        fields = Fields()
+        self.outer["self"] = fields
+        first = None
+        for method in s.body:
+            if not isinstance(method, ast.FunctionDef):
+                continue
+            given = tuple(a.arg for a in method.args.args)
+            made = OwnFunction(method.name, given[given[:1] == ("self",) :], method.body)
+            if method.name == "__init__":
+                first = made
+            else:
+                fields.values[method.name] = self.functions[method.name] = made
+        if first is not None:
+            Evaluator.function(self, first, [sp.Symbol(x) for x in first.arguments])
 
     def _shown(self, s: ast.Expr, names: dict[str, Value]) -> None:
         """A statement that is a value alone, or that prints some."""
@@ -172,11 +235,11 @@ class Interpreter(Evaluator):
             given = given or (
                 isinstance(value, sp.Expr) and value.free_symbols <= {TIME} and not value.atoms(AppliedUndef)
             )
-            if isinstance(value, sp.Expr) and given and self.known(target.id):
+            if isinstance(value, sp.Expr) and given and (self.known(target.id) or target.id in self.said):
                 value = sp.Symbol(target.id)
             elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
                 value = self._of_value(value)
-            names[target.id] = value
+            names[target.id] = value = self._table(value, line)
             if isinstance(value, sp.Symbol) and "[" in value.name:
                 self.aliases.setdefault(value, target.id)
             self.stated.append(Shown(line, target.id, value))
@@ -186,8 +249,21 @@ class Interpreter(Evaluator):
             self.lines |= {value: line} if isinstance(value, sp.Expr) else {}
         elif not isinstance(target, ast.Attribute):
             raise AbandonedError
-        elif target.attr == "potential_energy" and isinstance(body := self.value(target.value, names), Mass):
-            body.potential = scalar(value)
+        elif isinstance(of := self.value(target.value, names), Mass) and target.attr == "potential_energy":
+            of.potential = scalar(value)
+        elif isinstance(of, Fields):
+            self._assign(ast.Name(target.attr), value, of.values, line)
+
+    def _table(self, value: Value, line: int) -> Value:
+        """A table of numbers is one of parameters, dict(m=1, l=2): those of the system are their symbols."""
+        if not isinstance(value, dict) or not value or not all(isinstance(x, str) for x in value):
+            return value
+        if not all(isinstance(x, (sp.Expr, str, Outside)) for x in value.values()):
+            return value
+        fields = Fields()
+        for name, x in value.items():
+            self._assign(ast.Name(name), x, fields.values, line)
+        return fields
 
     def _of_value(self, value: sp.Expr) -> sp.Expr:
         """A number that a program gives to a name of its own; the one parameter that it does not name, of this value:
@@ -232,5 +308,5 @@ class Interpreter(Evaluator):
             self._put(place, one, names)
 
 
-TROUBLES = (AbandonedError, Error, ValueError, TypeError, IndexError, KeyError, ZeroDivisionError, AttributeError)
-"""What may come of a program that is carried out and does not make sense."""
+def _letters(value: Value) -> set[sp.Basic]:
+    return value.free_symbols if isinstance(value, sp.Expr) else set()

@@ -23,7 +23,7 @@ from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
 from lagrangian.records import dataclass
 
-_ACCELERATES = re.compile(r"acc|dd|pp\b|rhs|eom|dyn|motion|forward|ode|deriv|_tt", re.IGNORECASE)
+ACCELERATES = re.compile(r"acc|dd|pp\b|rhs|eom|dyn|motion|forward|ode|deriv|_tt|punktpunkt|beschl", re.IGNORECASE)
 """Names of functions that return accelerations, and of their results."""
 
 Motion = tuple[list[tuple[sp.Expr, sp.Expr]], dict[sp.Symbol, sp.Expr]]
@@ -42,11 +42,15 @@ class Layouts:
     rated: Callable[[str], str | None]
 
     def of_accelerations(self, f: OwnFunction, states: Sequence[State], rates: Sequence[sp.Expr]) -> Motion | None:
-        """The accelerations that a function returns, one for each coordinate; None if it may be something else."""
+        """The accelerations that a function returns, one for each coordinate, perhaps above multipliers; None if it may
+        be something else."""
         n = len(self.model.coordinates)
+        rates, more = rates[:n], rates[n:]
         solved = any(x.free_symbols & self.run.solved.keys() for x in rates)
-        named = any(map(_ACCELERATES.search, (f.name, f.out or "")))
+        named = any(map(ACCELERATES.search, (f.name, f.out or "")))
         if len(rates) != n or not states or not (solved or named):
+            return None
+        if len(more) > len(self.model.constraints) or not set(more) <= self.run.solved.keys():
             return None
         if any(x in state.entries.values() for state in states for x in rates):
             return None  # the rate of a state

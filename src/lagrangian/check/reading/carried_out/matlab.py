@@ -21,6 +21,13 @@ _HEADER = re.compile(
     r"(?P<name>[^\W\d][\w.]*+)[ \t]*+(?:\((?P<given>[^()\n]*+)\))?[ \t]*+;?[ \t]*+\Z"
 )
 _KEYWORDS = frozenset(["if", "for", "while", "switch", "try", "parfor", "else", "elseif", "case", "otherwise", "catch"])
+_OPENING = frozenset(["if", "for", "while", "switch", "try", "parfor"])
+_END = re.compile(r"[\s,;]end(?:if|for|while|switch)?[ \t]*+[,;]?[ \t]*+\Z")
+_LOOP, _CONDITION = "while unread(): ", "if unread(): "
+UNREAD = "unread"
+"""What gives a value of which nothing is known."""
+_GIVEN = re.compile(r"[ \t]*+(?P<name>[^\W\d]\w*+)[ \t]*+(?:\([^()=\n]{0,60}\)|\{[^{}=\n]{0,60}\})?[ \t]*+=(?!=)")
+"""A statement that gives a name, or a part of what it is, a value: Z(:, i) = z."""
 _DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
 _SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
 _ENTRY = re.compile(r"(?P<name>[^\W\d]\w*+)\((?P<at>[\w, \t]++)\)[ \t]*+=(?!=)")
@@ -39,8 +46,10 @@ _OPERATORS = {"^": "**", ".^": "**", ".*": "*", "./": "/", "\\": "@", ".\\": "@"
 
 
 def in_python(text: str) -> str:
-    """Return the program in Python's syntax, with the same lines; `AbandonedError` if it has branches, or loops over
-    anything but numbers."""
+    """Return the program in Python's syntax, with the same lines.
+
+    What stands in branches, and in loops over anything but numbers, is kept for what it changes.
+    """
     bare = (_without_comment(x) for x in text.split("\n"))
     lines = _joined([_KEPT.sub(lambda m: "λ" if m["multiplier"] else f"{m.group()}_", x) for x in bare])
     made: list[str] = []
@@ -56,8 +65,11 @@ def in_python(text: str) -> str:
             indent += 1
             counted.add(loop["name"])
             continue
-        if bare.split("(")[0].split()[0].rstrip(",;") in _KEYWORDS:
-            raise AbandonedError
+        if (word := bare.split("(")[0].split()[0].rstrip(",;")) in _KEYWORDS:
+            whole = _END.search(bare) is not None and word in _OPENING
+            made.append(" " * indent + _branch(word, bare))
+            indent += int(word in _OPENING and not whole)
+            continue
         if (header := _HEADER.fullmatch(bare)) is not None:
             given = [("_" if x.strip() in ("~", "") else x.strip()) for x in (header["given"] or "").split(",")]
             given = [x if x != "_" else f"unused{k}" for k, x in enumerate(given)]
@@ -65,20 +77,41 @@ def in_python(text: str) -> str:
             named = header["name"].replace(".", "_")
             made.append(f"def {named}({', '.join(given)}) -> {out!r}:" if out else f"def {named}({', '.join(given)}):")
             indent = 1
-        elif bare.rstrip(";,") in ("end", "endfunction", "return"):
+        elif bare.rstrip(";,") in ("end", "endfunction", "return", "endif", "endfor", "endwhile", "endswitch"):
             made.append("")
             indent = indent if bare.startswith("return") else max(indent - 1, 0)
         elif (syms := _SYMS.fullmatch(line)) is not None:
             made.append(" " * indent + _declared(syms["names"]))
         else:
-            made.append(" " * indent + "; ".join(_statement(x, counted) for x in _statements(line)))
+            made.append(" " * indent + "; ".join(_read_statement(x, counted) for x in _statements(line)))
     return "\n".join(_with_bodies(made)) + "\n"
 
 
 def _with_bodies(lines: list[str]) -> Iterator[str]:
     for k, line in enumerate(lines):
         following = next((x for x in lines[k + 1 :] if x.strip()), "")
-        yield line + " pass" if line.startswith("def ") and not following.startswith(" ") else line
+        inner = len(following) - len(following.lstrip()) > len(line) - len(line.lstrip())
+        yield line + " pass" if line.endswith(":") and not inner else line
+
+
+def _branch(word: str, line: str) -> str:
+    """What begins a branch or a loop, with the statements on its line; all that follows up to its end is one block."""
+    parts = [x.strip() for x in _statements(line)]
+    inside = [_read_statement(x) for x in parts[1:] if x not in ("end", "else", "otherwise", "try")]
+    if word in _OPENING:
+        if inside and _END.search(line) is None:
+            raise AbandonedError  # a block that begins on the line of its condition
+        return f"{_LOOP if word in ('for', 'parfor', 'while') else _CONDITION}{'; '.join(inside)}".rstrip()
+    return "; ".join(inside) or "pass"
+
+
+def _read_statement(text: str, counted: Set[str] = frozenset()) -> str:
+    """One statement, in Python's syntax; of what cannot be read so, that it gives its name a value."""
+    try:
+        return _statement(text, counted)
+    except AbandonedError:
+        named = _GIVEN.match(text)
+        return f"{named['name']} = {UNREAD}()" if named is not None else "pass"
 
 
 def _without_comment(line: str) -> str:
@@ -87,7 +120,7 @@ def _without_comment(line: str) -> str:
     for k, c in enumerate(line):
         if c == '"' or (c == "'" and (inside or not line[:k].rstrip() or line[:k].rstrip()[-1] in "=,([{;")):
             inside = not inside
-        elif not inside and (c == "%" or (c == "#" and not line[k + 1 : k + 2].isalnum())):
+        elif not inside and (c == "%" or (c == "#" and not line[k + 1 : k + 2].isalnum()) or line.startswith("//", k)):
             return line[:k]
     return line
 

@@ -253,6 +253,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "hessian": lambda: jacobian(jacobian(given[0], given[1]), given[1]),
         "subs": lambda: replaced(given[0], pairs_of(given[1:])),
         "dot": lambda: dot(given[0], given[1]) if 1 in matrix(given[0]).shape else times(given[0], given[1]),
+        "hypot": lambda: sp.sqrt(scalar(given[0]) ** 2 + scalar(given[1]) ** 2),
+        "blkdiag": lambda: checked(sp.diag(*(scalar(x) if is_scalar(x) else matrix(x) for x in given))),
         "cross": lambda: cross(given[0], given[1]),
         "diag": lambda: sp.diag(*map(scalar, listed(given[0]) if len(given) == 1 else given)),
         "transpose": lambda: matrix(given[0]).T,
@@ -269,6 +271,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         ("Subs", "subs"),
         ("mat", "Matrix"),
         *((x, "len") for x in ("numel", "length")),
+        ("block_diag", "blkdiag"),
+        ("block", "Matrix"),
     ):
         table[alias] = table[same]
     if name in ("concatenate", "hstack", "vstack"):

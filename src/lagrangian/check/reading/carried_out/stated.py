@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -17,7 +17,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from sympy.printing.str import StrPrinter
 
 from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
-from lagrangian.check.reading.carried_out.interpreter import TROUBLES, Interpreter
+from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
 from lagrangian.check.reading.carried_out.matlab import in_python
@@ -27,6 +27,7 @@ from lagrangian.check.reading.carried_out.states import StateFunction, StateRead
 from lagrangian.check.reading.carried_out.values import (
     NAME,
     TIME,
+    TROUBLES,
     AbandonedError,
     Equation,
     Shown,
@@ -52,10 +53,11 @@ _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
     r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$"
-    r"|^[^%#\n\\=]*+=[^%#\n\\=]*+(?<=[\w\]) \t])\\(?:(?<=[ \t]\\)[ \t]++|(?<=[\w\])]\\))[\[(]",
+    r"|^[^%#\n\\=]*+=[^%#\n\\=]*+(?<=[\w\]) \t])\\(?:(?<=[ \t]\\)[ \t]++|(?<=[\w\])]\\))[\[(]"
+    r"|^[^%#\n=]*+=[^%#\n]*?(?:(?<=[\w)\]])\.['’][ \t]*+\*|\b(?:blkdiag|eye)\()",
     re.MULTILINE,
 )
-"""Signs of MATLAB: a function, symbols, A \\ b and A \\ [c; d]."""
+"""Signs of MATLAB: a function, symbols, A \\ b, A \\ [c; d], A.'*b and eye(3)."""
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
@@ -117,7 +119,9 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         free = [u.name for u in model.inputs if u.name not in named]
         driven = free[0] if len(free) == 1 else None
         states = 2 * len(model.coordinates)
-        run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven)
+        said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
+        given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
+        run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, MovingNames(model, scope), _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
@@ -133,13 +137,20 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     foreign = {x for x in own if x != TIME.name and not _is_of_system(scope, x)}
-    found = [*_renamed(run, text, found, scope, model), *found]
+    found = [*_renamed(_listed(text) | said | run.renamed, found, scope), *found]
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
     said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
+    notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
     return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+
+
+def _left_out(first: int, last: int) -> str:
+    """The note on a statement that was not carried out."""
+    said = f"Line {first} was" if first == last else f"Lines {first} to {last} were"
+    return f"{said} not carried out: nothing is known of what changes there."
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:
@@ -148,14 +159,12 @@ def _is_of_system(scope: AnswerScope, name: str) -> bool:
 
 
 def _renamed(
-    run: Interpreter, text: str, found: Sequence[tuple[int, str]], scope: AnswerScope, model: Model
+    meant: Mapping[str, str], found: Sequence[tuple[int, str]], scope: AnswerScope
 ) -> Iterator[tuple[int, str]]:
-    """What symbols in statements are that the system does not have: coordinates, rates, by subs(…) or a comment."""
-    coordinates = {c.name for c in model.coordinates}
-    said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)} | run.renamed
-    for name, of in (_listed(text) | said).items():
+    """What symbols in statements are that the system does not have, as subs(…) or a comment says."""
+    for name, of in meant.items():
         used = any(re.search(rf"(?<!\w){re.escape(name)}(?!\w)", x) for _, x in found)
-        if used and not scope.meanings(name)[0] and set(scope.meanings(of.rstrip("'’′"))[0]) & coordinates:
+        if used and not scope.meanings(name)[0] and scope.meanings(of.rstrip("'’′"))[0]:
             yield 1, f"{name} = {of}"
 
 

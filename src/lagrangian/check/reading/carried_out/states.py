@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
+from contextlib import suppress
+from dataclasses import replace
 from typing import Any, cast
 
 import sympy as sp
@@ -13,10 +15,12 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.layouts import Layouts
 from lagrangian.check.reading.carried_out.loose import Loose
+from lagrangian.check.reading.carried_out.named_arguments import NamedArguments
 from lagrangian.check.reading.carried_out.routines import PLAIN
 from lagrangian.check.reading.carried_out.values import (
     NAME,
     TIME,
+    TROUBLES,
     AbandonedError,
     Fields,
     OwnFunction,
@@ -30,6 +34,8 @@ from lagrangian.model import Model
 from lagrangian.records import dataclass
 
 _LIST_BEHIND = re.compile(r"[%#]++[ \t]*+(?:=[ \t]*+)?\[(?P<entries>[^\[\]\n]{1,200}+)\][ \t]*+(?:\^T|['’])?[ \t]*+\Z")
+_ACCELERATION = re.compile(r"acc|ddot|dd\b|_tt\b", re.IGNORECASE)
+"""Names of functions that return accelerations, and nothing from which these are found."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,26 +57,43 @@ class StateReader:
     scope: AnswerScope
 
     def functions(self, names: dict[str, Value]) -> Iterator[StateFunction]:
-        """The functions that nothing calls, and what they say of the motion."""
+        """The functions that nothing calls, and what they say of the motion; if nothing, accelerations that the program
+        uses."""
         made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
         matrices = {name for name, x in names.items() if isinstance(x, MatrixBase)}
         own = self.run.functions | {name: x for name, x in names.items() if isinstance(x, OwnFunction)}
-        for f in {id(f): f for f in made}.values():
-            if f.name and f.name in self.run.called:
-                continue
-            given = {name: _argument(f, name, matrices, own, self.run.matlab) for name in f.arguments}
-            value = self.run.function(f, list(given.values()))
-            several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
-            rates = _rates(several)
-            states = [x for x in given.values() if isinstance(x, State)]
-            if rates is None:
-                continue
-            layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self._rated)
-            found: Any = layouts.of_sums(given, rates)
-            found = found or (self._of_state(states, rates) if states else self._of_arguments(f, rates))
-            found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
-            if found is not None:
-                yield StateFunction(_line(f), *found)
+        functions = {id(f): f for f in made}.values()
+        found = [(f, self._tried(f, matrices, own)) for f in functions if f not in self.run.called]
+        said = [x for f, x in found if x is not None and f not in self.run.called]
+        others = (f for f in functions if f in self.run.called and _ACCELERATION.search(f.name))
+        yield from said or filter(None, (self._tried(f, matrices, own) for f in others))
+
+    def _tried(self, f: OwnFunction, matrices: Set[str], own: Mapping[str, OwnFunction]) -> StateFunction | None:
+        """What one function says; None for one that has no meaning on symbols."""
+        with suppress(*TROUBLES):
+            return self._said_by(f, matrices, own)
+        return None
+
+    def _said_by(self, f: OwnFunction, matrices: Set[str], own: Mapping[str, OwnFunction]) -> StateFunction | None:
+        """What one function says of the motion; None if it says nothing."""
+        given = {name: _argument(f, name, matrices, own, self.run.matlab) for name in f.arguments}
+        value = self.run.function(f, list(given.values()))
+        several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
+        rates = _rates(several, alone=len(self.model.coordinates) == 1)
+        states = [x for x in given.values() if isinstance(x, State)]
+        if rates is None:
+            return None
+        layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self.rated)
+        found: Any = layouts.of_sums(given, rates)
+        named = NamedArguments(self.run, self.model, self.scope, self.rated, self._as_motion)
+        called = (
+            f
+            if f.name
+            else replace(f, name=next((name for name, x in own.items() if x is f and name.isidentifier()), ""))
+        )
+        found = found or (self._of_state(states, rates) if states else named.motion(called, rates))
+        found = found or layouts.of_residuals(states, rates) or layouts.of_accelerations(f, states, rates)
+        return None if found is None else StateFunction(_line(f), *found)
 
     def in_the_open(self, loose: Loose, value: Value) -> StateFunction | None:
         """What rates without a function say, whose state a comment may name: dz = [w; …] with z = [phi; w]."""
@@ -81,28 +104,15 @@ class StateReader:
         found = self._of_state([state], [cast("sp.Expr", x.xreplace(table)) for x in rates])
         return None if found is None else StateFunction(loose.line, *found)
 
-    def _of_arguments(self, f: OwnFunction, rates: Sequence[sp.Expr]) -> Any:
-        """The accelerations of a function of coordinates and rates by name: accelerations(y, th, yd, thd); fewer where
-        constraints are put in, if what is returned has names, [sdd, zdd]."""
-        coordinates = [c.name for c in self.model.coordinates]
-        named = [x for x in f.arguments if set(self.scope.meanings(x)[0]) & set(coordinates)]
-        more = rates[len(coordinates) :]  # multipliers that are solved for
-        if len(named) != len(coordinates) or len(rates) < len(named) or not set(more) <= self.run.solved.keys():
-            returned = [self._rated(x, 2) or "" for x in (f.out or "").split(",")]
-            free = len(coordinates) - len(self.model.constraints)
-            if not len(returned) == len(rates) >= max(free, 1) or not set(returned) <= set(named):
-                return None
-            named = returned
-        return [(sp.Function(x)(TIME).diff(TIME, 2), value) for x, value in zip(named, rates, strict=False)], {}
-
     def _of_state(self, states: Sequence[State], rates: Sequence[sp.Expr]) -> Any:
         """The pairs and the meaning of the entries of the first argument whose entries are among the rates."""
         for state in states:
             if not state.entries or any(k > len(rates) for k in state.entries):
                 continue
+            whole = State(state.name, dict(state.entries))
             for k in range(len(rates)):
-                state.entry(k + 1)
-            if (found := self._as_motion(state, rates)) is not None:
+                whole.entry(k + 1)
+            if (found := self._as_motion(whole, rates)) is not None:
                 pairs, table = found
                 for other in (x for x in states if x is not state):
                     table |= self._of_inputs(other)
@@ -130,7 +140,7 @@ class StateReader:
         for k, x in state.entries.items():  # the rate of a coordinate that is left out because it is cyclic
             if x in table:
                 continue
-            stem = self._rated(self.run.aliases.get(x) or "") or self._rated(comments.get(k) or "")
+            stem = self.rated(self.run.aliases.get(x) or "") or self.rated(comments.get(k) or "")
             if stem is None:
                 return None
             q = sp.Function(stem)(TIME)
@@ -151,7 +161,7 @@ class StateReader:
         )
         return [(table[state.entry(k + 1)].diff(TIME), rates[k]) for k in range(len(known))], table
 
-    def _rated(self, name: str, order: int = 1) -> str | None:
+    def rated(self, name: str, order: int = 1) -> str | None:
         """The coordinate whose rate a name is, or its acceleration: psd of psi, and i where a comment says i = q'."""
         coordinates = {c.name for c in self.model.coordinates}
         said = (
@@ -170,7 +180,7 @@ class StateReader:
         for stem in (s for k, s in spelled_rates(name) if k == 1):
             said = list(self.in_comments(stem).values())
             own = [set(self.scope.meanings(x)[0]) & coordinates for x in said]
-            moving = [(x, 1) if y else (self._rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
+            moving = [(x, 1) if y else (self.rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
             if len(said) == count and all(x for x, _ in moving):
                 return [sp.Function(x)(TIME).diff(TIME, order) for x, order in moving]
         return []
@@ -189,7 +199,7 @@ class StateReader:
     def by_parts(self) -> StateFunction | None:
         """The accelerations that entries of a solution are called: s = A\\b and xdd = s(1), one for each coordinate."""
         called = {x.value: x for x in self.run.stated if x.name and isinstance(x.value, sp.Symbol)}
-        parts = [(self._rated(x.name or "", 2), one, x.line) for one, x in called.items() if one in self.run.solved]
+        parts = [(self.rated(x.name or "", 2), one, x.line) for one, x in called.items() if one in self.run.solved]
         named = [(sp.Function(name)(TIME).diff(TIME, 2), one, line) for name, one, line in parts if name]
         if len({rate for rate, *_ in named}) != len(self.model.coordinates) or len(named) > len(self.model.coordinates):
             return None
@@ -221,8 +231,9 @@ def _line(f: OwnFunction) -> int:
     return body.end_lineno or body.lineno
 
 
-def _rates(value: Value) -> list[sp.Expr] | None:
-    """The entries of what a function returns; columns in a list are joined."""
+def _rates(value: Value, *, alone: bool = False) -> list[sp.Expr] | None:
+    """The entries of what a function returns; columns in a list are joined. A value ``alone`` may be the only one."""
+    value = [value] if alone and isinstance(value, sp.Expr) else value
     if not isinstance(value, (list, tuple, MatrixBase)):
         return None
     found: list[Any] = []

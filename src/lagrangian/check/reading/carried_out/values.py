@@ -11,6 +11,7 @@ import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.errors import Error
 from lagrangian.records import dataclass, field
 
 Value: TypeAlias = Any
@@ -34,11 +35,19 @@ class AbandonedError(Exception):
     """A program does something that has no meaning on symbols, or too much."""
 
 
+TROUBLES = (AbandonedError, Error, ValueError, TypeError, IndexError, KeyError, ZeroDivisionError, AttributeError)
+"""What may come of a program that is carried out and does not make sense."""
+
+
 class Outside:
     """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
 
 
-UNKNOWN = Outside()
+UNKNOWN, LIBRARY = Outside(), Outside()
+MODULES = frozenset(
+    ["np", "numpy", "sp", "sympy", "math", "me", "mechanics", "scipy", "plt", "jnp", "cmath", "la", "linalg", "physics"]
+)
+"""What modules are called."""
 
 
 def has_unknown(value: Value) -> bool:
@@ -101,7 +110,14 @@ class Inverse:
 
 @dataclass(frozen=True, eq=False)
 class Fields:
-    """A structure of parameters, p.m or p["m"]: each field is the symbol with its name."""
+    """A structure of parameters, p.m or p["m"], or an object, self.m: each field that has no value is the symbol with
+    its name."""
+
+    values: dict[str, Value] = field(default_factory=dict)
+
+    def value(self, name: str) -> Value:
+        """Return what a field is."""
+        return self.values.get(name, sp.Symbol(name))
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,6 +227,13 @@ def scalar(value: Value) -> sp.Expr:
     return value
 
 
+def is_number(value: Value) -> bool:
+    """Whether a value is a number, or a list or a matrix of numbers; what is unknown counts as one."""
+    if isinstance(value, (list, tuple, MatrixBase)):
+        return all(map(is_number, listed(value)))
+    return isinstance(value, Outside) or (isinstance(value, sp.Expr) and not value.free_symbols)
+
+
 def is_scalar(value: Value) -> bool:
     """Whether a value is a single quantity."""
     return isinstance(value, sp.Expr) or (isinstance(value, (int, float)) and not isinstance(value, bool))
@@ -313,3 +336,14 @@ def cramer(x: sp.Symbol, A: MatrixBase, b: MatrixBase, unknowns: Sequence[sp.Sym
 def called_name(node: ast.expr) -> str:
     """The last name of what is called: print, sp.simplify."""
     return node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
+
+
+def bind(target: ast.expr, value: Value, names: dict[str, Value]) -> None:
+    """Give the names of a comprehension their values."""
+    if isinstance(target, ast.Name):
+        names[target.id] = value
+    elif isinstance(target, ast.Tuple):
+        for one, part in zip(target.elts, listed(value), strict=False):
+            bind(one, part, names)
+    else:
+        raise AbandonedError

@@ -19,6 +19,12 @@ _JOINED = re.compile(
 _ASIDE = re.compile(rf"(?<=[ \t])\({_SAID}\)(?=[ \t]*(?:$|[,.;:]))", re.MULTILINE)
 _SENTENCE = re.compile(r"^(?=[^.;=\n]{0,400}[+&])[^\W\d_][^.;=\n]{2,400}+\.(?=[ ][^\W\d_])", re.MULTILINE)
 """A sentence without an equals sign, with another behind it: I treat mast + arm as one body. Let …"""
+_LED = re.compile(
+    r"^(?=[^.;:=\n]{0,400}[+&])[^\W\d_][^.;:=\n]{2,400}+="
+    r"(?:(?<=[^\W\d_]{3}[ ]\w[ ]=)|(?<=[^\W\d_]{3}[ ]\w\w[ ]=))",
+    re.MULTILINE,
+)
+"""Words in front of a short name that gets a value: Hinge force + acceleration give with Steiner Jh = J + m l^2."""
 _TWO = re.compile(rf"(?<!\w){_WORD}(?:{_SIGN}{_WORD}){{1,3}}(?!\w)")
 _PARTS = re.compile(r"[^\W\d_]+")
 
@@ -40,5 +46,6 @@ def with_words_joined(text: str, words: Words) -> str:
             else match.group()
         )
 
-    text = _SENTENCE.sub(lambda m: _TWO.sub(as_one, m.group()), text)
+    for sentence in (_SENTENCE, _LED):
+        text = sentence.sub(lambda m: _TWO.sub(as_one, m.group()), text)
     return _ASIDE.sub(joined, _JOINED.sub(joined, text))

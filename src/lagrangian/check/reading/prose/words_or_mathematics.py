@@ -42,9 +42,11 @@ _ONE = rf"{_LETTER}+(?:['’-]{_LETTER}+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
 _NAMED = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞](?>[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]*)['’′″]{0,3}(?:\^2|²)?"
-_WORD_AND_GAP = r"(?:[^\W_]|(?<=\w)[’'-](?=\w)){1,20}+[.,]?[ \t]++(?:[+&][ \t]++)?+(?!=)"
-_DEFINES = re.compile(rf"\s*+(?P<words>(?:{_WORD_AND_GAP}){{1,24}}+)(?P<name>{_NAMED})\s*+=(?![=>])")
-"""A name that is given a value behind words alone, which + and & may join."""
+_DEFINES = re.compile(
+    rf"\s*+(?P<words>(?:(?:[^\W_]|(?<=\w)[’'-](?=\w)){{1,20}}+[.,]?[ \t]++(?!=)){{1,16}}+)(?P<name>{_NAMED})"
+    r"\s*+=(?![=>])"
+)
+"""A name that is given a value behind words alone."""
 _SAYING = frozenset(["get", "got", "find", "found", "obtain", "obtained", "have", "see", "write", "use", "arrive"])
 """What may follow I: with s = R θ I get."""
 _ARTICLES = frozenset(["I", "a"])
@@ -238,7 +240,7 @@ def _introduces(said: re.Match[str], words: Words) -> bool:
     name = said["name"].rstrip("'’′″²^2")
     if _is_word(name, words) and words.count(name) == 1:
         return False  # one side consists of words
-    listed = [x.strip(".,") for x in said["words"].split() if x not in ("+", "&")]
+    listed = [x.strip(".,") for x in said["words"].split()]
     if any(x.lower() in CHANGING and not _describes(listed[k + 1 :], words) for k, x in enumerate(listed)):
         return False
     plain = [x.isdigit() or _links(x, words) or _is_word(x, words) or x.lower() in CHANGING for x in listed]

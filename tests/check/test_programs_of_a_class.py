@@ -1,0 +1,176 @@
+"""Programs as an ordinary class hands them in: conditions, steps of solvers, classes, tables, functions of names.
+
+Oracle: the equations of the cart with a pole and of the pendulum. Every form has wrong twins.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from built_in import derivation
+from lagrangian import ParseError
+
+FORCE = "F - b*v + m*l*omega**2*np.sin(theta)"
+SOLVED = f"""A = np.array([[M + m, m*l*np.cos(theta)], [m*l*np.cos(theta), J + m*l**2]])
+    r = np.array([{FORCE}, m*g*l*np.sin(theta)])
+    a = np.linalg.solve(A, r)"""
+CONDITION = f"""def rhs(t, s):
+    x, theta, v, omega = s
+    if t < 1:
+        F = 5.0
+    else:
+        F = 0.0
+    {SOLVED}
+    return [v, omega, a[0], a[1]]
+
+s = np.array([0, 0.1, 0, 0])
+for k in range(5000):
+    s = s + 1e-3*np.array(rhs(k*1e-3, s))
+plt.plot(s[0], 'k--')
+"""
+OBJECT = (
+    f"""class Cart:
+    def __init__(self, M=1.0, mass=0.2, l=0.3, J=0.006, b=0.1, g=9.81):
+        self.M, self.m = M, mass
+        self.l, self.J, self.b, self.g = l, J, b, g
+
+    def rhs(self, t, y, F=0):
+        x, theta, v, omega = y
+        {SOLVED.replace("    ", "        ")}
+        return np.concatenate(([v, omega], a))
+""".replace("m*", "self.m*")
+    .replace(" b*", " self.b*")
+    .replace("l*", "self.l*")
+    .replace("*l", "*self.l")
+)
+OBJECT = OBJECT.replace("M + m", "self.M + self.m").replace("J + ", "self.J + ").replace("g*", "self.g*")
+OBJECT = OBJECT.replace("self.self.", "self.").replace("*self.self.l", "*self.l")
+TABLE = f"""import numpy as np
+par = dict(M=1.0, m=0.2, l=0.3, J=0.006, b=0.1, g=9.81)
+M, m, l, J, b, g = (par[k] for k in ("M", "m", "l", "J", "b", "g"))
+
+def cart(x, theta, v, omega, F):
+    {SOLVED}
+    return v, omega, a[0], a[1]
+"""
+ALONE = f"""def acc(x, theta, v, omega, F=0.0):
+    {SOLVED}
+    return a
+"""
+STEPS = """% cart pole, Runge and Kutta
+M = 1; m = 0.2; l = 0.3; J = 0.006; b = 0.1; g = 9.81; F = 0; N = 500;
+f = @(t,z) [z(3); z(4); [M+m, m*l*cos(z(2)); m*l*cos(z(2)), J+m*l^2] ...
+  \\ [F - b*z(3) + m*l*z(4)^2*sin(z(2)); m*g*l*sin(z(2))]];
+h = 0.01; z = [0; 0.1; 0; 0]; Z = zeros(4, N);
+for i = 1:N
+    k1 = f(t, z);
+    k2 = f(t + h, z + h*k1);
+    z = z + h/2*(k1 + k2);
+    Z(:, i) = z;
+end
+plot((1:N)*h, Z(2,:))
+"""
+SWITCHED = """function dz = cart(t, z, p)
+  if t < p.t1, F = p.F0; else, F = 0; end
+  switch p.mode
+    case 1
+      shown = 0;
+    otherwise
+      shown = 1;
+  end
+  th = z(2); v = z(3); w = z(4);  // the state
+  if abs(th) > pi
+     warning('fallen');
+  end
+  A = [p.M+p.m, p.m*p.l*cos(th); p.m*p.l*cos(th), p.J+p.m*p.l^2];
+  r = [F - p.b*v + p.m*p.l*w^2*sin(th); p.m*p.g*p.l*sin(th)];
+  dz = [v; w; A \\ r];
+end
+"""
+STRUCT = """p = struct('M',1,'m',0.2,'l',0.3,'J',0.006,'b',0.1,'g',9.81);
+MM = @(q) [p.M+p.m, p.m*p.l*cos(q(2)); p.m*p.l*cos(q(2)), p.J+p.m*p.l^2];
+CC = @(q,qd) [p.b, -p.m*p.l*sin(q(2))*qd(2); 0 0];
+GG = @(q) [0; -p.m*p.g*p.l*sin(q(2))];
+f = @(t,z) [z(3:4); MM(z(1:2)) \\ ([1; 0]*F - CC(z(1:2),z(3:4))*z(3:4) - GG(z(1:2)))];
+[t,z] = ode45(f,[0 5],[0;0.1;0;0]);
+"""
+PARTS = """MM = [M+m, m*l*cos(th); m*l*cos(th), J+m*l^2];
+f = @(x, th, xd, thd, F) [F - b*xd + m*l*thd^2*sin(th); m*g*l*sin(th)];
+rhs = @(t, z, F) [z(3); z(4); [M+m, m*l*cos(z(2)); m*l*cos(z(2)), J+m*l^2] \\ f(z(1), z(2), z(3), z(4), F)];
+"""
+
+
+def right(text: str, model: str = "cart-pole") -> bool:
+    """Whether an answer is right; one that cannot be read is not."""
+    try:
+        return derivation(model).check(text, hint=0).right
+    except ParseError:
+        return False
+
+
+@pytest.mark.parametrize(
+    ("program", "old", "new"),
+    [
+        (CONDITION, "F - b*v", "F + b*v"),
+        (CONDITION, "        F = 5.0", "        b = -b"),
+        (OBJECT, "F - self.b*v", "F + self.b*v"),
+        (OBJECT, "= M, mass", "= M, 2*mass"),
+        (TABLE, "omega**2", "omega"),
+        (TABLE, "return v, omega, a[0], a[1]", "return v, omega, a[1], a[0]"),
+        (ALONE, "omega**2", "v**2"),
+        (ALONE, "theta, v, omega, F", "theta, omega, F"),
+        (STEPS, "F - b*z(3)", "F - b*z(4)"),
+        (SWITCHED, "F - p.b", "F + p.b"),
+        (SWITCHED, "warning('fallen');", "w = 0;"),
+        (STRUCT, "GG(z(1:2)))", "0*GG(z(1:2)))"),
+        (PARTS, "F - b*xd", "F + b*xd"),
+    ],
+)
+def test_what_a_program_of_a_class_computes_is_judged(program: str, old: str, new: str) -> None:
+    assert old in program
+    assert right(program)
+    assert not right(program.replace(old, new))
+
+
+def test_what_is_not_carried_out_is_told() -> None:
+    verdict = derivation("cart-pole").check(CONDITION)
+    assert "Lines 3 to 6 were not carried out" in str(verdict)
+    assert "Lines 13 to 14 were not carried out" in str(verdict)
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "def acc(theta, omega):\n    return (-m*g*L*np.sin(theta) - b*omega)/(m*L**2)",
+        "def thetadd(theta, thetad):\n    return -g/L*np.sin(theta) - b*thetad/(m*L**2)",
+        'def swing(theta, w):\n    """the angular acceleration"""\n    return -g/L*np.sin(theta) - b*w/(m*L**2)',
+        "def pendulum(theta, omega):\n    alpha = -g/L*np.sin(theta) - b*omega/(m*L**2)\n    return omega, alpha",
+        "acc = @(theta, omega) -g/L*sin(theta) - b/(m*L^2)*omega;",
+        "def step(theta, omega, dt):\n    a = acc(theta, omega)\n    return theta + dt*omega, omega + dt*a\n"
+        "def acc(theta, omega):\n    return -g/L*np.sin(theta) - b*omega/(m*L**2)\nprint(acc(0.1, 0))",
+    ],
+)
+def test_a_function_of_names_may_return_one_acceleration(program: str) -> None:
+    assert right(program, "pendulum")
+    assert not right(program.replace("- b", "+ b"), "pendulum")
+    assert not right(program.replace("-g", "g").replace("-m*g", "m*g"), "pendulum")
+
+
+def test_a_function_that_says_something_else_is_no_acceleration() -> None:
+    for name in ("energy", "moment", "f", "lagrange"):
+        assert not right(f"def {name}(theta, omega):\n    return -g/L*np.sin(theta) - b*omega/(m*L**2)", "pendulum")
+
+
+def test_a_name_with_a_value_is_what_a_comment_says() -> None:
+    program = STEPS.replace("b = 0.1", "c = 0.1  % c = b\n").replace("- b*z", "- c*z")
+    assert right(program)
+    assert not right(program.replace("c = b", "c = g"))
+
+
+def test_a_comment_of_a_program_that_cannot_be_read_is_left_out() -> None:
+    program = (
+        "function dz = f(t, z)\n% L*thdd + g*sin*L = 0\nth = z(1);\ndz = [z(2); -g/L*sin(th) - b/(m*L^2)*z(2)];\nend"
+    )
+    assert right(program, "pendulum")
+    wrong = derivation("pendulum").check(program.replace("-g", "g"))
+    assert not wrong.right and [f.line.number for f in wrong.findings] == [4]
