@@ -32,7 +32,7 @@ from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
-from lagrangian.check.explain.reasoned import reasoned
+from lagrangian.check.explain.reasoned import as_defined, reasoned
 from lagrangian.check.explain.reduced import of_reduced
 from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
@@ -162,7 +162,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    told, others = of_equations(told, lines), of_equations(others, lines)
+    told, others = of_equations(as_defined(pool, told, blamed), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
