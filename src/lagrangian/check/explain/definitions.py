@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
-from lagrangian.check.explain.columns_said import columns, right_columns
+from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
 from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
@@ -56,9 +56,10 @@ def with_right_definitions(
         if line.kind == "definition" and (line.number, line.text) not in told:
             parts.setdefault((line.number, line.text), []).append(line)
     found, turned = list(findings), along_turned_axes(truth, lines)
+    senses = senses_of(truth, columns(lines))
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x) for x in held] or [_right(truth, line, id(line) in turned) for line in same]
+        every = [right_columns(truth, x, senses) for x in held] or [_right(truth, line, id(line) in turned) for line in same]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}

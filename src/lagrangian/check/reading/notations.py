@@ -39,6 +39,7 @@ from lagrangian.check.reading.programs.templates import with_templates_applied
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
+from lagrangian.check.reading.said.quantity_words import headed
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -76,6 +77,7 @@ def _copied(text: str) -> TracedText:
 def without_notations(typed: Source, lines: Lines) -> TracedText:
     """An answer without HTML and without the spellings of programs, and with matrices in one line."""
     names, text = lines.names, typed.text
+    names.headed = headed(text)
 
     def taken(name: str) -> bool:
         return bool(names.scope.meanings(name)[0])

@@ -113,10 +113,9 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         try:
             found, notes = _declared(program.text, model, place), (CARRIED_OUT,)
         except ParseError:
-            if program.bare == program.text:
-                raise
             found, notes = _declared(program.bare, model, place), (CARRIED_OUT, COMMENTS_LEFT_OUT)
-        return replace(found, notes=(*notes, *program.notes, *found.notes), program=True)
+        told = (x for x in found.notes if "nothing else uses " not in x)  # nor does a program that is carried out
+        return replace(found, notes=(*notes, *program.notes, *told), program=True)
 
     typed: Answer | ParseError
     try:

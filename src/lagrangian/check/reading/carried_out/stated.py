@@ -37,6 +37,7 @@ from lagrangian.check.reading.carried_out.values import (
     listed,
     scalar,
 )
+from lagrangian.check.reading.carried_out.ways import ways
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
@@ -133,13 +134,21 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     foreign = {x for x in own if x != TIME.name and not _is_of_system(scope, x)}
-    found = [*_renamed(run, text, found, scope, model), *found]
+    found = [*_renamed(run, text, found, scope, model), *_of_ways(run, model, scope), *found]
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
     said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
     return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+
+
+def _of_ways(run: Interpreter, model: Model, scope: AnswerScope) -> Iterator[tuple[int, str]]:
+    """The places and velocities of bodies that have names of the program's own."""
+    for line, name, value in ways(run, MovingNames(model, scope), partial(_is_of_system, scope)):
+        with suppress(AbandonedError):
+            entries = ", ".join(map(written, value))
+            yield line, f"{name} = ({entries})" if len(value) > 1 else f"{name} = {entries}"
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:

@@ -14,17 +14,19 @@ from lagrangian.check.reading.names import Value
 LONGEST = 100
 """The largest number of characters of such words."""
 _NOUNS = {
-    "turning": r"angular[ ](?:velocity|speed|rate)|winkelgeschwindigkeit",
-    "speed component along": r"velocity|speed|geschwindigkeit",
+    "turning": r"angular[ ](?:velocity|velocities|speeds?|rates?)|winkelgeschwindigkeit(?:en)?",
+    "speed component along": r"velocity|velocities|speeds?|geschwindigkeit(?:en)?",
     "deflection": r"deflection|elongation|extension|stretch|verlängerung|auslenkung",
-    "position height": r"height|höhe",
-    "position apart": r"position|coordinate|distance|abstand",
+    "position height": r"heights?|höhen?",
+    "position apart": r"positions?|coordinates?|distances?|abstand",
 }
 _NOUN = re.compile(r"\b(?:" + "|".join(f"({x})" for x in _NOUNS.values()) + r")\b", re.IGNORECASE)
 _RELATIVE = re.compile(r"\b(?:relativ\w{0,6}|against|between|gegen|zwischen)\b", re.IGNORECASE)
 _OTHER = re.compile(r"energy|force|moment|torque|power|work|accelerat|energie|kraft|leistung", re.IGNORECASE)
 """Words of other quantities, in which a velocity may be named beside."""
 _ENDS = re.compile(r"[=;|]")
+_ITEM = re.compile(r"[ \t]*+(?:[-*•+–][ \t]++)?[^\W\d_][\w ,()'’/-]{1,40}?:(?=[ \t]+\S)|[ \t]*+[-*•+–][ \t]++\S")
+"""An item of a list, or a label with what it says."""
 
 
 def kinds_of_words(words: str) -> tuple[str, ...]:
@@ -36,12 +38,31 @@ def kinds_of_words(words: str) -> tuple[str, ...]:
     return ("deflection", "rate") if _RELATIVE.search(words) else kinds
 
 
+def headed(text: str) -> dict[int, str]:
+    """The heading with such words above each item of a list of values, by the number of the item's line."""
+    found: dict[int, str] = {}
+    heading = ""
+    for number, line in enumerate(text.split("\n"), 1):
+        item = _ITEM.match(line)
+        if item is not None:
+            found |= {number: heading} if heading else {}
+        elif line.strip():
+            said = " ".join(line[:LONGEST].strip(" \t:-–—*#>").split())
+            heading = said if _ENDS.search(line) is None and " " in said and kinds_of_words(said) else ""
+    return found
+
+
 def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
-    """The definition that an expression behind such words is, with them in place of a name; none behind others."""
+    """The definition that an expression behind such words is, with them in place of a name; none behind others.
+
+    Behind a label in a list, they are those of its heading and the label.
+    """
     place = reader.source.at(0)
     end = (place.column or 1) - 1
     before = _ENDS.split((place.text or "")[max(0, end - LONGEST) : end])[-1]
     words = " ".join(before.strip(" \t:-–—*#>").split())
+    if heading := reader.names.headed.get(place.line or 0):
+        words = f"{heading}, {words}"
     if " " not in words or not kinds_of_words(words):
         return []
     return [made_line("definition", None, value, words, side, side, reader)]
