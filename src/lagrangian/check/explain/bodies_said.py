@@ -19,6 +19,7 @@ from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import Senses, columns, said_of_column, senses_of
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.line_mistakes import stated, without_constant
+from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of, said_of_rate
 from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
@@ -27,6 +28,7 @@ from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import RigidBody
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
@@ -200,7 +202,7 @@ class BodiesSaid:
             places, lines = [self._place(p) for p in said], [p.line for p in said]
             wholes = [*(effects[k] for k in places), rest]
             alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in wholes)]
-            alike += self._of_energy_alone(places)
+            alike += [*self._of_energy_alone(places), *self._of_parts(said)]
             later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
             return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
         return None
@@ -221,6 +223,19 @@ class BodiesSaid:
                 j = energies[0]
                 near = [np.abs(both[k, j] - both[i, j]).max() <= SMALL * size[j] for i in places if i != k]
                 found += [k] if any(near) else []
+        return found
+
+    def _of_parts(self, said: Sequence[SaidWrongly]) -> list[int]:
+        """The kinetic energies of which only the translation, or the rotation, is said with what some others add."""
+        s, found = quantities_of(self.truth).of, list[int]()
+        for k, p in enumerate(self.parts):
+            owner = p.words.of.owner if p.words.of.kind == "kinetic" else None
+            mine = [x.T for x in said if isinstance(owner, RigidBody) and x.words.of.owner is owner and x.T != 0]
+            if not mine:
+                continue
+            rests = [p.T + self.truth.put(x) - sp.Add(*mine) for x in (s.rotation(owner), s.translation(owner))]
+            values = CompiledExpressions([*rests, p.T]).at(self.truth.states)
+            found += [k] if any(np.abs(x).max() <= SMALL * np.abs(values[-1]).max() for x in values[:-1]) else []
         return found
 
     def _leads_to(self, effects: Array, chosen: Sequence[int], rest: Array) -> bool:

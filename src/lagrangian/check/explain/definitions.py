@@ -23,9 +23,12 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     """The findings with wrong definitions in their places, and what follows from them marked so."""
     if blamed is None:
         return tuple(findings)
-    below = {(line.number, line.text) for line in (*blamed.because, *blamed.later)}
-    wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in below for f in findings]
-    found = [replace(f, follows=f.follows or follows) for f, follows in zip(findings, wrong, strict=True)]
+    after = {(line.number, line.text) for line in (*blamed.because, *blamed.later)}
+    wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in after for f in findings]
+    found = [
+        replace(f, follows=f.follows or below, note=None if below and f.line.kind == "definition" else f.note)
+        for f, below in zip(findings, wrong, strict=True)
+    ]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
     names = {key(p.line.name or "") for p in blamed.said}
     numbers = {number for number, _ in lines}
@@ -59,7 +62,9 @@ def with_right_definitions(
     senses = senses_of(truth, columns(lines))
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x, senses) for x in held] or [_right(truth, line, id(line) in turned) for line in same]
+        every = [right_columns(truth, x, senses) for x in held] or [
+            _right(truth, line, id(line) in turned) for line in same
+        ]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}

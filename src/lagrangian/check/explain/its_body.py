@@ -27,9 +27,7 @@ def of_its_body(truth: Reference, lines: Sequence[AnsweredLine], said: Sequence[
     first = mine[0] if mine else first
     right = first.words.of
     alike = [
-        p.words.of.owner
-        for p in said
-        if not mine and p.words.of.kind == right.kind and p.words.of.right == right.right
+        p.words.of.owner for p in said if not mine and p.words.of.kind == right.kind and p.words.of.right == right.right
     ]
     others = [x for x in dict.fromkeys(alike) if x is not None and x is not right.owner]
     return replace(first, others=tuple(x.title for x in others))

@@ -25,7 +25,7 @@ from lagrangian.page.formula import text
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
-SHOWN = ("component", "along")
+SHOWN = ("component", "along", "velocity")
 """Quantities whose formulas show at once what is wrong."""
 PLACES = ("position", "height", "apart", "place", "component", "along", "velocity")
 """Quantities that say where a body is, or how it moves along an axis."""

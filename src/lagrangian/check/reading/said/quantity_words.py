@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 
 from lark import Tree
+from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import AnswerLine
 from lagrangian.check.reading.line_forms import made_line
 from lagrangian.check.reading.meaning import Meaning
 from lagrangian.check.reading.names import Value
+from lagrangian.check.reading.traced_text import Edit, TracedText
 
 LONGEST = 100
 """The largest number of characters of such words."""
@@ -21,6 +23,14 @@ _NOUNS = {
     "position apart": r"positions?|coordinates?|distances?|abstand",
 }
 _NOUN = re.compile(r"\b(?:" + "|".join(f"({x})" for x in _NOUNS.values()) + r")\b", re.IGNORECASE)
+_VALUE = re.compile(
+    r"[ \t]*+(?:[-*•+–][ \t]++)?(?P<label>[^\W\d_][\w ()'’/-]{1,40}?):[ \t]++"
+    r"(?:(?P<zero>0)|(?P<entries>[^,;:=|\n]{1,120}(?:,[^,;:=|\n]{1,120}){1,2}))[ \t.]*+"
+)
+"""An item of such a list: a zero, or the entries of a column."""
+_WORDS = re.compile(r"(?!sin|cos|tan|sqrt|dot)[A-Za-z]{4}|[(\[][^()\[\]]{0,120},")
+"""What is no formula, and a comma within brackets."""
+_LETTERS = re.compile(r"[^\W\d_]{1,20}")
 _RELATIVE = re.compile(r"\b(?:relativ\w{0,6}|against|between|gegen|zwischen)\b", re.IGNORECASE)
 _OTHER = re.compile(r"energy|force|moment|torque|power|work|accelerat|energie|kraft|leistung", re.IGNORECASE)
 """Words of other quantities, in which a velocity may be named beside."""
@@ -52,11 +62,32 @@ def headed(text: str) -> dict[int, str]:
     return found
 
 
-def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
-    """The definition that an expression behind such words is, with them in place of a name; none behind others.
+def with_items(written: TracedText, text: str, told: dict[int, str]) -> TracedText:
+    """Return a plain text in which items below such headings are columns, or have a name where they are 0:
 
-    Behind a label in a list, they are those of its heading and the label.
+    lower centre: ½ l cos α α̇, −½ l sin α α̇      lower centre: (½ l cos α α̇, −½ l sin α α̇)
+    vertical: 0                                 v_vertical = 0         (below a heading of velocities)
+
+    The headings above the lines of the ``text``, as it was typed, are added to those ``told``.
     """
+    told.update(headed(text))
+    edits: list[Edit] = []
+    at, headings = 0, headed(written.text)
+    for number, line in enumerate(written.text.split("\n"), 1):
+        value = _VALUE.fullmatch(line) if number in headings else None
+        if value is not None and value["zero"] and "speed" in kinds_of_words(headings[number]):
+            start, end = (at + x for x in value.span("zero"))
+            edits.append((start, end, f"v_{_LETTERS.findall(value['label'])[0]} = 0"))
+        elif value is not None and not _WORDS.search(value["entries"] or "") and value["entries"]:
+            start, end = (at + x for x in value.span("entries"))
+            edits += [(start, start, "("), (end, end, ")")]
+        at += len(line) + 1
+    return written.edited(edits)
+
+
+def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
+    """The definitions that an expression, or the entries of a column, behind such words are, with them in place of a
+    name; none behind others. Behind a label in a list, they are those of its heading and the label."""
     place = reader.source.at(0)
     end = (place.column or 1) - 1
     before = _ENDS.split((place.text or "")[max(0, end - LONGEST) : end])[-1]
@@ -65,4 +96,7 @@ def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         words = f"{heading}, {words}"
     if " " not in words or not kinds_of_words(words):
         return []
+    if isinstance(value, MatrixBase):
+        entries = enumerate(value.flat(), 1)
+        return [made_line("definition", None, x, f"{words}_{k}", side, side, reader) for k, x in entries]
     return [made_line("definition", None, value, words, side, side, reader)]
