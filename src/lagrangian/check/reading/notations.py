@@ -127,7 +127,7 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = with_stated_values(with_derivatives(beside), taken)
         said = with_stated_rates(said, of, names.known, sure=True)
         named = with_program_names(said, names.changes, lambda name: key(name) in own)
-        said = with_items(named, text, names.headed)
+        said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = without_programs(said, names.changes, taken)
     return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)

@@ -10,7 +10,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.answer import AnswerLine
 from lagrangian.check.reading.line_forms import made_line
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Value
+from lagrangian.check.reading.names import Names, Value
+from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
 LONGEST = 100
@@ -28,8 +29,9 @@ _VALUE = re.compile(
     r"(?:(?P<zero>0)|(?P<entries>[^,;:=|\n]{1,120}(?:,[^,;:=|\n]{1,120}){1,2}))[ \t.]*+"
 )
 """An item of such a list: a zero, or the entries of a column."""
-_WORDS = re.compile(r"(?!sin|cos|tan|sqrt|dot)[A-Za-z]{4}|[(\[][^()\[\]]{0,120},")
-"""What is no formula, and a comma within brackets."""
+_WORDS = re.compile(r"[A-Za-z]{4,20}")
+_ENCLOSED = re.compile(r"[(\[][^()\[\]]{0,120},")
+"""A comma within brackets."""
 _LETTERS = re.compile(r"[^\W\d_]{1,20}")
 _RELATIVE = re.compile(r"\b(?:relativ\w{0,6}|against|between|gegen|zwischen)\b", re.IGNORECASE)
 _OTHER = re.compile(r"energy|force|moment|torque|power|work|accelerat|energie|kraft|leistung", re.IGNORECASE)
@@ -62,15 +64,15 @@ def headed(text: str) -> dict[int, str]:
     return found
 
 
-def with_items(written: TracedText, text: str, told: dict[int, str]) -> TracedText:
+def with_items(written: TracedText, text: str, names: Names) -> TracedText:
     """Return a plain text in which items below such headings are columns, or have a name where they are 0:
 
     lower centre: ½ l cos α α̇, −½ l sin α α̇      lower centre: (½ l cos α α̇, −½ l sin α α̇)
     vertical: 0                                 v_vertical = 0         (below a heading of velocities)
 
-    The headings above the lines of the ``text``, as it was typed, are added to those ``told``.
+    The headings above the lines of the ``text``, as it was typed, are remembered in ``names``.
     """
-    told.update(headed(text))
+    names.headed = headed(text)
     edits: list[Edit] = []
     at, headings = 0, headed(written.text)
     for number, line in enumerate(written.text.split("\n"), 1):
@@ -78,11 +80,17 @@ def with_items(written: TracedText, text: str, told: dict[int, str]) -> TracedTe
         if value is not None and value["zero"] and "speed" in kinds_of_words(headings[number]):
             start, end = (at + x for x in value.span("zero"))
             edits.append((start, end, f"v_{_LETTERS.findall(value['label'])[0]} = 0"))
-        elif value is not None and not _WORDS.search(value["entries"] or "") and value["entries"]:
+        elif value is not None and value["entries"] and _is_formula(value["entries"], names):
             start, end = (at + x for x in value.span("entries"))
             edits += [(start, start, "("), (end, end, ")")]
         at += len(line) + 1
     return written.edited(edits)
+
+
+def _is_formula(text: str, names: Names) -> bool:
+    """Whether entries of a column have no words but names and functions, and no commas of their own."""
+    words = _WORDS.findall(text)
+    return _ENCLOSED.search(text) is None and all(names.known(x) or function_of(x) is not None for x in words)
 
 
 def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
