@@ -25,7 +25,7 @@ def links() -> Derivation:
     """Two equal links that fold, driven by nothing but their weight."""
     sys = System("links")
     alpha = sys.coordinates("alpha")
-    m, J, l, g = sys.parameters("m J l g")  # noqa: E741
+    m, J, l, g = sys.parameters("m J l g")
     at = {"upper": (l / 2 * sin(alpha), -l / 2 * cos(alpha)), "lower": (l / 2 * sin(alpha), -3 * l / 2 * cos(alpha))}
     for name, (x, y) in at.items():
         frame = sys.frame(alpha if name == "upper" else -alpha, name=f"{name}_frame")
