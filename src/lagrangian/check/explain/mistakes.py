@@ -375,7 +375,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
     every = [with_term(pool, t, a, in_words(pool.truth, t, a), kinds) for t, a in chosen]
-    every[0], others = of_either(pool.truth, every[0], chosen[0], others)
+    every[0], others = of_either(pool, every[0], chosen[0], others)
     told = _once(moved_elsewhere(pool, chosen, every), ())
     listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]
     ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
