@@ -113,7 +113,7 @@ class _Parts:
         self.model, self.known, self.own, self.latex = model, known, set(own), latex
         self.kind: str | None = None
         self.columns: list[str | None] = []
-        self.body, self.indent = "", 0
+        self.body, self.indent = list[str](), 0
         self.listed = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
@@ -220,26 +220,27 @@ class _Parts:
     # -- energies of one body --------------------------------------------------------------------------------------
 
     def _of_body(self, text: str) -> tuple[int, int, str] | None:
-        """The T of one body: where its letter stands, and its name."""
+        """The T of one body, or of several of one name: where its letter stands, and its name."""
         bullet = _BULLET.match(text)
         begins = bullet.end() if bullet is not None else 0
         head, colon, _ = text[begins:].partition(":")
         indent = len(text) - len(text.lstrip())
         if colon and "=" not in head and len(head) <= 6 * 12:
             found = self._bodies(head)
-            self.body, self.indent = (found[0] if len(found) == 1 else ""), indent
+            alike = len(found) < len(self.inertias) and len({self._kind_of(x) for x in found}) == 1
+            self.body, self.indent = (found if len(found) == 1 or alike else []), indent
             begins += len(head) + 1
         elif not (self.body and indent > self.indent):
-            self.body = ""
+            self.body = []
         stated = _STATED.match(text, len(text) - len(text[begins:].lstrip()))
         if not self.body or stated is None or stated["letter"] not in ("T", "T*"):
             return None
-        others = frozenset[str]().union(*(x for name, x in self.inertias.items() if name != self.body))
-        mine = self.inertias[self.body]
+        others = frozenset[str]().union(*(x for name, x in self.inertias.items() if name not in self.body))
+        mine = frozenset[str]().union(*(self.inertias[name] for name in self.body))
         named = {key(x) for x in _NAME.findall(text[stated.end() :])}
         if not others - mine or not mine & named or named & (others - mine):
             return None
-        return *stated.span("letter"), self._name("T", self.body)
+        return *stated.span("letter"), self._name("T", self.body[0] if len(self.body) == 1 else text[:begins])
 
     def rows_of_parts(self, lines: Iterable[str]) -> frozenset[str]:
         """The rows that state T, or V, behind names of what has it, where each has only some of the letters of all."""
@@ -288,7 +289,12 @@ class _Parts:
     def _bodies(self, label: str) -> list[str]:
         """The bodies that a label names by a word of their names."""
         said = {x.lower() for x in _WORD.findall(label)}
+        said |= {x[:-1] for x in said if x.endswith("s")}
         return [b.name for b in self.model.bodies if said & {x.lower() for x in _WORD.findall(b.name)}]
+
+    def _kind_of(self, body: str) -> str:
+        """The last word of a body's name: the upper and the lower link are links."""
+        return (_WORD.findall(body) or [body])[-1].lower()
 
 
 _GREEK = frozenset(x.lower() for x in SPELLED.values()) | frozenset(SPELLED.values())

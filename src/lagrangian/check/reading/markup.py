@@ -53,6 +53,9 @@ _BEHIND_SENTENCE = re.compile(
     re.MULTILINE,
 )
 """A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
+_LABELLED = re.compile(r"^[ \t]*+[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ][^\n]{1,400}$", re.MULTILINE)
+_NEXT_LABEL = re.compile(r"(?<![^\W\d_]{3})\.[ ](?=[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ])")
+"""The full stop behind a formula with a label, where another label follows: Cart: ½ M x'^2. Rod: ½ J φ'^2."""
 
 
 def without_markup(text: str) -> str:
@@ -70,7 +73,8 @@ def without_markup(text: str) -> str:
 
 def sentences_apart(text: TracedText) -> TracedText:
     """Return an answer in which a bullet or a label behind a sentence of words begins a line, and a statement behind a
-    formula that a full stop ends."""
+    formula that a full stop ends; so does each of several labels with a formula on one line."""
+    text = text.sub(_LABELLED, lambda m: _NEXT_LABEL.sub(".\n", m.group()))
     return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n").sub(_BEHIND_FORMULA, lambda _: ";")
 
 
