@@ -67,6 +67,8 @@ _LISTED = re.compile(
     r"(?P<label>[^\W\d_][\w-]{2,20}(?:[ ][\w-]{1,20}){0,3}?)[ \t]?:?[ \t]++(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])"
 )
 """An energy behind the name of what has it: flyer  T = 1/2 J phi'^2."""
+_AGAIN = re.compile(r"[ \t]{2,}(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])")
+"""One more energy of what has the row above: its rotation below its translation."""
 _WHOLE = re.compile(
     r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?(?:(?:total|whole|all|sum|system|gesamt)[ \t]?:?[ \t]++)?"
     r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])",
@@ -114,7 +116,7 @@ class _Parts:
         self.kind: str | None = None
         self.columns: list[str | None] = []
         self.body, self.indent = list[str](), 0
-        self.listed = frozenset[str]()
+        self.listed = self.more = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
         """Of each energy, the rows of its list: where each begins, the letter in it, and its name."""
@@ -129,7 +131,11 @@ class _Parts:
             yield from self._in_table(text, at)
             return
         self.columns = []
-        if text in self.listed and (row := _LISTED.match(text)) is not None:
+        if text in self.more and (row := _AGAIN.match(text)) is not None:
+            listed = self.summands["T" if row["letter"][0] == "T" else "V"]
+            listed.append((at, row["letter"], f"{listed[-1][2]}x"))
+            yield at + row.start("letter"), at + row.end("letter"), listed[-1][2]
+        elif text in self.listed and (row := _LISTED.match(text)) is not None:
             kind = "T" if row["letter"][0] == "T" else "V"
             name = self._name(kind, row["label"])
             self.summands.setdefault(kind, []).append((at, row["letter"], name))
@@ -245,8 +251,13 @@ class _Parts:
     def rows_of_parts(self, lines: Iterable[str]) -> frozenset[str]:
         """The rows that state T, or V, behind names of what has it, where each has only some of the letters of all."""
         found = dict[str, dict[str, set[str]]]()
+        above, more = "", dict[str, str]()
         for text in lines:
             row = _LISTED.match(text) if len(text) <= 2 * LONGEST else None
+            again = _AGAIN.match(text) if row is None else None
+            if again is not None and above and again["letter"] == _LISTED.match(above)["letter"]:  # type: ignore[index]
+                more[text] = above
+            above = text if row is not None else ""
             if row is None or _OTHER.search(row["label"]) or not self._speaks(row["label"]):
                 continue
             named = {key(x) for x in _NAME.findall(text[row.end() :])}
@@ -258,7 +269,8 @@ class _Parts:
             parts = [text for text, mine in listed.items() if mine < every]
             labels = {_LISTED.match(text)["label"] for text in listed}  # type: ignore[index]
             rows.update(parts if len(parts) == len(listed) == len(labels) > 1 else ())
-        return frozenset(rows)
+        self.more = frozenset(text for text, of in more.items() if of in rows)
+        return frozenset(rows | self.more)
 
     def sums(self, lines: Sequence[re.Match[str]]) -> Iterator[Edit]:
         """Lines above such rows that say what the whole is, where no other states it or has all their names."""
