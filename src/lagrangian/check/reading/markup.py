@@ -13,6 +13,8 @@ from lagrangian.check.reading.traced_text import TracedText
 _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
 _RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
 _CODE = re.compile(r"(?<!`)(`{1,2})(?!`)([^`\n]+)\1(?!`)")
+_STATED_CODE = re.compile(r"(?<=, )`(?P<code>[^\W\d]\w{0,11} ?=(?![=>])[^`=\n]{1,80})`(?=[.;,]?[ \t]*$)", re.MULTILINE)
+"""A value as a piece of code at the end of a sentence: the ropes `A`, `B`, `mu = M + I/r^2`."""
 _BOLD = re.compile(r"(?<![\w)\]'*])(\*\*|__)(?=[^\s*_])([^*\n]*?[^\s*])\1(?![\w(*])")
 _BOLD_LINE = re.compile(
     r"^(?P<lead>[ \t]*+)\*\*(?=[^\s*])(?P<line>(?:(?<=[\w)])\*\*(?=[\w(])|\*(?!\*)|[^*\n])*)\*\*(?=[ \t]*$)",
@@ -66,6 +68,7 @@ def without_markup(text: str) -> str:
     text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     text = _BOLD_LINE.sub(lambda m: f"{m['lead']}  {m['line']}  ", text)
+    text = _STATED_CODE.sub(lambda m: f";{m['code']};", text)
     for form in (_BOLD, _CODE, _ITALIC):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
