@@ -12,11 +12,16 @@ from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+VAGUE = ("special_case", "denominator", "multiplier_missing")
+"""Mistakes that say less than the one term that is wrong, where the multipliers were eliminated."""
 
 
 def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put."""
+    if verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
+        found = with_terms_alone(with_combined_rows(truth, lines, replace(verdict, mistakes=(), alternatives=())))
+        return found if found.mistakes else verdict
     balanced = with_wrong_balance(truth, lines, verdict)
     told = _with_term_of_one_line(truth, with_combined_rows(truth, lines, balanced))
     return with_sum_not_squared(truth, with_terms_alone(told))
