@@ -105,9 +105,7 @@ def _turning(model: Model) -> list[Row]:
     return [r for r in rows if any(bounded.diff(r.rate, c.rate).has(time, *q) for c in model.coordinates)]
 
 
-def _rates(
-    truth: Reference, rows: Sequence[Row], held: Mapping[sp.Expr, sp.Expr]
-) -> dict[sp.Expr, sp.Expr] | None:
+def _rates(truth: Reference, rows: Sequence[Row], held: Mapping[sp.Expr, sp.Expr]) -> dict[sp.Expr, sp.Expr] | None:
     """For every such row one rate, and its acceleration, in terms of those that are left; None if a row has no rate
     with a constant factor."""
     found: dict[Any, sp.Expr] = {}

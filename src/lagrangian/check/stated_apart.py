@@ -155,7 +155,7 @@ def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
 
 
 def _of_the_whole(truth: Reference, line: AnsweredLine, kind: str, rest: sp.Expr) -> AnsweredLine:
-    """A line that gives a derivative of an energy, less that of the last part, with that of the whole energy instead."""
+    """A line that gives a derivative of an energy, less that of the last part, with that of the whole instead."""
     c = next((x for x in truth.model.coordinates if x.name == line.name), None)
     if c is None or line.kind not in (f"{kind}-slope", f"{kind}-p", f"{kind}-rate"):
         return line

@@ -18,7 +18,6 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
 from lagrangian.page.formula import Text, text
 
-
 OF_PLACES = ("constraint_", "identity_")
 """How the names of mistakes begin that are no mistakes of equations of motion."""
 

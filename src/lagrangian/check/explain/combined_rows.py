@@ -206,9 +206,14 @@ def _reduced(truth: Reference) -> list[sp.Expr]:
     forces = dict.fromkeys((m.symbol for m in truth.derivation.multipliers.values()), sp.S.Zero)
     rows = [cast("sp.Expr", truth.put_in(cast("sp.Expr", row.xreplace(forces)))) for row in truth.rows]
     return [
-        sp.Add(*[row * bounded.diff(truth.table.get(c.rate, c.rate), own.rate)
-                 for row, c in zip(rows, coordinates, strict=True)])
-        for own in coordinates if own.rate not in truth.table
+        sp.Add(
+            *[
+                row * bounded.diff(truth.table.get(c.rate, c.rate), own.rate)
+                for row, c in zip(rows, coordinates, strict=True)
+            ]
+        )
+        for own in coordinates
+        if own.rate not in truth.table
     ]
 
 

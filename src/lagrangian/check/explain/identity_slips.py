@@ -1,4 +1,4 @@
-"""A line that equates functions of one angle alone, sin(ψ/2) cos(ψ/2) = 2 sin ψ: it is an identity, and no constraint."""
+"""A line that equates functions of one angle alone, sin(ψ/2) cos(ψ/2) = 2 sin ψ: an identity, and no constraint."""
 
 from __future__ import annotations
 
@@ -39,6 +39,9 @@ def identity_slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] |
         number = simple_number(times)
         if number is not None and np.abs(values[0] - times * values[1]).max() <= NEAR * np.abs(values[0]).max():
             right = sp.Rational(number.numerator, number.denominator) * other
-            sign = -1 if one.could_extract_minus_sign() else 1
-            what = text(f"{title} is no identity: ", sign * one, " is ", sign * right, ", not ", -sign * other, ".")
+            if one.could_extract_minus_sign():
+                one, right, other = -one, -right, -other
+            shown = (cast("sp.Expr", x) for x in (one, right, -other))
+            left, is_, written = shown
+            what = text(f"{title} is no identity: ", left, " is ", is_, ", not ", written, ".")
     return Mistake("identity_wrong", what, WHY, 5, None, None, text(f"{title} is no identity.")), 0

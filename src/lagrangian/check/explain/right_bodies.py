@@ -16,6 +16,7 @@ from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.said_wrongly import NEAR, in_names_of, right_quantities
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import CompiledExpressions
+
 PARTS = range(2, 9)
 """How many equal parts a body may have."""
 

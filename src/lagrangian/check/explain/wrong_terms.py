@@ -12,6 +12,7 @@ from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+
 VAGUE = ("special_case", "denominator", "multiplier_missing")
 """Mistakes that say less than the one term that is wrong, where the multipliers were eliminated."""
 
