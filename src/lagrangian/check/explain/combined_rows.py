@@ -50,7 +50,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
     findings, told = list(verdict.findings), list[WrongTerm]()
     for finding in verdict.findings:
         rows = finding.status is Status.WRONG and finding.line.kind == "equation" and len(finding.differences) != 1
-        if not rows or (wrong := one_wrong_term(on, _cleared(finding.line.expr))) is None:
+        if not rows or (wrong := one_wrong_term(on, cleared(finding.line.expr))) is None:
             continue
         k = next(k for k, f in enumerate(findings) if f is finding)
         if any(wrong.factor == x.factor and _quotient(on, wrong.term, x.term) for x in told):
@@ -71,10 +71,21 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
     return replace(verdict, findings=tuple(findings))
 
 
-def _cleared(expr: sp.Expr) -> sp.Expr:
+def cleared(expr: sp.Expr) -> sp.Expr:
     """An equation that is solved for an acceleration, times its denominator, if that is a sum."""
     divided = any(x.exp.is_negative and isinstance(x.base, sp.Add) for x in expr.atoms(sp.Pow))
     return sp.fraction(bounded.together(expr))[0] if divided else expr
+
+
+def denominator_of(expr: sp.Expr) -> sp.Expr | None:
+    """The one sum by which an equation is divided."""
+    found = {x.base for x in expr.atoms(sp.Pow) if x.exp == -1 and isinstance(x.base, sp.Add)}
+    return cast("sp.Expr", found.pop()) if len(found) == 1 else None
+
+
+def terms_of(expr: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The terms of a sum, multiplied out."""
+    return tuple(cast("sp.Expr", x) for x in sp.Add.make_args(bounded.expand(expr)))
 
 
 def _put_in_from(
@@ -311,7 +322,8 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
     letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
     listed: list[sp.Expr] = [*letters, *(1 / x for x in letters), *(x / y for x in letters for y in letters if x != y)]
     ways = [c.symbol for c in truth.model.coordinates if any(_is_way(row, c.symbol) for row in truth.rows)]
-    listed += [x for q in ways for x in (q, 1 / q)]
+    fixed = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos) if not f.has(*truth.derivation.coordinates)}
+    listed += [x for q in (*ways, *sorted(fixed, key=sp.default_sort_key)[:4]) for x in (q, 1 / q)]
     for c in truth.model.coordinates:
         listed += [sp.tan(c.symbol), 1 / sp.tan(c.symbol), sp.sin(c.symbol), sp.cos(c.symbol)]
     values = CompiledExpressions(listed).at(truth.states).reshape(len(listed), places, -1)[:, :, 0]
