@@ -57,6 +57,8 @@ ANSWERS = {
     "a side in words": "x1'' = " + "word " * (N // 5) + "= x2r",
     "signs of a side in words": "x1'' = w" + "-" * N + "= x2r",
     "a special case before blanks": "x1'' = 0\nx1 = 0" + BLANK + "z:",
+    "items below a heading": "x1'' = 0\nvelocities of the carts:\n" + "- a: b, c\n" * (N // 20),
+    "an item below a heading": "x1'' = 0\nvelocities of the carts:\n- a: " + "b(, " * (N // 4),
     "names in a row of words": "x1'' = 0\nthe same here and there, " + "q = x1, " * (N // 8),
     "products of constants": "x1'' = 0\n" + "".join(f"2 q_{k} q_{k + 1} = m1\n" for k in range(400)),
     "a condition before blanks": "x1'' = 0\ncheck: for x1" + BLANK + "= x2r y",

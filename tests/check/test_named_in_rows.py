@@ -125,6 +125,13 @@ def test_a_wrong_solved_row_beside_right_equations() -> None:
     assert kind == "denominator"
 
 
+def test_the_wrong_term_of_a_denominator_is_told() -> None:
+    wrong = SOLVED[0].replace(f"/{DET}", f"/{DET.replace('cos(theta)^2', 'cos(theta)')}")
+    kind, _, words = told("cart-pole", f"{CART} = F\n{POLE} = 0\n{wrong}\n{POLE} = 0")
+    assert kind == "denominator"
+    assert words.endswith("In it, -l^2*m^2*cos(theta) should be -l^2*m^2*cos(theta)^2."), words
+
+
 PAIR = "(m1+m2)*x1'' + m2*x2r'' = 0\nm2*(x1'' + x2r'') + k*x2r = F\n"
 
 

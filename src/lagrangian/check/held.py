@@ -22,7 +22,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.derive.sampling import Array, CompiledExpressions, States
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, time
-from lagrangian.model.rows import rows_of
+from lagrangian.model.rows import Row, rows_of
 from lagrangian.verify.on_rows import OnRows
 
 STATES = 8
@@ -72,7 +72,7 @@ class OnConstraints(Reference):
     def force(self, Xi: Sequence[sp.Expr], i: int) -> sp.Expr:
         """Ξ_i where a motion of ξ_i moves the coordinates that follow from it: Ξ_i + Σ Ξ_d ∂ξ_d/∂ξ_i."""
         coordinates = self.model.coordinates
-        moved = [bounded.diff(self.table.get(c.symbol, c.symbol), coordinates[i].symbol) for c in coordinates]
+        moved = [bounded.diff(self.table.get(c.rate, c.rate), coordinates[i].rate) for c in coordinates]
         return sp.Add(*[x * y for x, y in zip(Xi, moved, strict=True)])
 
 
@@ -85,8 +85,8 @@ def held(truth: Reference) -> OnConstraints | None:
 
 
 def _held(truth: Reference) -> OnConstraints | None:
-    solved = _solved(truth.model)
-    if not solved:
+    solved, turning = _solved(truth.model), _turning(truth.model)
+    if solved is None or not (solved or turning):
         return None
     table: dict[sp.Expr, sp.Expr] = {}
     for c in truth.model.coordinates:
@@ -94,14 +94,40 @@ def _held(truth: Reference) -> OnConstraints | None:
             value = truth.put(solved[c.symbol])
             rate = bounded.diff(value, time)
             table |= {c.symbol: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)}
-    return OnConstraints(truth, table)
+    rates = _rates(truth, turning, table)
+    return None if rates is None else OnConstraints(truth, table | rates)
+
+
+def _turning(model: Model) -> list[Row]:
+    """The rows on velocities whose factors move, s ψ̇ = r φ̇: they hold no coordinate."""
+    q = [c.symbol for c in model.coordinates]
+    rows = [row for row in rows_of(model) if row.position is None]
+    return [r for r in rows if any(bounded.diff(r.rate, c.rate).has(time, *q) for c in model.coordinates)]
+
+
+def _rates(truth: Reference, rows: Sequence[Row], held: Mapping[sp.Expr, sp.Expr]) -> dict[sp.Expr, sp.Expr] | None:
+    """For every such row one rate, and its acceleration, in terms of those that are left; None if a row has no rate
+    with a constant factor."""
+    found: dict[Any, sp.Expr] = {}
+    coordinates = truth.model.coordinates
+    for row in rows:
+        zero = bounded.expand(_with(truth.put(truth.expand(row.rate)), {**held, **found}))
+        slopes = {c.rate: bounded.diff(zero, c.rate) for c in coordinates if zero.has(c.rate)}
+        fixed = (v for v, x in slopes.items() if x != 0 and not x.has(time, *(c.symbol for c in coordinates)))
+        if (v := next(fixed, None)) is None or bounded.replaced(zero, dict.fromkeys(slopes, sp.S.Zero)) != 0:
+            return None
+        value = bounded.expand(v - zero / slopes[v])
+        found = {x: bounded.expand(_with(e, {v: value})) for x, e in found.items()} | {v: value}
+    return found | {bounded.diff(v, time): bounded.diff(x, time) for v, x in found.items()}
 
 
 def _solved(model: Model) -> dict[Any, sp.Expr] | None:
-    """For every row one coordinate in terms of those that are left; None if a row is not linear in any."""
+    """For every row with constant factors one coordinate in terms of those that are left; None if a row is not linear
+    in any."""
     found: dict[Any, sp.Expr] = {}
     coordinates = {c.rate: c.symbol for c in model.coordinates}
-    for row in rows_of(model):
+    turning = _turning(model)
+    for row in (x for x in rows_of(model) if not any(x is y or x.name == y.name for y in turning)):
         if row.position is None and bounded.replaced(row.rate, dict.fromkeys(coordinates, sp.S.Zero)) != 0:
             return None
         zero = row.position if row.position is not None else cast("sp.Expr", row.rate.xreplace(coordinates))

@@ -18,7 +18,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import listed as listed_in_words
-from lagrangian.model import Gravity, Inductor, RigidBody, Spring
+from lagrangian.model import Gravity, Inductor, RigidBody, Spring, time
 from lagrangian.model.elements.branch import CircuitBranch
 from lagrangian.page.formula import Name, Text, text
 
@@ -145,11 +145,23 @@ def _added_up(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
         if len(own) < 2 or not all(held) or sum(map(len, held)) > len(set[sp.Basic]().union(*held)):
             continue
         whole = replace(own[0], expr=sp.Add(*[line.expr for line in own]))
+        rest = cast("sp.Expr", own[-1].expr - whole.expr)  # a derivative was compared with that of the last part
+        found = [_of_the_whole(truth, x, kind, rest) if x.number > own[-1].number else x for x in found]
         found = [whole if x is own[0] else x for x in found if x is own[0] or not any(x is y for y in own)]
         at = list(dict.fromkeys(str(line.number) for line in own))
         where = f"lines {listed_in_words(at)}" if len(at) > 1 else f"line {at[0]}"
         notes.append(text(f"{_CALLED[kind]} is stated in parts; those in {where} were added up."))
     return tuple(found), notes
+
+
+def _of_the_whole(truth: Reference, line: AnsweredLine, kind: str, rest: sp.Expr) -> AnsweredLine:
+    """A line that gives a derivative of an energy, less that of the last part, with that of the whole instead."""
+    c = next((x for x in truth.model.coordinates if x.name == line.name), None)
+    if c is None or line.kind not in (f"{kind}-slope", f"{kind}-p", f"{kind}-rate"):
+        return line
+    slope = bounded.diff(rest, c.symbol if line.kind == f"{kind}-slope" else c.rate)
+    slope = bounded.diff(slope, time) if line.kind == "T-rate" else slope
+    return replace(line, expr=line.expr - slope if line.kind in ("T-p", "T-slope") else line.expr + slope)
 
 
 def _inertias(truth: Reference) -> set[sp.Basic]:

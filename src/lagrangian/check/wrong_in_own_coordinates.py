@@ -18,6 +18,9 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict, keys_of
 from lagrangian.page.formula import Text, text
 
+OF_PLACES = ("constraint_", "identity_")
+"""How the names of mistakes begin that are no mistakes of equations of motion."""
+
 
 def wrong_in_stated_coordinates(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer in coordinates that it defines, if its mistakes are found in these."""
@@ -32,7 +35,7 @@ def wrong_without_constraints(truth: Reference, lines: Sequence[AnsweredLine], v
 
     Right equations with multipliers, from which a wrong one was reduced, are left out if nothing else explains it.
     """
-    if verdict.status is not Status.WRONG or any(m.name.startswith("constraint_") for m in verdict.mistakes):
+    if verdict.status is not Status.WRONG or any(m.name.startswith(OF_PLACES) for m in verdict.mistakes):
         return None
     used = tuple(lines)
     own = without_constraints(truth, used)

@@ -93,7 +93,7 @@ def with_own_multipliers(
     fixed = [(_read(truth, lines, rows, x), k) for x, k in zip(stated, against, strict=True)]
     right, _ = min(fixed, key=lambda x: (len(x[0].mistakes) + x[1], x[1]), default=(None, 0))
     if right is not None and len(right.mistakes) < sum(line.expr.has(*names) for line in rows):
-        doubtful = clashes and not any(_is_zero_of_positions(line) for line in lines)
+        doubtful = clashes and not any(_is_zero_of_positions(truth, line) for line in lines)
         return _beside_rivals(truth, right, lines, [x for x, _ in fixed if doubtful])
     found = _likeliest(truth, lines, rows, possible)
     if found.notes and found.mistakes and not clashes:  # a wrong constraint tells nothing of its sense
@@ -189,14 +189,17 @@ def _of_stated(
     if len(names) != 1 or len(own) != 1:
         return
     for line in lines:
-        c = _slope_ratio(truth, line.expr, own[0]) if line.kind == "equation" else None
+        c = _slope_ratio(truth, line.expr, own[0]) if line.kind in ("equation", "definition") else None
         if c is not None and bounded.size(c) <= LONGEST and (c.is_number or c.has(*truth.derivation.coordinates)):
             yield from ({names[0]: (own[0], cast("sp.Expr", sign / c))} for sign in (1, -1))
             return
 
 
-def _is_zero_of_positions(line: AnsweredLine) -> bool:
-    """Whether a line states a constraint as f = 0, of which λ ∂f/∂ξ has a sign."""
+def _is_zero_of_positions(truth: Reference, line: AnsweredLine) -> bool:
+    """Whether a line states a constraint as f = 0, of which λ ∂f/∂ξ has a sign, or what its f is."""
+    if line.kind == "definition":
+        own = [m.symbol for m in truth.derivation.multipliers.values()]
+        return any(_slope_ratio(truth, line.expr, x) is not None for x in own)
     return line.kind == "equation" and not line.expr.has(sp.Derivative) and _ZERO.search(line.text) is not None
 
 

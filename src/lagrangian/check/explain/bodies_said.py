@@ -16,8 +16,10 @@ import sympy as sp
 from lagrangian.check.align import LARGEST, Alignment, alignments
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.changes.pool import Pool
-from lagrangian.check.explain.columns_said import columns, said_of_column
+from lagrangian.check.explain.columns_said import Senses, columns, said_of_column, senses_of
+from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.line_mistakes import stated, without_constant
+from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of, said_of_rate
 from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
@@ -26,6 +28,7 @@ from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
 from lagrangian.check.verdict import AnsweredLine, Finding
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import RigidBody
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
@@ -123,7 +126,8 @@ class BodiesSaid:
         open_ones += [(x,) for x in self.rates]
         ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
         turned = along_turned_axes(self.truth, self.lines)
-        every = (p for x in ordered for p in _parts(self.truth, x, turned))
+        senses = senses_of(self.truth, held)
+        every = (p for x in ordered for p in _parts(self.truth, x, turned, senses))
         return list(islice(every, MOST_PARTS))
 
     def of_all(self, findings: Sequence[Finding], every: Sequence[AnsweredLine]) -> Blamed | None:
@@ -192,14 +196,20 @@ class BodiesSaid:
             said = tuple(self.parts[k] for k in chosen[0])
             if count == 1:
                 firsts = {id(p.line): p for k in reversed(chosen) for p in [self.parts[k[0]]]}
-                said = (_first_of(sorted(firsts.values(), key=lambda p: p.number)),)
-            places, lines = [self.parts.index(p) for p in said], [p.line for p in said]
+                first = _first_of(sorted(firsts.values(), key=lambda p: p.number))
+                same = [p for k in chosen for p in [self.parts[k[0]]] if p.line is first.line]
+                said = (of_its_body(self.truth, self.lines, same),)
+            places, lines = [self._place(p) for p in said], [p.line for p in said]
             wholes = [*(effects[k] for k in places), rest]
             alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in wholes)]
-            alike += self._of_energy_alone(places)
+            alike += [*self._of_energy_alone(places), *self._of_parts(said)]
             later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
             return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
         return None
+
+    def _place(self, said: SaidWrongly) -> int:
+        """The place of what has the same effect among what the definitions may have wrong."""
+        return next(k for k, p in enumerate(self.parts) if p.effect is said.effect)
 
     def _of_energy_alone(self, places: Sequence[int]) -> list[int]:
         """The definitions that add to T* or V alone what some others add to it, as v_S does beside r_S."""
@@ -213,6 +223,19 @@ class BodiesSaid:
                 j = energies[0]
                 near = [np.abs(both[k, j] - both[i, j]).max() <= SMALL * size[j] for i in places if i != k]
                 found += [k] if any(near) else []
+        return found
+
+    def _of_parts(self, said: Sequence[SaidWrongly]) -> list[int]:
+        """The kinetic energies of which only the translation, or the rotation, is said with what some others add."""
+        s, found = quantities_of(self.truth).of, list[int]()
+        for k, p in enumerate(self.parts):
+            owner = p.words.of.owner if p.words.of.kind == "kinetic" else None
+            mine = [x.T for x in said if isinstance(owner, RigidBody) and x.words.of.owner is owner and x.T != 0]
+            if not mine:
+                continue
+            rests = [p.T + self.truth.put(x) - sp.Add(*mine) for x in (s.rotation(owner), s.translation(owner))]
+            values = CompiledExpressions([*rests, p.T]).at(self.truth.states)
+            found += [k] if any(np.abs(x).max() <= SMALL * np.abs(values[-1]).max() for x in values[:-1]) else []
         return found
 
     def _leads_to(self, effects: Array, chosen: Sequence[int], rest: Array) -> bool:
@@ -270,10 +293,12 @@ class BodiesSaid:
         return []
 
 
-def _parts(truth: Reference, lines: Sequence[AnsweredLine], turned: frozenset[int]) -> Iterator[SaidWrongly]:
+def _parts(
+    truth: Reference, lines: Sequence[AnsweredLine], turned: frozenset[int], senses: Senses
+) -> Iterator[SaidWrongly]:
     """What a definition, a column or a rate may have wrong; ``turned`` are definitions along axes that turn."""
     if len(lines) > 1:
-        return said_of_column(truth, tuple(lines))
+        return said_of_column(truth, tuple(lines), senses)
     (line,) = lines
     return said_of_rate(truth, line) if line.kind == "identity" else said_of(truth, line, turned=id(line) in turned)
 

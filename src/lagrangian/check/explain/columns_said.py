@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, TypeAlias, cast
 
@@ -21,6 +21,8 @@ from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.page.formula import Left
 
 Column: TypeAlias = tuple[AnsweredLine, ...]
+Senses: TypeAlias = Mapping[int, int]
+"""The sense, 1 or −1, in which an answer counts places along an axis, by the number of the axis."""
 
 
 def columns(lines: Sequence[AnsweredLine]) -> list[Column]:
@@ -39,18 +41,35 @@ def columns(lines: Sequence[AnsweredLine]) -> list[Column]:
     return [tuple(column) for column in found if len(column) > 1]
 
 
-def right_columns(truth: Reference, column: Column) -> list[Sayable]:
+def senses_of(truth: Reference, held: Sequence[Column]) -> Senses:
+    """In which sense the positions of an answer count along each axis: as the first right one in which the place of a
+    body moves along it does, to the right or to the left, upwards or downwards."""
+    found: dict[int, int] = {}
+    for column in held:
+        said = _said(truth, column)
+        for q, _, own in () if said is None else _meanings(truth, column, said, found):
+            if q.kind != "place" or said is None or not _is(truth, q, (), own):
+                continue
+            for axis, (x, y) in enumerate(zip(said, own, strict=True)):
+                if x != 0:
+                    found.setdefault(axis, 1 if x == y else -1)
+            break
+    return found
+
+
+def right_columns(truth: Reference, column: Column, senses: Senses) -> list[Sayable]:
     """The positions and velocities that a column has rightly, along fixed axes or, of velocities, along any."""
     said = _said(truth, column)
-    return [] if said is None else [q for q, right, own in _meanings(truth, column, said) if _is(truth, q, right, own)]
+    every = () if said is None else _meanings(truth, column, said, senses)
+    return [q for q, right, own in every if _is(truth, q, right, own)]
 
 
-def said_of_column(truth: Reference, column: Column) -> Iterator[SaidWrongly]:
+def said_of_column(truth: Reference, column: Column, senses: Senses) -> Iterator[SaidWrongly]:
     """What a column may say wrongly of the position or the velocity of each body."""
     said = _said(truth, column)
     if said is None:
         return
-    every = [(q, right, own) for q, right, own in _meanings(truth, column, said)]
+    every = [(q, right, own) for q, right, own in _meanings(truth, column, said, senses)]
     elsewhere = any(_is(truth, q, right, own) for q, right, own in every)
     s = quantities_of(truth).of
     for q, right, own in every:
@@ -72,9 +91,10 @@ def _said(truth: Reference, column: Column) -> list[sp.Expr] | None:
 
 
 def _meanings(
-    truth: Reference, column: Column, said: Sequence[sp.Expr]
+    truth: Reference, column: Column, said: Sequence[sp.Expr], senses: Senses
 ) -> Iterator[tuple[Sayable, list[sp.Expr], list[sp.Expr]]]:
-    """What a column may mean: the quantity, what is right in the senses of the answer, and what it says in ours."""
+    """What a column may mean: the quantity, what is right in the senses of the answer, and what it says in ours; where
+    its positions have ``senses`` already, a place has the same."""
     s = quantities_of(truth).of
     owner = owner_of((column[0].name or "")[:-2], truth.model)
     moving = any(x.has(*s.v) for x in said)
@@ -85,6 +105,7 @@ def _meanings(
         if not any(s.moves(x) or x.has(*s.v) for x in values):
             continue
         signs = [turned_to(truth, x, y) for x, y in zip(values, said, strict=True)]
+        signs = signs if moving else [senses.get(axis, sign) for axis, sign in enumerate(signs)]
         kind, words = ("velocity", "velocity") if moving else ("place", "position")
         right = [sign * x for sign, x in zip(signs, values, strict=True)]
         own = [sign * x for sign, x in zip(signs, said, strict=True)]

@@ -15,7 +15,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.held import held
+from lagrangian.check.held import OnConstraints, held
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict, inserted
 from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
@@ -52,7 +52,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
     findings, told = list(verdict.findings), list[WrongTerm]()
     for finding in verdict.findings:
         rows = finding.status is Status.WRONG and finding.line.kind == "equation" and len(finding.differences) != 1
-        if not rows or (wrong := one_wrong_term(on, finding.line.expr)) is None:
+        if not rows or (wrong := one_wrong_term(on, cleared(finding.line.expr))) is None:
             continue
         k = next(k for k, f in enumerate(findings) if f is finding)
         if any(wrong.factor == x.factor and _quotient(on, wrong.term, x.term) for x in told):
@@ -71,6 +71,23 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
         differences = (difference(on, wrong, finding.coordinate),)
         findings[k] = replace(finding, differences=differences, coordinate=None, note=note)
     return replace(verdict, findings=tuple(findings))
+
+
+def cleared(expr: sp.Expr) -> sp.Expr:
+    """An equation that is solved for an acceleration, times its denominator, if that is a sum."""
+    divided = any(x.exp.is_negative and isinstance(x.base, sp.Add) for x in expr.atoms(sp.Pow))
+    return sp.fraction(bounded.together(expr))[0] if divided else expr
+
+
+def denominator_of(expr: sp.Expr) -> sp.Expr | None:
+    """The one sum by which an equation is divided."""
+    found = {x.base for x in expr.atoms(sp.Pow) if x.exp == -1 and isinstance(x.base, sp.Add)}
+    return cast("sp.Expr", found.pop()) if len(found) == 1 else None
+
+
+def terms_of(expr: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The terms of a sum, multiplied out."""
+    return tuple(cast("sp.Expr", x) for x in sp.Add.make_args(bounded.expand(expr)))
 
 
 def _put_in_from(
@@ -188,11 +205,30 @@ def _missing(truth: Reference, wrong: Array, values: Mapping[sp.Basic, Array]) -
 def _right_terms(truth: Reference) -> list[sp.Expr]:
     """The terms of the right equations, and all those with one parameter together; none if there are many."""
     listed: set[sp.Expr] = set()
-    for row in truth.rows:
+    for row in (*truth.rows, *_reduced(truth)):
         own = sp.Add.make_args(bounded.expand(row)) if terms(row) <= MOST_TERMS else ()
         groups = [[cast("sp.Expr", t) for t in own if t.has(p.symbol)] for p in truth.model.parameters]
         listed.update(t for group in groups if group for t in (*group, _together(group)))
     return sorted(listed, key=sp.default_sort_key) if len(listed) <= MOST_TERMS else []
+
+
+def _reduced(truth: Reference) -> list[sp.Expr]:
+    """The right equations without multipliers where constraints hold: Σ_i W_i ∂ξ̇_i/∂ξ̇_j, in the other coordinates."""
+    if not isinstance(truth, OnConstraints):
+        return []
+    coordinates = truth.model.coordinates
+    forces = dict.fromkeys((m.symbol for m in truth.derivation.multipliers.values()), sp.S.Zero)
+    rows = [cast("sp.Expr", truth.put_in(cast("sp.Expr", row.xreplace(forces)))) for row in truth.rows]
+    return [
+        sp.Add(
+            *[
+                row * bounded.diff(truth.table.get(c.rate, c.rate), own.rate)
+                for row, c in zip(rows, coordinates, strict=True)
+            ]
+        )
+        for own in coordinates
+        if own.rate not in truth.table
+    ]
 
 
 def _with_arms(truth: Reference, right: Sequence[sp.Expr], values: Mapping[sp.Basic, Array]) -> list[sp.Expr]:
@@ -276,6 +312,11 @@ def _share(wrong: Array, term: Array) -> Array | None:
     return share if (left <= 1e-6 * np.abs(wrong).max(axis=1)).all() else None
 
 
+def _is_way(row: sp.Expr, q: sp.Expr) -> bool:
+    """Whether a coordinate is a factor of a term, as a length is, and not only in sines and cosines."""
+    return any(q in t.as_powers_dict() for t in sp.Add.make_args(bounded.expand(row)))
+
+
 def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
     """What a term may have to be multiplied by, with its values at every place, the plainest first."""
     places = SETS * PLACES
@@ -283,6 +324,9 @@ def _factors(truth: Reference) -> Iterator[tuple[sp.Expr, Any]]:
         yield factor, np.full(places, number)
     letters = [p.symbol for p in truth.model.parameters if p.symbol not in truth.values][:MOST_LETTERS]
     listed: list[sp.Expr] = [*letters, *(1 / x for x in letters), *(x / y for x in letters for y in letters if x != y)]
+    ways = [c.symbol for c in truth.model.coordinates if any(_is_way(row, c.symbol) for row in truth.rows)]
+    fixed = {f for row in truth.rows for f in row.atoms(sp.sin, sp.cos) if not f.has(*truth.derivation.coordinates)}
+    listed += [x for q in (*ways, *sorted(fixed, key=sp.default_sort_key)[:4]) for x in (q, 1 / q)]
     angles = {x.args[0] for row in truth.rows for x in row.atoms(sp.sin, sp.cos)} | {
         c.symbol for c in truth.model.coordinates
     }

@@ -17,6 +17,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.constraints.counted_together import integrated
 from lagrangian.check.explain.changes.ring import Monomial, Sum, SumRing, TooLong, minus, product, scaled
+from lagrangian.check.explain.identity_slips import identity_slip
 from lagrangian.check.explain.own_terms import term_replaced
 from lagrangian.check.explain.virtual_displacements import MOVES
 from lagrangian.check.reading.line_forms import accelerates
@@ -88,7 +89,7 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
         if not expr.has(*moving) and any(x in f.line.text.partition("=")[0] for x in ("∂", "partial", "/d")):
             found.append(WrongConstraint(f, _slope(truth, f.line), SLOPE))
             continue
-        slip = _slip(truth, f.line)
+        slip = identity_slip(truth, f.line) or _slip(truth, f.line)
         if slip is not None or not expr.has(*moving):
             found.append(WrongConstraint(f, *(slip or (_elsewhere(truth, f.line), 0))))
     return tuple(found)

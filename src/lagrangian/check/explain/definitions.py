@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
-from lagrangian.check.explain.columns_said import columns, right_columns
+from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
 from lagrangian.check.explain.quantities import Sayable
 from lagrangian.check.explain.said_wrongly import right_quantities
 from lagrangian.check.reference import Reference
@@ -23,9 +23,12 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     """The findings with wrong definitions in their places, and what follows from them marked so."""
     if blamed is None:
         return tuple(findings)
-    below = {(line.number, line.text) for line in (*blamed.because, *blamed.later)}
-    wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in below for f in findings]
-    found = [replace(f, follows=f.follows or follows) for f, follows in zip(findings, wrong, strict=True)]
+    after = {(line.number, line.text) for line in (*blamed.because, *blamed.later)}
+    wrong = [f.status is Status.WRONG and (f.line.number, f.line.text) in after for f in findings]
+    found = [
+        replace(f, follows=f.follows or below, note=None if below and f.line.kind == "definition" else f.note)
+        for f, below in zip(findings, wrong, strict=True)
+    ]
     lines = {(p.line.number, p.line.text): Finding(p.line, Status.WRONG) for p in blamed.said}
     names = {key(p.line.name or "") for p in blamed.said}
     numbers = {number for number, _ in lines}
@@ -56,9 +59,12 @@ def with_right_definitions(
         if line.kind == "definition" and (line.number, line.text) not in told:
             parts.setdefault((line.number, line.text), []).append(line)
     found, turned = list(findings), along_turned_axes(truth, lines)
+    senses = senses_of(truth, columns(lines))
     for same in parts.values():
         held = columns(same)
-        every = [right_columns(truth, x) for x in held] or [_right(truth, line, id(line) in turned) for line in same]
+        every = [right_columns(truth, x, senses) for x in held] or [
+            _right(truth, line, id(line) in turned) for line in same
+        ]
         if not all(every):
             continue
         words = {str(text(*q.words)): q.words for quantities in every for q in quantities}

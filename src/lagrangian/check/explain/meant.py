@@ -42,6 +42,7 @@ FIXED = ("x", "y", "z")
 _GREEK = ("omega", "Omega", "Theta", "Xi", "Delta", "delta", "theta", "phi", "psi", "alpha", "beta", "gamma", "rho")
 _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
 _DIGITS = re.compile(r"\d+$")
+_WORD = re.compile(r"[^\W\d_]{3,}")
 
 
 def kinds_of(name: str) -> tuple[str, ...] | None:
@@ -81,6 +82,7 @@ def owner_of(name: str, model: Model) -> Body | None:
         named = [
             b for b in model.bodies if re.search(rf"\b{re.escape(b.name.replace('_', ' '))}\b", name, re.IGNORECASE)
         ]
+        named = named or _by_a_word(name, model)
         return named[0] if len(named) == 1 else None
     index = _split(name)[1]
     if not index:
@@ -90,6 +92,14 @@ def owner_of(name: str, model: Model) -> Body | None:
         if found:
             return found[0] if len(found) == 1 else None
     return None
+
+
+def _by_a_word(words: str, model: Model) -> list[Body]:
+    """The bodies of whose names the words hold one that no other body has: the lower centre of the lower link."""
+    said = {x.lower() for x in _WORD.findall(words)}
+    own = [{x.lower() for x in _WORD.findall(b.name)} for b in model.bodies]
+    alone = [x - set().union(*(y for y in own if y is not x)) for x in own]
+    return [b for b, x in zip(model.bodies, alone, strict=True) if x & said]
 
 
 def is_about_centre(name: str, body: Body, model: Model) -> bool:

@@ -32,7 +32,7 @@ from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
 from lagrangian.check.explain.own_terms import OwnTerm, foreign_names, own_terms
 from lagrangian.check.explain.quoted import is_quotable, letters_of
-from lagrangian.check.explain.reasoned import reasoned
+from lagrangian.check.explain.reasoned import as_defined, reasoned
 from lagrangian.check.explain.reduced import of_reduced
 from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
@@ -162,7 +162,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    told, others = of_equations(told, lines), of_equations(others, lines)
+    told, others = of_equations(as_defined(pool, told, blamed), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
@@ -375,7 +375,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
     every = [with_term(pool, t, a, in_words(pool.truth, t, a), kinds) for t, a in chosen]
-    every[0], others = of_either(pool.truth, every[0], chosen[0], others)
+    every[0], others = of_either(pool, every[0], chosen[0], others)
     told = _once(moved_elsewhere(pool, chosen, every), ())
     listed = [in_words(pool.truth, t, e.under) for e in others[:8] for t in e.told]
     ledgers = {e.title: e.ledger for e in pool.truth.model.elements}

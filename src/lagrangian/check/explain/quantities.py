@@ -19,6 +19,7 @@ from lagrangian.check.explain.changes.deflections import struts
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
 from lagrangian.check.explain.turned_axes import turned_places, turned_velocities
+from lagrangian.check.explain.twins import twins
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, Damper, Gravity, RigidBody
@@ -31,6 +32,10 @@ SIGNED = frozenset(
 """Kinds that an answer may count in the other sense."""
 LEVEL = frozenset(["position", "height", "deflection", "potential"])
 """Kinds that a constant does not change."""
+EACH = frozenset(
+    ["speed", "component", "along", "turning", "height", "kinetic", "translation", "rotation", "potential", "inertia"]
+)
+"""Kinds of quantities that are said of each of two equal bodies at once."""
 MOST = 80
 """The largest number of quantities of a system."""
 
@@ -64,6 +69,8 @@ class Sayable:
     coordinate: str | None = None
     parts: tuple[tuple[tuple[str | Left, ...], sp.Expr], ...] = ()
     """The words and the values of forces of which it is the sum."""
+    also: tuple[str, ...] = ()
+    """The other elements of which it is, too."""
 
 
 class Sayables:
@@ -73,7 +80,8 @@ class Sayables:
         s = ingredients_of(truth.derivation)
         self.of = s
         every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s), *_turned(s))
-        self.all = [q for q in every if q.right != 0][:MOST]
+        self.all = [q for q in every if q.right != 0]
+        self.all = [*self.all, *of_twins(s, self.all)][:MOST]
         self.rights = [truth.put(q.right) for q in self.all]
         self.values: Array = CompiledExpressions(self.rights).at(truth.states)
 
@@ -82,6 +90,26 @@ class Sayables:
 def quantities_of(truth: Reference) -> Sayables:
     """The quantities of a system, collected once for the systems that were checked most recently."""
     return Sayables(truth)
+
+
+def of_twins(s: Ingredients, every: Sequence[Sayable]) -> Iterator[Sayable]:
+    """The quantities of two equal bodies that are the same for both, but for a sense: "of a panel" is said of each."""
+    for one, other in twins(s):
+        for q in (x for x in every if x.owner is one and x.kind in EACH):
+            same = [x for x in every if x.owner is other and x.kind == q.kind and x.right in (q.right, -q.right)]
+            if same:
+                senses = [x for x in same if x.words == q.words] or same
+                words = tuple(
+                    x.replace(one.title, f"{one.title} and {other.title}") if isinstance(x, str) else x for x in q.words
+                )
+                yield replace(q, words=words, adds=partial(_of_both, q, senses[0]), also=(other.title,))
+
+
+def _of_both(one: Sayable, other: Sayable, said: sp.Expr) -> Effect:
+    """What another value adds in both of two bodies."""
+    a, b = one.adds(said), other.adds(said if one.right == other.right else -said)
+    Xi, left = (tuple(x + y for x, y in zip(p, q, strict=True)) for p, q in ((a.Xi, b.Xi), (a.left, b.left)))
+    return Effect(a.T + b.T, a.V + b.V, Xi, left, a.D + b.D)
 
 
 def _of_bodies(s: Ingredients) -> Iterator[Sayable]:

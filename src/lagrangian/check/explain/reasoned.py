@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from lagrangian.check.align import LARGEST
+from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import owner_of
@@ -24,8 +25,24 @@ from lagrangian.page.formula import text
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
-SHOWN = ("component", "along")
+SHOWN = ("component", "along", "velocity")
 """Quantities whose formulas show at once what is wrong."""
+PLACES = ("position", "height", "apart", "place", "component", "along", "velocity")
+"""Quantities that say where a body is, or how it moves along an axis."""
+OF_A_WAY = (
+    "piece_left_out",
+    "piece_sign",
+    "piece_function",
+    "piece_number",
+    "segment_left_out",
+    "segment_sign",
+    "segment_turned",
+    "segment_direction",
+    "segment_number",
+    "velocity_part_left_out",
+    "velocity_part_sign",
+)
+"""Mistakes in the way to a body, or in its velocity."""
 STEP = 2
 """The step of the kinetic energy."""
 MOST_LIKELY = 2.0
@@ -55,6 +72,14 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     others = distinct([x for other, x in own[1:] if other <= cost + ALIKE and x.why != first.why], [first])
     either = text(*first.what.parts, " Or: ", *others[0].what.parts) if others else first.what
     return replace(mistake, what=with_reason(mistake.what, replace(first, what=either)).what, why=first.why)
+
+
+def as_defined(pool: Pool, told: Sequence[Mistake], blamed: Blamed | None) -> tuple[Mistake, ...]:
+    """The mistakes in the place or the speed of a body in the words of the definition that has it wrong, from which the
+    line with this mistake follows: several pieces may have the same effect, and the definition shows which it is."""
+    said = [p for p in blamed.said if not p.elsewhere and p.words.of.kind in PLACES] if blamed is not None else []
+    own = {p.mistake.element: p for p in said}
+    return tuple(reasoned(pool, own[m.element]) if m.element in own and m.name in OF_A_WAY else m for m in told)
 
 
 def _is_of(mistake: Mistake, title: str) -> bool:

@@ -61,6 +61,8 @@ class SaidWrongly:
     """Makes the words, which few of all are asked for."""
     elsewhere: bool = False
     """Whether what is written is right for another quantity."""
+    others: tuple[str, ...] = ()
+    """The other elements of which the same may be said."""
 
     @cached_property
     def words(self) -> InWords:
@@ -95,8 +97,9 @@ class SaidWrongly:
         of_body = isinstance(owner, Body) or (owner is not None and self.T != 0)
         own = f"{NAMES.get(kind, kind)}_{'of_body' if of_body else 'said'}"
         begins = f"Line {self.number} is not right: the "
-        what = text(begins, *of.words, " is ", *self.words.right, ", not ", *self.words.written, *self._ending)
-        title = owner.title if owner is not None else None
+        either = tuple(f" or {x}" for x in self.others)
+        what = text(begins, *of.words, *either, " is ", *self.words.right, ", not ", *self.words.written, *self._ending)
+        title = " or ".join((" and ".join((owner.title, *of.also)), *self.others)) if owner is not None else None
         words = of.words if owner is None else (f"{CALLED.get(kind, kind)} of {title}",)
         brief = text("The ", *words, " is not right.")
         return Mistake(own, what, self._why, STEPS.get(kind, 2), title, of.coordinate, brief)
@@ -307,7 +310,7 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
     if q.kind in ("position", "height", "apart", "deflection"):
         return not rates and (moves or (q.kind == "position" and s.rate(said) != 0))
     if q.kind in ("turning", "speed", "component", "along"):
-        return bool(rates)
+        return bool(rates) or said == 0
     if q.kind == "rate":
         return bool(moves or rates)
     common = letters_in(said) & letters_in(q.right)

@@ -13,7 +13,7 @@ from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 
 WHY_COPIED = "The Lagrangian is kinetic minus potential energy: take both as they stand above."
 ALIKE = 0.05
@@ -58,14 +58,51 @@ def in_dissipation(mistake: Mistake) -> Mistake:
     return replace(mistake, what=text(said.format(mistake.element)), why=text(WHY_HALF))
 
 
+def of_one(pool: Pool, told: Told, mistake: Mistake) -> Mistake:
+    """The mistake in one of several equal elements, two springs side by side, where no answer tells in which it is."""
+    element, times = told.mistake.element, float(told.times)
+    if element is None or mistake.element != element.title:
+        return mistake
+    same = {element.title: mistake}
+    for other in pool.all:
+        of = other.element
+        if other.name != told.mistake.name or of is None or of.title in same or of.ledger != element.ledger:
+            continue
+        if other.takes(told.times) and pool.key(other, times) == pool.key(told.mistake, times):
+            words = in_words(pool.truth, replace(told, mistake=other), None)
+            plain = in_words(pool.truth, told, None)
+            if _called(words.what, of.title, "") == _called(plain.what, element.title, ""):
+                same[of.title] = words
+    if len(same) == 1:
+        return mistake
+    *some, last = same
+    one = f"one of {', '.join(some)} and {last}"
+    brief = None if mistake.brief is None else _called(mistake.brief, element.title, one)
+    return replace(
+        mistake, what=_called(mistake.what, element.title, one), brief=brief, element=" or ".join((*some, last))
+    )
+
+
+def _called(words: Text, title: str, name: str) -> Text:
+    """Words with another name for an element."""
+    begins = f"{title[:1].upper()}{title[1:]}"
+    parts = [x.replace(title, name).replace(begins, name) if isinstance(x, str) else x for x in words.parts]
+    first, *more = parts
+    return text(f"{first[:1].upper()}{first[1:]}" if isinstance(first, str) else first, *more)
+
+
 def of_either(
-    truth: Reference, mistake: Mistake, chosen: tuple[Told, Alignment | None], others: Sequence[Explanation]
+    pool: Pool, mistake: Mistake, chosen: tuple[Told, Alignment | None], others: Sequence[Explanation]
 ) -> tuple[Mistake, list[Explanation]]:
     """The mistake in either of two bodies, or springs, … if both lead to the same answer; the others that are left.
 
     So it is with a number in front of ½Jω² and the moment of inertia of another shape.
     """
     told, under = chosen
+    truth = pool.truth
+    if (one := of_one(pool, told, mistake)) is not mistake:
+        titles = {x.strip() for x in str(one.element).split(" or ")}
+        return one, [e for e in others if not (e.told[0].mistake.name == mistake.name and _title(e) in titles)]
     ledgers = {e.title: e.ledger for e in truth.model.elements}
     own = ledgers.get(mistake.element or "")
     for e in others:
@@ -86,6 +123,11 @@ def of_either(
     return mistake, list(others)
 
 
+def _title(explanation: Explanation) -> str | None:
+    element = explanation.told[0].mistake.element
+    return element.title if element is not None else None
+
+
 def moved_elsewhere(
     pool: Pool, chosen: Sequence[tuple[Told, Alignment | None]], mistakes: Sequence[Mistake]
 ) -> list[Mistake]:
@@ -94,7 +136,8 @@ def moved_elsewhere(
     It is missing in one equation then, and not in the answer; that is said behind where it stands.
     """
     coordinates = pool.truth.model.coordinates
-    found = list(mistakes)
+    found = [m if k == 0 else of_one(pool, t, m) for k, ((t, _), m) in enumerate(zip(chosen, mistakes, strict=True))]
+    mistakes = list(found)
     for (told, _), m in zip(chosen, mistakes, strict=True):
         other = next((x for x in found if x is not m and m.element is not None and x.element == m.element), None)
         rows = np.flatnonzero(pool.felt[pool.places[id(told.mistake)]])

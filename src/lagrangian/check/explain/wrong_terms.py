@@ -5,21 +5,67 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
-from lagrangian.check.explain.combined_rows import difference, term_to_blame, with_combined_rows
+from lagrangian.check.explain.combined_rows import (
+    cleared,
+    denominator_of,
+    difference,
+    term_to_blame,
+    terms_of,
+    with_combined_rows,
+)
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
+from lagrangian.page.formula import text
+
+VAGUE = ("special_case", "denominator", "multiplier_missing")
+"""Mistakes that say less than the one term that is wrong, where the multipliers were eliminated."""
 
 
 def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put."""
+    if verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
+        combined = with_combined_rows(truth, lines, replace(verdict, mistakes=(), alternatives=()))
+        wrong = [f.line.expr for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+        if any(m.name == "denominator" for m in verdict.mistakes) and any(denominator_of(x) is not None for x in wrong):
+            return _with_term_of_denominator(truth, verdict, combined)
+        found = with_terms_alone(combined)
+        return found if found.mistakes else verdict
     balanced = with_wrong_balance(truth, lines, verdict)
     told = _with_term_of_one_line(truth, with_combined_rows(truth, lines, balanced))
     return with_sum_not_squared(truth, with_terms_alone(told))
+
+
+def _with_term_of_denominator(truth: Reference, verdict: Verdict, combined: Verdict) -> Verdict:
+    """The verdict on accelerations with a wrong denominator, with the one term of it that is wrong; ``combined`` says
+    which term of an equation times its denominator is."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    for finding in combined.findings:
+        moving = [a for a in accelerations if finding.line.expr.has(a)]
+        if finding.status is not Status.WRONG or len(finding.differences) != 1 or not moving:
+            continue
+        (d,) = finding.differences
+        below = denominator_of(finding.line.expr)
+        a = next((a for a in moving if d.written.has(a)), None)
+        if below is None or a is None or d.kind not in ("coefficient", "sign"):
+            continue
+        scale = bounded.cancel(bounded.diff(cleared(finding.line.expr), a) / below)
+        right, written = (bounded.cancel(x / a / scale) for x in (d.term, d.written))
+        if right.has(a) or written.has(a) or not any(bounded.expand(t - written) == 0 for t in terms_of(below)):
+            continue
+        told = [
+            replace(m, what=text(*m.what.parts, " In it, ", written, " should be ", right, "."))
+            if m.name == "denominator"
+            else m
+            for m in verdict.mistakes
+        ]
+        return replace(verdict, mistakes=tuple(told))
+    return verdict
 
 
 def _with_term_of_one_line(truth: Reference, verdict: Verdict) -> Verdict:

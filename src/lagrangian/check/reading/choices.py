@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -12,6 +13,7 @@ from lagrangian.check.reading.prose.words import Words
 from lagrangian.errors import ParseError
 from lagrangian.records import dataclass
 
+_DIFFERENTIATES = re.compile(r"(?<!\w)D\[|(?<!\w)diff\(")
 MOST_AGAIN = 4
 """The largest number of readings of all rows that cannot be read."""
 
@@ -32,9 +34,13 @@ class Choices:
     rated: bool = False
     bare: bool = False
     comments: bool = False
-    put: bool = False
+    put: bool | None = None
     driven: bool = False
     marks: tuple[tuple[int, int], ...] = ()
+
+    def puts(self, text: str) -> bool:
+        """Whether coordinates that are given in others are put into energies: a program that differentiates does so."""
+        return self.put if self.put is not None else _DIFFERENTIATES.search(text) is not None
 
     def row(self, row: AnswerRow, words: Words) -> AnswerRow:
         """A row in the reading that is chosen for it, as a note tells."""

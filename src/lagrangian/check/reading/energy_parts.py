@@ -67,6 +67,8 @@ _LISTED = re.compile(
     r"(?P<label>[^\W\d_][\w-]{2,20}(?:[ ][\w-]{1,20}){0,3}?)[ \t]?:?[ \t]++(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])"
 )
 """An energy behind the name of what has it: flyer  T = 1/2 J phi'^2."""
+_AGAIN = re.compile(r"[ \t]{2,}(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])")
+"""One more energy of what has the row above: its rotation below its translation."""
 _WHOLE = re.compile(
     r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?(?:(?:total|whole|all|sum|system|gesamt)[ \t]?:?[ \t]++)?"
     r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])",
@@ -113,8 +115,8 @@ class _Parts:
         self.model, self.known, self.own, self.latex = model, known, set(own), latex
         self.kind: str | None = None
         self.columns: list[str | None] = []
-        self.body, self.indent = "", 0
-        self.listed = frozenset[str]()
+        self.body, self.indent = list[str](), 0
+        self.listed = self.more = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
         """Of each energy, the rows of its list: where each begins, the letter in it, and its name."""
@@ -129,7 +131,11 @@ class _Parts:
             yield from self._in_table(text, at)
             return
         self.columns = []
-        if text in self.listed and (row := _LISTED.match(text)) is not None:
+        if text in self.more and (row := _AGAIN.match(text)) is not None:
+            listed = self.summands["T" if row["letter"][0] == "T" else "V"]
+            listed.append((at, row["letter"], f"{listed[-1][2]}x"))
+            yield at + row.start("letter"), at + row.end("letter"), listed[-1][2]
+        elif text in self.listed and (row := _LISTED.match(text)) is not None:
             kind = "T" if row["letter"][0] == "T" else "V"
             name = self._name(kind, row["label"])
             self.summands.setdefault(kind, []).append((at, row["letter"], name))
@@ -220,32 +226,38 @@ class _Parts:
     # -- energies of one body --------------------------------------------------------------------------------------
 
     def _of_body(self, text: str) -> tuple[int, int, str] | None:
-        """The T of one body: where its letter stands, and its name."""
+        """The T of one body, or of several of one name: where its letter stands, and its name."""
         bullet = _BULLET.match(text)
         begins = bullet.end() if bullet is not None else 0
         head, colon, _ = text[begins:].partition(":")
         indent = len(text) - len(text.lstrip())
         if colon and "=" not in head and len(head) <= 6 * 12:
             found = self._bodies(head)
-            self.body, self.indent = (found[0] if len(found) == 1 else ""), indent
+            alike = len(found) < len(self.inertias) and len({self._kind_of(x) for x in found}) == 1
+            self.body, self.indent = (found if len(found) == 1 or alike else []), indent
             begins += len(head) + 1
         elif not (self.body and indent > self.indent):
-            self.body = ""
+            self.body = []
         stated = _STATED.match(text, len(text) - len(text[begins:].lstrip()))
         if not self.body or stated is None or stated["letter"] not in ("T", "T*"):
             return None
-        others = frozenset[str]().union(*(x for name, x in self.inertias.items() if name != self.body))
-        mine = self.inertias[self.body]
+        others = frozenset[str]().union(*(x for name, x in self.inertias.items() if name not in self.body))
+        mine = frozenset[str]().union(*(self.inertias[name] for name in self.body))
         named = {key(x) for x in _NAME.findall(text[stated.end() :])}
         if not others - mine or not mine & named or named & (others - mine):
             return None
-        return *stated.span("letter"), self._name("T", self.body)
+        return *stated.span("letter"), self._name("T", self.body[0] if len(self.body) == 1 else text[:begins])
 
     def rows_of_parts(self, lines: Iterable[str]) -> frozenset[str]:
         """The rows that state T, or V, behind names of what has it, where each has only some of the letters of all."""
         found = dict[str, dict[str, set[str]]]()
+        above, more = "", dict[str, str]()
         for text in lines:
             row = _LISTED.match(text) if len(text) <= 2 * LONGEST else None
+            again = _AGAIN.match(text) if row is None else None
+            if again is not None and above and again["letter"] == _LISTED.match(above)["letter"]:  # type: ignore[index]
+                more[text] = above
+            above = text if row is not None else ""
             if row is None or _OTHER.search(row["label"]) or not self._speaks(row["label"]):
                 continue
             named = {key(x) for x in _NAME.findall(text[row.end() :])}
@@ -257,7 +269,8 @@ class _Parts:
             parts = [text for text, mine in listed.items() if mine < every]
             labels = {_LISTED.match(text)["label"] for text in listed}  # type: ignore[index]
             rows.update(parts if len(parts) == len(listed) == len(labels) > 1 else ())
-        return frozenset(rows)
+        self.more = frozenset(text for text, of in more.items() if of in rows)
+        return frozenset(rows | self.more)
 
     def sums(self, lines: Sequence[re.Match[str]]) -> Iterator[Edit]:
         """Lines above such rows that say what the whole is, where no other states it or has all their names."""
@@ -288,7 +301,12 @@ class _Parts:
     def _bodies(self, label: str) -> list[str]:
         """The bodies that a label names by a word of their names."""
         said = {x.lower() for x in _WORD.findall(label)}
+        said |= {x[:-1] for x in said if x.endswith("s")}
         return [b.name for b in self.model.bodies if said & {x.lower() for x in _WORD.findall(b.name)}]
+
+    def _kind_of(self, body: str) -> str:
+        """The last word of a body's name: the upper and the lower link are links."""
+        return (_WORD.findall(body) or [body])[-1].lower()
 
 
 _GREEK = frozenset(x.lower() for x in SPELLED.values()) | frozenset(SPELLED.values())

@@ -352,7 +352,7 @@ class Lines:
             said = any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
             if (listed or said) and not any(map(accelerates, values[0] if listed else values)):
                 self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
-                return [] if listed else labelled(values[0], sides[0], reader)
+                return labelled(values[0], sides[0], reader)
             values = [sp.S.Zero, *values] if "=" in reader.source.text else [*values, sp.S.Zero]  # eq1 = m x'' - F
             sides = [*sides, sides[0]]
         values, sides = without_parts(*without_amounts(values, sides, self.model), reader)

@@ -13,6 +13,8 @@ from lagrangian.check.reading.traced_text import TracedText
 _FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
 _RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
 _CODE = re.compile(r"(?<!`)(`{1,2})(?!`)([^`\n]+)\1(?!`)")
+_STATED_CODE = re.compile(r"(?<=, )`(?P<code>[^\W\d]\w{0,11} ?=(?![=>])[^`=\n]{1,80})`(?=[.;,]?[ \t]*$)", re.MULTILINE)
+"""A value as a piece of code at the end of a sentence: the ropes `A`, `B`, `mu = M + I/r^2`."""
 _BOLD = re.compile(r"(?<![\w)\]'*])(\*\*|__)(?=[^\s*_])([^*\n]*?[^\s*])\1(?![\w(*])")
 _BOLD_LINE = re.compile(
     r"^(?P<lead>[ \t]*+)\*\*(?=[^\s*])(?P<line>(?:(?<=[\w)])\*\*(?=[\w(])|\*(?!\*)|[^*\n])*)\*\*(?=[ \t]*$)",
@@ -53,6 +55,9 @@ _BEHIND_SENTENCE = re.compile(
     re.MULTILINE,
 )
 """A sentence of words in front of a bullet or a label: The steps were T and V. (1) m x'' = F."""
+_LABELLED = re.compile(r"^[ \t]*+[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ][^\n]{1,400}$", re.MULTILINE)
+_NEXT_LABEL = re.compile(r"(?<![^\W\d_]{3})\.[ ](?=[A-Z][a-z]{2,15}(?:[ ][a-z]{2,12}){0,3}:[ ])")
+"""The full stop behind a formula with a label, where another label follows: Cart: ½ M x'^2. Rod: ½ J φ'^2."""
 
 
 def without_markup(text: str) -> str:
@@ -63,6 +68,7 @@ def without_markup(text: str) -> str:
     text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     text = _BOLD_LINE.sub(lambda m: f"{m['lead']}  {m['line']}  ", text)
+    text = _STATED_CODE.sub(lambda m: f";{m['code']};", text)
     for form in (_BOLD, _CODE, _ITALIC):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
@@ -70,7 +76,8 @@ def without_markup(text: str) -> str:
 
 def sentences_apart(text: TracedText) -> TracedText:
     """Return an answer in which a bullet or a label behind a sentence of words begins a line, and a statement behind a
-    formula that a full stop ends."""
+    formula that a full stop ends; so does each of several labels with a formula on one line."""
+    text = text.sub(_LABELLED, lambda m: _NEXT_LABEL.sub(".\n", m.group()))
     return text.sub(_BEHIND_SENTENCE, lambda m: f"{m['sentence']}\n").sub(_BEHIND_FORMULA, lambda _: ";")
 
 

@@ -86,6 +86,8 @@ class Names:
         """The quantities that the answer states with what they depend on: I(r)."""
         self.implied: dict[str, sp.Expr] = {}
         """The rates that letters of the answer are unless it says what they are: i of a charge q."""
+        self.headed: dict[int, str] = {}
+        """The headings that say of which quantity the items of a list are, by the numbers of their lines."""
         self._named_forces = False
         """Whether the answer calls forces by letters of coordinates' names: Q_m."""
         self._moving: set[str] = set()

@@ -39,6 +39,7 @@ from lagrangian.check.reading.programs.templates import with_templates_applied
 from lagrangian.check.reading.prose.remarks import without_legend
 from lagrangian.check.reading.references import without_references
 from lagrangian.check.reading.said.derivative_legends import with_derivative_legends, with_paired_rates
+from lagrangian.check.reading.said.quantity_words import with_items
 from lagrangian.check.reading.said.stands_for import (
     with_stated_letters,
     with_stated_rates,
@@ -123,14 +124,11 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         said = said.sub(_DEGREES, lambda m: f"({m['number']}\\pi/180)")
         said = with_derivatives_in_latex(with_open_text(without_sets(said)))
     else:
-        said = with_stated_values(
-            with_derivatives(
-                with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
-            ),
-            taken,
-        )
+        beside = with_energies_beside(said.sub(_BY_TIME, lambda m: m["by"]).sub(_ROUND_BY_TIME, _straight))
+        said = with_stated_values(with_derivatives(beside), taken)
         said = with_stated_rates(said, of, names.known, sure=True)
-        said = with_program_names(said, names.changes, lambda name: key(name) in own)
+        named = with_program_names(said, names.changes, lambda name: key(name) in own)
+        said = with_items(named, text, names)
         said = with_labelled_forces(said, lambda x: [n for n in names.scope.meanings(x)[0] if n in of], taken, len(of))
     plain = without_programs(said, names.changes, taken)
     return with_parts_of_energies(sentences_apart(on_one_line(plain)), lines.model, taken)

@@ -240,7 +240,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     own = {key(name) for name in model.symbols}
     lines.names.dependents = dependents(text, lambda name: key(name) in own, lines.names.changes)
     words = _words(lines, text)
-    _choose(reading, words, lines)
+    _choose(reading, words, lines, given)
     text = text if latex else with_spoken_signs(text, words)
     source = source if latex else plain.source(typed, text)
     written = written_out(source) if latex else None
@@ -282,17 +282,17 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     )
 
 
-def _choose(reading: Choices, words: Words, lines: Lines) -> None:
+def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
     """Set how words and relations of coordinates are read."""
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
-    lines.names.relations.put, lines.names.inputs.put = reading.put, reading.driven
+    lines.names.relations.put, lines.names.inputs.put = reading.puts(text), reading.driven
 
 
 def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:
     """The other readings that only the lines of an answer show."""
     yield from marked_readings(marked(), lines.failed) if lines.failed else ()
     if lines.names.relations.asked:
-        yield Choices(put=True)
+        yield Choices(put=not lines.names.relations.put)
     if lines.names.inputs.asked:
         yield Choices(driven=True)
 

@@ -26,4 +26,5 @@ def read_steps(program: CarriedOut, read: Callable[[str], Answer]) -> Answer:
         found, unread = None, True
     if found is None or (unread and program.bare != program.text):
         found, notes = read(program.bare), (CARRIED_OUT, COMMENTS_LEFT_OUT)
-    return replace(found, notes=(*notes, *program.notes, *found.notes), program=True)
+    told = (x for x in found.notes if "nothing else uses " not in x)  # nor does a program that is carried out
+    return replace(found, notes=(*notes, *program.notes, *told), program=True)

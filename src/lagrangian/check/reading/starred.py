@@ -23,6 +23,8 @@ _JOINED = re.compile(rf"(?<![\w^*\\])(?P<name>{_NAME})(?:\\?\*(?!\*)|[⋆★])")
 _STATED = re.compile(
     rf"(?:^|[,;:(]|(?<=\w))[ \t]*+(?P<name>{_NAME})(?:\\?\*|[⋆★])[ \t]*+(?:=(?![=>])|is\b)", re.MULTILINE
 )
+_HEADED = re.compile(r"^(?P<words>[^=*\n]{1,60}\w)\*(?=:[ \t]*$)", re.MULTILINE)
+"""A star at the end of a heading: factor of s*:"""
 
 
 def with_starred_names(written: TracedText, known: Callable[[str], bool]) -> TracedText:
@@ -32,6 +34,8 @@ def with_starred_names(written: TracedText, known: Callable[[str], bool]) -> Tra
     if not any(c in text for c in ("*", "\\ast", "\\star", "⋆", "★")):
         return written
     latex = "\\" in text or "$" in text
+    written = written.sub(_HEADED, lambda m: m["words"])
+    text = written.text
     return written.edited(apart((*_raised(text, latex), *_beside(text, known, latex))))
 
 

@@ -38,6 +38,7 @@ from lagrangian.check.reading.carried_out.values import (
     listed,
     scalar,
 )
+from lagrangian.check.reading.carried_out.ways import ways
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
@@ -137,7 +138,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     foreign = {x for x in own if x != TIME.name and not _is_of_system(scope, x)}
-    found = [*_renamed(_listed(text) | said | run.renamed, found, scope), *found]
+    found = [*_renamed(_listed(text) | said | run.renamed, found, scope), *_of_ways(run, model, scope), *found]
     lines = text.split("\n")
     said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
     said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
@@ -151,6 +152,14 @@ def _left_out(first: int, last: int) -> str:
     """The note on a statement that was not carried out."""
     said = f"Line {first} was" if first == last else f"Lines {first} to {last} were"
     return f"{said} not carried out: nothing is known of what changes there."
+
+
+def _of_ways(run: Interpreter, model: Model, scope: AnswerScope) -> Iterator[tuple[int, str]]:
+    """The places and velocities of bodies that have names of the program's own."""
+    for line, name, value in ways(run, MovingNames(model, scope), partial(_is_of_system, scope)):
+        with suppress(AbandonedError):
+            entries = ", ".join(map(written, value))
+            yield line, f"{name} = ({entries})" if len(value) > 1 else f"{name} = {entries}"
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:

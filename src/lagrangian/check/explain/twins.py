@@ -1,0 +1,24 @@
+"""Pairs of equal bodies, such as two panels: whatever is said of "a panel" is said of both."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from lagrangian.check.explain.misconceptions import Ingredients
+from lagrangian.model import RigidBody
+
+_DIGITS = re.compile(r"\d+")
+
+
+def twins(s: Ingredients) -> Iterator[tuple[Any, Any]]:
+    """The pairs of bodies whose names differ by a number alone, with the same mass and moments of inertia."""
+    seen: dict[tuple[Any, ...], Any] = {}
+    for b in s.bodies:
+        inertia = tuple(map(s.expand, b.inertia.flat())) if isinstance(b, RigidBody) else ()
+        key = (_DIGITS.sub("#", b.name), s.expand(b.mass), inertia)
+        if _DIGITS.search(b.name) is not None:
+            if (first := seen.get(key)) is not None:
+                yield first, b
+            seen.setdefault(key, b)
