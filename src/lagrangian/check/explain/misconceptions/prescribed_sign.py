@@ -29,7 +29,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if energies[0] == 0:
             continue
         forces = {i: put(x, table) - x for i, x in enumerate(s.Xi) if put(x, table) != x}
+        turns = any(x.has(p.symbol) and not x.has(time) for body in s.bodies for x in (*s.velocity(body), *s.omega(body)))
         what = text(p.symbol, " has the wrong sign in the velocities: the prescribed motion goes the other way.")
+        if not turns:  # U sin Ωt
+            what = text("The rate of the prescribed motion has the wrong sign: it goes the other way.")
         yield Variant(what=what, T=energies[0], V=energies[1], Xi=forces)
 
 
