@@ -310,14 +310,24 @@ class Subjects:
 
     def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr, sp.Expr, str] | None:
         """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
-        one of its ``sides``, trees and values: as a line less its place."""
-        for (side, own), (_, value) in (sides, sides[::-1]):
+        one of its ``sides``, trees and values, perhaps with a minus: as a line less its place."""
+        for (whole, own), (_, value) in (sides, sides[::-1]):
+            side, minus = _without_minus(whole)
+            own, value = (-own, -value) if minus else (own, value)
             found = self._added_by(side)
+            if minus and found is not None and self._balances(found[0], value):
+                continue
             if found is not None and not is_general(own - value):
                 kind, name = found
                 left, right = (own, value) if kind in ("T-p", "T-slope") else (value, own)
                 return kind, left, right, name
         return None
+
+    def _balances(self, kind: str, value: sp.Expr) -> bool:
+        """Whether what is equated to a derivative is no form of it, so that both are a balance: m x'' = −∂V/∂x."""
+        inputs = [u.symbol for u in self.model.inputs]
+        rated = kind == "V-slope" and value.has(sp.Derivative)
+        return value == 0 or accelerates(value) or rated or value.has(*inputs)
 
     def is_chain_rule(self, *sides: tuple[Tree, sp.Expr]) -> bool:
         """Whether a statement differentiates an expression of positions: d/dt(a + l sin θ) = l cos θ θ'."""
@@ -382,3 +392,11 @@ class Subjects:
             if (own or name in coordinates) and order <= 1 and (chart is None or key(name) in chart.columns):
                 return name, order
         return None
+
+
+def _without_minus(side: Tree) -> tuple[Node, bool]:
+    """A side without the minus in front of its only term, and whether there is one."""
+    tree = inside(side)
+    children = tree.children if isinstance(tree, Tree) and tree.data in ("sum", "signed") else []
+    minus = len(children) == 2 and str(children[0]) == "-"
+    return (children[1], True) if minus else (side, False)
