@@ -57,7 +57,8 @@ def _motions(sites: Sites) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     for symbol, value in given_motions(s.model):
         named.append(value)
         yield symbol, value
-    yield from ((x, x) for x in s.driven if not any(x.has(f) or f.free_symbols & x.free_symbols - {time} for f in named))
+    known = {x for f in named for x in f.free_symbols} - {time}
+    yield from ((x, x) for x in s.driven if not x.free_symbols & known)
 
 
 def given_motions(model: Model) -> Iterator[tuple[sp.Expr, sp.Expr]]:

@@ -25,9 +25,7 @@ ON_LEFT, ON_RIGHT = "on the left-hand side", "on the right-hand side"
 
 def with_sides(verdict: Verdict) -> Verdict:
     """The verdict, with the terms of its mistakes as they stand in the wrong equations."""
-    roots = [
-        f for f in verdict.findings if f.line.kind == "equation" and f.status is Status.WRONG and not f.follows
-    ]
+    roots = [f for f in verdict.findings if f.line.kind == "equation" and f.status is Status.WRONG and not f.follows]
     if not roots:
         return verdict
     told = tuple(_on_side(m, roots) for m in verdict.mistakes)
