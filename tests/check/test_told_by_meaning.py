@@ -120,7 +120,9 @@ x'' + e phi'' + w'' = 0"""
 
 
 def test_a_term_that_is_missing_in_a_solved_line_has_the_sign_that_it_has_there() -> None:
-    told = words(derivation("elastic-pendulum"), "theta'' = -g sin(theta)/r\nr'' = r theta'^2 + g cos(theta) - k (r - L_0)/m")
+    told = words(
+        derivation("elastic-pendulum"), "theta'' = -g sin(theta)/r\nr'' = r theta'^2 + g cos(theta) - k (r - L_0)/m"
+    )
     assert "on the right-hand side, the term -2*r'*theta'/r of the equation of theta is missing" in told, told
 
 

@@ -67,8 +67,9 @@ def _with_rates(
     held: dict[Any, Any] = {x: sp.Dummy() for x in (*moving, *(u.symbol for u in model.inputs))}
     back = {d: x for x, d in held.items()}
     total: list[sp.Expr] = []
-    for term in sp.Add.make_args(bounded.expand(truth.expand(expr).xreplace(held))):
-        total.append(_term_with_rates(cast("sp.Expr", term), rates, said))
+    hidden = cast("sp.Expr", truth.expand(expr).xreplace(held))
+    for term in sp.Add.make_args(bounded.expand(hidden)):
+        total.append(_term_with_rates(term, rates, said))
     return cast("sp.Expr", sp.Add(*total).xreplace(back))
 
 

@@ -15,7 +15,7 @@ from lagrangian.check.explain.changes.change import Words
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.efforts import Effort
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.model import Element, RigidBody
+from lagrangian.model import Element, RigidBody, time
 from lagrangian.records import dataclass
 
 
@@ -42,21 +42,26 @@ def too_much(
 def _mass_twice(pool: Pool, term: sp.Expr) -> TooMuch | None:
     """The mass or the moment of inertia of the one element that has it, with the rate of another one."""
     s, rates = pool.sites.of, [v for v in pool.sites.of.v if term.has(v)]
-    constants = term.free_symbols & {p.symbol for p in s.model.parameters}
-    if len(rates) != 1 or len(constants) != 1 or bounded.cancel(term / rates[0] ** 2).has(*s.q, *s.v):
+    if len(rates) != 1 or bounded.cancel(term / rates[0] ** 2).has(*s.q, *s.v):
         return None
-    [p] = cast("set[sp.Symbol]", constants)
     held: list[tuple[Element, set[Any]]] = [(b, _inertias(s.expand(b.mass), b)) for b in s.bodies]
-    held += [(e, s.kinetic(e).free_symbols) for e in pool.sites.others]
-    owners = [e for e, letters in held if p in letters]
-    if len(owners) != 1 or s.kinetic(owners[0]).has(rates[0]):
+    held += [(e, _masses(s.kinetic(e))) for e in pool.sites.others]
+    owners = [(p, e) for e, letters in held for p in letters if term.has(p) and not (term / p).has(p)]
+    if len(owners) != 1 or s.kinetic(owners[0][1]).has(rates[0]):
         return None
-    return TooMuch((": ", p, f" of {owners[0].title} is counted twice, here with ", rates[0]), owners[0])
+    [(p, e)] = owners
+    return TooMuch((": ", p, f" of {e.title} is counted twice, here with ", rates[0]), e)
 
 
 def _inertias(mass: sp.Expr, body: Any) -> set[Any]:
     """The letters that are the mass of a body, or one of its moments of inertia."""
     return {x for x in (mass, *(body.inertia if isinstance(body, RigidBody) else ())) if x.is_Symbol}
+
+
+def _masses(T: sp.Expr) -> set[Any]:
+    """The letters of an energy that stand once in all terms that have them."""
+    parts = sp.Add.make_args(bounded.expand(T))
+    return {p for p in T.free_symbols - {time} if all(not x.has(p) or not (x / p).has(p) for x in parts)}
 
 
 def _other_arm(pool: Pool, row: int, element: Element, more: sp.Expr) -> TooMuch | None:

@@ -251,7 +251,8 @@ def _of_energies(s: Ingredients) -> Iterator[Sayable]:
 def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
     """What is squared in a kinetic energy that is given as it is: ṡ of ½ m ṡ²."""
     for square in sp.Add.make_args(s.kinetic(e)):
-        rates = [f.base for f in sp.Mul.make_args(square) if f.is_Pow and f.exp == 2 and f.base.has(*s.v)]
+        powers = [f.as_base_exp() for f in sp.Mul.make_args(square)]
+        rates = [base for base, exponent in powers if exponent == 2 and base.has(*s.v)]
         for w in rates if len(rates) == 1 else ():
             factor = cast("sp.Expr", square / w**2)
             words = (f"velocity in {e.title}",)
