@@ -16,7 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, names_in, spelled_rates
-from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name
+from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name, without_minus
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
@@ -312,7 +312,7 @@ class Subjects:
         """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
         one of its ``sides``, trees and values, perhaps with a minus: as a line less its place."""
         for (whole, own), (_, value) in (sides, sides[::-1]):
-            side, minus = _without_minus(whole)
+            side, minus = without_minus(whole)
             own, value = (-own, -value) if minus else (own, value)
             found = self._added_by(side)
             if minus and found is not None and self._balances(found[0], value):
@@ -392,11 +392,3 @@ class Subjects:
             if (own or name in coordinates) and order <= 1 and (chart is None or key(name) in chart.columns):
                 return name, order
         return None
-
-
-def _without_minus(side: Tree) -> tuple[Node, bool]:
-    """A side without the minus in front of its only term, and whether there is one."""
-    tree = inside(side)
-    children = tree.children if isinstance(tree, Tree) and tree.data in ("sum", "signed") else []
-    minus = len(children) == 2 and str(children[0]) == "-"
-    return (children[1], True) if minus else (side, False)
