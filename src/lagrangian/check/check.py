@@ -28,6 +28,7 @@ from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
+from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
 from lagrangian.check.explain.wrong_terms import with_wrong_terms
@@ -103,7 +104,8 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     if not verdict.right and hint:
-        verdict = in_own_names(truth, written, with_wrong_terms(truth, written, verdict) if explain else verdict)
+        verdict = with_sides(with_wrong_terms(truth, written, verdict)) if explain else verdict
+        verdict = in_own_names(truth, written, verdict)
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:
         return verdict

@@ -67,7 +67,7 @@ def with_reduced(truth: Reference, wrong: Sequence[WrongConstraint], findings: S
     for f in findings:
         open_ = f.line.kind == "equation" and f.status is Status.WRONG and not f.follows and f.line.number > number
         if open_ and f.line.expr.has(*moved) and {*f.line.expr.free_symbols} <= truth.names:
-            follows = any(_is_spanned(truth, _put(f.line.expr, table), rows) for table, rows in ways)
+            follows = any(is_spanned(truth, _put(f.line.expr, table), rows) for table, rows in ways)
             found.append(replace(f, follows=follows, differences=() if follows else f.differences))
         else:
             found.append(f)
@@ -85,7 +85,7 @@ def _right_values(truth: Reference, k: int) -> dict[Any, sp.Expr]:
     return {c.symbol: value, c.rate: rate, c.acceleration: bounded.diff(rate, time)}
 
 
-def _is_spanned(truth: Reference, expr: sp.Expr, rows: Sequence[sp.Expr]) -> bool:
+def is_spanned(truth: Reference, expr: sp.Expr, rows: Sequence[sp.Expr]) -> bool:
     """Whether an expression is a sum of rows, with factors that may depend on the place."""
     values = CompiledExpressions([expr, *rows]).at(truth.states)
     parts = np.split(values, SETS * PLACES, axis=1)

@@ -12,6 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.coordinates.renamed import each_formula
+from lagrangian.check.explain.given_said import given_motions
 from lagrangian.check.explain.terms_alone import term_mistake
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict
@@ -19,7 +20,7 @@ from lagrangian.model import time
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Text
 from lagrangian.read.letters import key, undotted
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
 
 MOST_NAMES, LONGEST_VALUE, LONGEST_FORMULA = 20, 60, 400
 """The most names that are put in, the most operations of the value of one, and those of a formula that is searched."""
@@ -60,8 +61,8 @@ def in_own_names(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdi
     that no formula changes its value.
     """
     wrong = [f.line for f in verdict.findings if not f.status.right]
-    told = _Told(own_names(truth, lines, wrong), _differences(lines))
-    if not told.names and not told.differences:
+    told = _Told(own_names(truth, lines, wrong), _differences(lines), _unused(truth, lines))
+    if not told.names and not told.differences and not told.unused:
         return verdict
     named = replace(
         verdict,
@@ -107,6 +108,14 @@ def own_names(truth: Reference, lines: Sequence[AnsweredLine], wrong: Sequence[A
     rated = {name for line in lines for name in _rated_in(line)}
     every = [y for x in named for y in (x, *(_rates(x) if x.given or x.key in rated else ()))]
     return tuple(sorted(every, key=lambda x: -bounded.operations(x.value)))[:MOST_NAMES]
+
+
+def _unused(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Expr, sp.Expr]:
+    """The prescribed motions of the system that an answer does not call by their names, and their rates, with what
+    they are."""
+    anywhere = {name for line in lines for name in names_in(line)}
+    given = [OwnName(x, value) for x, value in given_motions(truth.model) if _named(x) not in anywhere]
+    return {y.symbol: y.value for x in given for y in (x, *_rates(x))}
 
 
 def names_in(line: AnsweredLine) -> frozenset[str]:
@@ -158,6 +167,7 @@ class _Told:
 
     names: tuple[OwnName, ...]
     differences: frozenset[tuple[str, str]]
+    unused: Mapping[sp.Expr, sp.Expr] = field(default_factory=dict[sp.Expr, sp.Expr])
 
     def finding(self, finding: Finding) -> Finding:
         """A finding, but for its line."""
@@ -179,6 +189,8 @@ class _Told:
         """Words, with the names that hide nothing of which they speak, and of whose whole value they do not speak."""
         if not isinstance(words, Text):
             return words
+        if self.unused:
+            words = each_formula(words, lambda x: x.xreplace(dict(self.unused)) if isinstance(x, sp.Expr) else x)
         spoken = list(_spoken(words))
         kept = [x for x in self.names if not any(x.value.has(letter) for letter in spoken)]
         kept = [

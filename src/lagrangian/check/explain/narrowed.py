@@ -16,6 +16,8 @@ from lagrangian.check.explain.search import SMALL, Told
 
 FUNCTIONS = ("sine_cosine", "tangent", "angle", "double_angle")
 """The kinds of changes that only exchange a function of an angle."""
+POWERS = ("not_squared", "squared")
+"""Those that only change the power of a letter."""
 
 
 def narrowed(pool: Pool, told: Told, kinds: Set[str]) -> Told:
@@ -23,7 +25,7 @@ def narrowed(pool: Pool, told: Told, kinds: Set[str]) -> Told:
     lines of the answer."""
     change = told.mistake.change
     place = pool.places[id(told.mistake)]
-    if change is None or change.kind not in FUNCTIONS or pool.felt[place].sum() != 1:
+    if change is None or change.kind not in (*FUNCTIONS, *POWERS) or pool.felt[place].sum() != 1:
         return told
     energies = bool(change.site.T and kinds & {"T", "L"}) or bool(change.site.V and kinds & {"V", "L"})
     if energies or change.site.single or change.site.Xi:

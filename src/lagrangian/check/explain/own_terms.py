@@ -14,7 +14,9 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.align import LARGEST, Alignment
+from lagrangian.check.explain.changes.change import Words
 from lagrangian.check.explain.changes.pool import Pool
+from lagrangian.check.explain.counted_twice import TooMuch, too_much
 from lagrangian.check.explain.efforts import Effort, effort_of
 from lagrangian.check.explain.misconceptions.base import partner, put
 from lagrangian.check.explain.right_terms import RightTerm, RightTerms, right_terms
@@ -52,7 +54,8 @@ class OwnTerm:
     1: too much, 2: wrong sign. ``forgotten``: it is not there, but one like it with sine and cosine exchanged is.
     ``instead``: what belongs in its place, in the scale of the answer, and the right term that this is. ``idle``: the
     element that such a term is of, which adds nothing to this equation. ``row`` is the equation, None for a line that
-    is none. ``effort`` is the force, torque or damper with whose letters the term is written.
+    is none. ``effort`` is the force, torque or damper with whose letters the term is written; ``because``: why one is
+    too much.
     """
 
     row: int | None
@@ -63,6 +66,7 @@ class OwnTerm:
     instead: tuple[sp.Expr, RightTerm] | None = None
     idle: Element | None = None
     effort: Effort | None = None
+    because: TooMuch | None = None
 
     @property
     def cost(self) -> float:
@@ -83,6 +87,8 @@ class OwnTerm:
         step, element = self.step, None
         if self.instead is not None:
             step, element = self.instead[1].step, self.instead[1].element
+        if self.because is not None:
+            element = self.because.element
         if self.effort is not None:
             step, element, why = 6, self.effort.element or element, WHY_DAMPER if self.effort.damper else WHY_FORCE
         if element is not None:
@@ -102,8 +108,10 @@ class OwnTerm:
         if self.times == 2:
             return "sign_of_a_term", text("The term ", t, " has the wrong sign.")
         if self.times == 1:
-            why: tuple[str | sp.Expr, ...] = ()
-            if self.idle is not None:
+            why: Words = ()
+            if self.because is not None:
+                why = self.because.words
+            elif self.idle is not None:
                 why = (f": {self.idle.title} adds nothing to this equation",)
             elif self.effort is not None and self.effort.rate is not None and self.effort.element is not None:
                 why = (f": {self.effort.element.title} feels ", self.effort.rate, " alone")
@@ -202,7 +210,9 @@ def own_term(
             continue
         if k < count:
             idle = _idle(pool, row, t) if number == 1 else None
-            return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort_of(pool, kind, row, t, scale))
+            effort = effort_of(pool, kind, row, t, scale)
+            because = too_much(pool, kind, i, t, effort, scale) if number == 1 and idle is None else None
+            return OwnTerm(row, LINES[kind], t, number, idle=idle, effort=effort, because=because)
         if number in (1, -1):
             lost = cast("sp.Expr", -number * t)
             return OwnTerm(row, LINES[kind], lost, forgotten=True, effort=effort_of(pool, kind, row, t, scale))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import sympy as sp
 
@@ -265,6 +265,7 @@ def _of_energies(s: Ingredients) -> Iterator[Sayable]:
         words = (of.replace(" of kinetic", ""),)
         T = s.kinetic(e)
         yield Sayable("kinetic", e, words, T, lambda said, T=T: Effect(T=said - T))
+        yield from () if isinstance(e, Body) else _velocities_of(s, e)
         parts = (("translation", s.translation(e)), ("rotation", s.rotation(e))) if isinstance(e, RigidBody) else ()
         for part, x in parts if all(x != 0 for _, x in parts) else ():
             words = (f"kinetic energy of the {part} of {e.title}",)
@@ -273,6 +274,17 @@ def _of_energies(s: Ingredients) -> Iterator[Sayable]:
     stored += [(e, e.title, V) for e, _, V in s.springs()]
     for owner, of, V in stored:
         yield Sayable("potential", owner, (f"potential energy of {of}",), V, lambda said, V=V: Effect(V=said - V))
+
+
+def _velocities_of(s: Ingredients, e: Any) -> Iterator[Sayable]:
+    """What is squared in a kinetic energy that is given as it is: ṡ of ½ m ṡ²."""
+    for square in sp.Add.make_args(s.kinetic(e)):
+        powers = [f.as_base_exp() for f in sp.Mul.make_args(square)]
+        rates = [base for base, exponent in powers if exponent == 2 and base.has(*s.v)]
+        for w in rates if len(rates) == 1 else ():
+            factor = cast("sp.Expr", square / w**2)
+            words = (f"velocity in {e.title}",)
+            yield Sayable("component", e, words, w, lambda said, f=factor, w=w: Effect(T=f * (said**2 - w**2)))
 
 
 def _of_coordinates(s: Ingredients) -> Iterator[Sayable]:

@@ -1,4 +1,7 @@
-"""In which rate two sums of rates differ: (R θ̇ − R φ̇)/r for (R θ̇ − (R − r) φ̇)/r is R φ̇ where (R − r) φ̇ belongs."""
+"""In which rate two sums of rates differ: (R θ̇ − R φ̇)/r for (R θ̇ − (R − r) φ̇)/r is R φ̇ where (R − r) φ̇ belongs.
+
+Where several differ, what carries a body may have been added, or not: ż + e φ̇ of ż + e φ̇ + ṡ for ṡ.
+"""
 
 from __future__ import annotations
 
@@ -35,6 +38,19 @@ def rates_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
         own, theirs = turned(own), turned(theirs)
     first, *others = term_replaced(cast("sp.Expr", own * v), cast("sp.Expr", theirs * v))[1].parts
     return (": " + str(first)[:1].lower() + str(first)[1:], *cast("list[str | Left]", others))
+
+
+def carried_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
+    """What a velocity has too much, or lacks, of rates that the other does not have, as the end of a sentence: what
+    carries a body was added, as if the rest were relative to it, or was not, as if that were absolute."""
+    for more, whole, said in ((written, right, " is added, as if "), (right, written, " is not added, as if ")):
+        for sign in (1, -1):
+            rest = cast("sp.Expr", bounded.expand(more - sign * whole))
+            rates, others = rest.atoms(sp.Derivative), whole.atoms(sp.Derivative)
+            if rest != 0 and rates and others and not rates & others and more.atoms(sp.Derivative) == rates | others:
+                ending = " were relative to it." if more is written else " were the whole velocity."
+                return (": ", sign * rest, said, whole, ending)
+    return ()
 
 
 def turned(expr: sp.Expr) -> sp.Expr:

@@ -38,6 +38,7 @@ WHY = {
     "mass": text("Every body that moves with this coordinate adds to it, by its mass and by its moment of inertia."),
 }
 WHY_TERM = text("Go through it term by term: a sum is squared as a whole, with twice the product of its parts.")
+WHY_RELATIVE = text("Ask of every coordinate whether it is counted from a fixed place, or from what carries the body.")
 CALLED = {
     "component": "velocity",
     "along": "velocity",

@@ -18,8 +18,8 @@ from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.rates_apart import rates_apart, turned
-from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_TERM
+from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
+from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_RELATIVE, WHY_TERM
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
@@ -49,6 +49,8 @@ class InWords:
     """The letters, coordinates and rates in what is right and in what is written."""
     apart: tuple[str | Left, ...] = ()
     """In which term both differ, at the end of the sentence."""
+    why: Text | None = None
+    """Why it is wrong, if that is not what is said of all such quantities."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,6 +109,8 @@ class SaidWrongly:
     @property
     def _why(self) -> Text:
         """Why it is wrong: a term of letters that all are there is one of a sum that was not squared as a whole."""
+        if self.words.why is not None:
+            return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
         return WHY_TERM if whole else WHY[of.kind]
@@ -252,9 +256,11 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
     right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()
+    carried = carried_apart(right, own) if q.kind in ("component", "along") and not apart else ()
     apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else apart
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
-    return replace(told(of, [right], [own], (right,), (own,)), apart=apart)
+    why = WHY_RELATIVE if carried else None
+    return replace(told(of, [right], [own], (right,), (own,)), apart=apart or carried, why=why)
 
 
 def told(

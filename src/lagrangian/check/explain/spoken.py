@@ -9,7 +9,8 @@ import numpy as np
 
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
-from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.explain.given_said import of_given
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
@@ -39,7 +40,7 @@ def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
     assert possible.change is not None
     row = possible.change.site.coordinate
     factor = under.factor(truth, row) if under is not None and row is not None else None
-    return say.mistake(possible.change, told.times, truth.model, factor)
+    return say.mistake(of_given(possible.change, pool_of(truth).sites), told.times, truth.model, factor)
 
 
 def in_lagrangian(mistake: Mistake, line: AnsweredLine) -> Mistake:

@@ -34,7 +34,8 @@ def taken_as(
     """The explanations of a line; in their place the quantity that a wrong T*, V, L or D takes as another one, where
     else nothing is known, or no more than a term or a number that is a square, ¼ or 4."""
     right = right_value(truth, line, None) if line.kind in ("T", "V", "L", "D") and not truth.values else None
-    bare = _is_square_of_part(found[0]) if found else not own or any(m.name in BARE for m in own)
+    bare = not own or any(m.name in BARE for m in own)
+    bare = _is_square_of_part(found[0]) or _is_in_pieces(found[0]) if found else bare
     for q, sign, written in _found(truth, line, line.expr - right) if right is not None and bare else ():
         effect = put(truth, q.adds(sign * written))
         said = SaidWrongly(line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
@@ -50,6 +51,11 @@ def _is_square_of_part(found: Explanation) -> bool:
     change, number = told.mistake.change, 1 + told.times
     square = number > 0 and all(isqrt(x) ** 2 == x for x in (number.numerator, number.denominator))
     return change is not None and change.kind == "part" and square and number != 1
+
+
+def _is_in_pieces(found: Explanation) -> bool:
+    """Whether an explanation is that several things are wrong in what one element adds."""
+    return len(found.told) > 1 and len({t.mistake.element for t in found.told} - {None}) == 1
 
 
 def _found(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Iterator[tuple[Sayable, int, sp.Expr]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Set
 from dataclasses import replace
 from fractions import Fraction
+from typing import cast
 
 import numpy as np
 import sympy as sp
@@ -20,7 +21,7 @@ from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.changes.ring import scaled
 from lagrangian.check.explain.search import SMALL, Told, simple_number
-from lagrangian.check.verdict import Mistake
+from lagrangian.check.verdict import DERIVED, Mistake
 from lagrangian.derive.sampling import Array
 from lagrangian.page.formula import Text, text
 
@@ -54,7 +55,7 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
     ``kinds`` are those of the lines of the answer: ℒ = T* + V is no reason where nobody wrote an ℒ.
     """
     if under is None or pool.truth.values or _is_plain(told.mistake) or (found := _term(pool, told)) is None:
-        return mistake
+        return _without_derivatives(told, mistake, kinds)
     term, times = found
     row = term.site.coordinate
     factor = under.factor(pool.truth, row) if row is not None else None
@@ -72,6 +73,30 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
     if change is not None and change.kind == "part" and _is_odd(told.times):
         return replace(mistake, what=text(*said))  # nobody counts something 17/8 times
     return with_reason(text(*said), mistake)
+
+
+def _without_derivatives(told: Told, mistake: Mistake, kinds: Set[str]) -> Mistake:
+    """The chain rule that was not followed, of which nothing is certain in an answer without derivatives but the factor
+    that stands in the equation."""
+    change = told.mistake.change
+    if change is None or change.kind != "inner_derivative" or not kinds.isdisjoint(DERIVED):
+        return mistake
+    right, written = cast("tuple[sp.Expr, sp.Expr]", (change.right, change.written))
+    row, element, words = change.site.coordinate, change.site.element, change.site.words
+    of: Words = ("In ", *words)
+    if element is not None and not str(words[0]).startswith("what "):
+        of = (f"In what {element.title} adds to the equation of ", words[1])
+    times = bounded.cancel(right / written)
+    above, below = sp.fraction(times)
+    if times == -1:
+        said = (*of, ", the sign is wrong.")
+    elif below == 1 or written == 1:
+        said = (*of, ", the factor ", right if written == 1 else times, " is missing.")
+    elif above == 1:
+        said = (*of, ", there is the factor ", below, " too much.")
+    else:
+        said = (*of, ", the factor is ", written, "; it should be ", right, ".")
+    return with_reason(text(*said), mistake) if row is not None else mistake
 
 
 def _is_odd(times: Fraction) -> bool:

@@ -22,7 +22,7 @@ _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-
 """The kinds of lines that speak of an energy."""
 _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
 """The names of energies, and of parts of them."""
-_IN = re.compile(r"(?P<link>,| in) (?P<name>T\*|V)(?=[.:,; ]|$)")
+_IN = re.compile(r"(?P<link>,| in|^In) (?P<name>T\*|V)(?=[.:,; ]|$)")
 _OF = re.compile(
     r"(?<![½\w])(?P<the>[Tt])he (?:energy|kinetic energy(?= of the (?:rotation|translation))) of "
     r"(?P<element>(?:the (?:rotation|translation) of )?(?:[a-z ]{3,30}'[^']{1,60}'|[a-z]{3,20} \w{1,20}))"
@@ -47,6 +47,8 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
     def without(match: re.Match[str]) -> str:
         if match["name"] not in silent:
             return match.group()
+        if match["link"] == "In":
+            return f"In {WHOLE[match['name']]}"
         return "" if mistake.element is not None or match["link"] == "," else f" in {WHOLE[match['name']]}"
 
     def of_element(match: re.Match[str]) -> str:

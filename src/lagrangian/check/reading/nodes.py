@@ -95,6 +95,14 @@ def inside(tree: Node) -> Node:
     return tree
 
 
+def without_minus(side: Node) -> tuple[Node, bool]:
+    """A side without the minus in front of its only term, and whether there is one."""
+    tree = inside(side)
+    children = tree.children if isinstance(tree, Tree) and tree.data in ("sum", "signed") else []
+    minus = len(children) == 2 and str(children[0]) == "-"
+    return (children[1], True) if minus else (side, False)
+
+
 def is_matrix(tree: Node) -> bool:
     """Whether a tree is a matrix that is written out."""
     tree = inside(tree)

@@ -16,7 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
 from lagrangian.check.reading.names import Names, names_in, spelled_rates
-from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name
+from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name, without_minus
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
@@ -310,14 +310,24 @@ class Subjects:
 
     def derived(self, *sides: tuple[Tree, sp.Expr]) -> tuple[Kind, sp.Expr, sp.Expr, str] | None:
         """What a statement says of ∂V/∂ξ, ∂D/∂ξ̇, ∂T*/∂ξ, ∂T*/∂ξ̇ or d/dt ∂T*/∂ξ̇ of the answer's own energies, alone on
-        one of its ``sides``, trees and values: as a line less its place."""
-        for (side, own), (_, value) in (sides, sides[::-1]):
+        one of its ``sides``, trees and values, perhaps with a minus: as a line less its place."""
+        for (whole, own), (_, value) in (sides, sides[::-1]):
+            side, minus = without_minus(whole)
+            own, value = (-own, -value) if minus else (own, value)
             found = self._added_by(side)
+            if minus and found is not None and self._balances(found[0], value):
+                continue
             if found is not None and not is_general(own - value):
                 kind, name = found
                 left, right = (own, value) if kind in ("T-p", "T-slope") else (value, own)
                 return kind, left, right, name
         return None
+
+    def _balances(self, kind: str, value: sp.Expr) -> bool:
+        """Whether what is equated to a derivative is no form of it, so that both are a balance: m x'' = −∂V/∂x."""
+        inputs = [u.symbol for u in self.model.inputs]
+        rated = kind == "V-slope" and value.has(sp.Derivative)
+        return value == 0 or accelerates(value) or rated or value.has(*inputs)
 
     def is_chain_rule(self, *sides: tuple[Tree, sp.Expr]) -> bool:
         """Whether a statement differentiates an expression of positions: d/dt(a + l sin θ) = l cos θ θ'."""

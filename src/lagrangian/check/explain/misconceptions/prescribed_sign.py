@@ -29,8 +29,19 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if energies[0] == 0:
             continue
         forces = {i: put(x, table) - x for i, x in enumerate(s.Xi) if put(x, table) != x}
-        what = text(p.symbol, " has the wrong sign in the velocities: the prescribed motion goes the other way.")
+        said = "the prescribed motion goes the other way."
+        what = text(p.symbol, " has the wrong sign in the velocities: ", said)
+        if not _turns(s, p.symbol):  # U sin Ωt
+            what = text("The rate of the prescribed motion has the wrong sign: it goes the other way.")
         yield Variant(what=what, T=energies[0], V=energies[1], Xi=forces)
+
+
+def _turns(s: Ingredients, p: sp.Symbol) -> bool:
+    """Whether a parameter is how fast something turns, with what moves on it, and no letter of a given way."""
+    places = [x for body in s.bodies for place in s.position(body) for x in sp.Add.make_args(sp.expand(place))]
+    rest = dict.fromkeys(s.v, sp.S.Zero)
+    rates = [x for body in s.bodies for w in s.omega(body) for x in sp.Add.make_args(sp.expand(put(w, rest)))]
+    return any(x.has(p) and x.has(*s.q) for x in places) or any(x.has(p) and not x.has(time) for x in rates)
 
 
 def _is_fast(s: Ingredients, p: sp.Symbol) -> bool:
