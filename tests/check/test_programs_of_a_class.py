@@ -238,3 +238,38 @@ def test_an_equation_of_matrices_in_a_comment_is_judged_without_a_solver() -> No
     assert right(EQUIVALENT, "two-carts")
     for old, new in (("1, 1];", "-1, 1];"), ("0, k", "0, 2*k"), ("[0; 1]", "[1; 1]"), ("[x1; x2]", "[x2; x1]")):
         assert old in EQUIVALENT and not right(EQUIVALENT.replace(old, new), "two-carts")
+
+
+MOTOR = """def motor(t, y, u):
+    i, theta, omega = y
+    di = (u - R*i - K*omega)/L
+    domega = (K*i - b*omega - m*g*l*np.sin(theta))/(J + m*l**2)
+    return [di, omega, domega]
+"""
+
+
+def test_the_current_of_a_charge_may_be_part_of_a_state() -> None:
+    assert right(MOTOR, "dc-motor")
+    for old, new in (
+        ("- R*i", "+ R*i"),
+        ("K*i - b", "K*u - b"),
+        ("[di, omega, ", "[di, i, "),
+        ("i, theta,", "theta, i,"),
+    ):
+        assert old in MOTOR and not right(MOTOR.replace(old, new), "dc-motor")
+
+
+CELLS = """syms r(t) theta(t) m k L_0 g R Rd Th Thd
+x = r*sin(theta); y = -r*cos(theta);
+L = m/2*(diff(x,t)^2 + diff(y,t)^2) - k/2*(r - L_0)^2 - m*g*y;
+old = {diff(r,t), diff(theta,t), r, theta}; new = {Rd, Thd, R, Th};
+Ls = subs(L, old, new);
+eq1 = diff(subs(diff(Ls,Rd), new, old), t) - subs(diff(Ls,R), new, old) == 0
+eq2 = diff(subs(diff(Ls,Thd), new, old), t) - subs(diff(Ls,Th), new, old) == 0
+"""
+
+
+def test_lists_in_braces_may_be_put_in_for_others() -> None:
+    assert right(CELLS, "elastic-pendulum")
+    for old, new in (("{Rd, Thd, R,", "{Rd, Thd, 2*R,"), ("t) - subs(diff(Ls,Th)", "t) + subs(diff(Ls,Th)")):
+        assert old in CELLS and not right(CELLS.replace(old, new), "elastic-pendulum")

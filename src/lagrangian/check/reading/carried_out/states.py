@@ -28,9 +28,11 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     listed,
 )
+from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 _LIST_BEHIND = re.compile(r"[%#]++[ \t]*+(?:=[ \t]*+)?\[(?P<entries>[^\[\]\n]{1,200}+)\][ \t]*+(?:\^T|['’])?[ \t]*+\Z")
@@ -172,6 +174,8 @@ class StateReader:
         )
         found = [s for k, s in spelled_rates(name) if k == order and set(self.scope.meanings(s)[0]) & coordinates]
         found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
+        implied = implied_rates(self.model, [key(name)], [key(name)]) if order == 1 else {}
+        found += [str(x.args[0].func) for x in implied.values()]  # the current of a charge
         return found[0] if found else None
 
     def rates_of(self, name: str, count: int) -> list[sp.Expr]:
