@@ -174,3 +174,102 @@ def test_a_comment_of_a_program_that_cannot_be_read_is_left_out() -> None:
     assert right(program, "pendulum")
     wrong = derivation("pendulum").check(program.replace("-g", "g"))
     assert not wrong.right and [f.line.number for f in wrong.findings] == [4]
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        "l, d = 1.0, 0.3\ndef acc(theta, omega):\n    return -g/l*np.sin(theta) - d*omega/(m*l**2)",
+        "l = 1; d = 0.3;\nf = @(t, z) [z(2); -g/l*sin(z(1)) - d/(m*l^2)*z(2)];\nfor k = 1:900\n  z = z + f(0, z);\nend",
+        "l = 1; d = 0.3\nm l^2 theta'' + m g l sin theta - d theta' = 0".replace("- d", "+ d"),
+    ],
+)
+def test_names_with_values_may_be_those_of_parameters_that_are_not_named(program: str) -> None:
+    assert right(program, "pendulum")
+    assert "'l' was read as L" in str(derivation("pendulum").check(program))
+    assert not right(program.replace("m*l**2", "m*l").replace("m*l^2", "m*l").replace("m l^2", "m l"), "pendulum")
+    assert not right(program.replace("-g/l", "g/l").replace("+ m g", "- m g"), "pendulum")
+    assert not right(program.replace("g/l", "2*g/l").replace("g l", "2 g l"), "pendulum")
+    assert not right(
+        program.replace("d/(", "l*d/(").replace("d*omega", "d*g*omega").replace("d th", "L d th"), "pendulum"
+    )
+
+
+SPACE = """A = [0 0 1 0; 0 0 0 1; -k_s/m_s, k_s/m_s, -b_s/m_s, b_s/m_s; k_s/m_u, -(k_s+k_t)/m_u, b_s/m_u, -b_s/m_u];
+B = [0 0; 0 0; 0 1/m_s; k_t/m_u -1/m_u];
+% x = [z_s; z_u; z_s'; z_u'], u = [z_r; F]
+% xdot = A*x + B*u
+"""
+PRODUCT = """import numpy as np
+A = np.array([[0, 0, 1, 0], [0, 0, 0, 1], [-k_s/m_s, k_s/m_s, -b_s/m_s, b_s/m_s],
+              [k_s/m_u, -(k_s+k_t)/m_u, b_s/m_u, -b_s/m_u]])
+B = np.array([[0, 0], [0, 0], [0, 1/m_s], [k_t/m_u, -1/m_u]])
+# x = [z_s, z_u, z_s', z_u'], u = [z_r, F]
+def f(t, x, u):
+    return A @ x + B @ u
+"""
+
+
+@pytest.mark.parametrize(
+    ("program", "old", "new"),
+    [
+        (SPACE, "0 0 1 0;", "0 0 2 0;"),
+        (SPACE, "-(k_s+k_t)", "-(k_s-k_t)"),
+        (SPACE, "[z_r; F]", "[F; z_r]"),
+        (SPACE, "[z_s; z_u; ", "[z_u; z_s; "),
+        (PRODUCT, "0, 0, 1, 0", "0, 0, 2, 0"),
+        (PRODUCT, "-(k_s+k_t)", "-(k_s-k_t)"),
+        (PRODUCT, "[z_r, F]", "[F, z_r]"),
+    ],
+)
+def test_matrices_of_a_state_space_are_judged(program: str, old: str, new: str) -> None:
+    assert right(program, "quarter-car")
+    assert old in program and not right(program.replace(old, new), "quarter-car")
+
+
+EQUIVALENT = """W = [1, 0; 1, 1];
+M = W.'*diag([m1, m2])*W;
+K = [0, 0; 0, k];
+% M*q'' + K*q = [0; 1]*F, q = [x1; x2]
+"""
+
+
+def test_an_equation_of_matrices_in_a_comment_is_judged_without_a_solver() -> None:
+    assert right(EQUIVALENT, "two-carts")
+    for old, new in (("1, 1];", "-1, 1];"), ("0, k", "0, 2*k"), ("[0; 1]", "[1; 1]"), ("[x1; x2]", "[x2; x1]")):
+        assert old in EQUIVALENT and not right(EQUIVALENT.replace(old, new), "two-carts")
+
+
+MOTOR = """def motor(t, y, u):
+    i, theta, omega = y
+    di = (u - R*i - K*omega)/L
+    domega = (K*i - b*omega - m*g*l*np.sin(theta))/(J + m*l**2)
+    return [di, omega, domega]
+"""
+
+
+def test_the_current_of_a_charge_may_be_part_of_a_state() -> None:
+    assert right(MOTOR, "dc-motor")
+    for old, new in (
+        ("- R*i", "+ R*i"),
+        ("K*i - b", "K*u - b"),
+        ("[di, omega, ", "[di, i, "),
+        ("i, theta,", "theta, i,"),
+    ):
+        assert old in MOTOR and not right(MOTOR.replace(old, new), "dc-motor")
+
+
+CELLS = """syms r(t) theta(t) m k L_0 g R Rd Th Thd
+x = r*sin(theta); y = -r*cos(theta);
+L = m/2*(diff(x,t)^2 + diff(y,t)^2) - k/2*(r - L_0)^2 - m*g*y;
+old = {diff(r,t), diff(theta,t), r, theta}; new = {Rd, Thd, R, Th};
+Ls = subs(L, old, new);
+eq1 = diff(subs(diff(Ls,Rd), new, old), t) - subs(diff(Ls,R), new, old) == 0
+eq2 = diff(subs(diff(Ls,Thd), new, old), t) - subs(diff(Ls,Th), new, old) == 0
+"""
+
+
+def test_lists_in_braces_may_be_put_in_for_others() -> None:
+    assert right(CELLS, "elastic-pendulum")
+    for old, new in (("{Rd, Thd, R,", "{Rd, Thd, 2*R,"), ("t) - subs(diff(Ls,Th)", "t) + subs(diff(Ls,Th)")):
+        assert old in CELLS and not right(CELLS.replace(old, new), "elastic-pendulum")

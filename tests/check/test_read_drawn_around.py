@@ -91,3 +91,16 @@ def test_matrices_between_bars_and_slashes_are_read(answer: str) -> None:
     judge = built_in.derivation("cart-pole")
     assert judge.check(answer, hint=0).right
     assert not judge.check(answer.replace("m g l", "m g"), hint=0).right
+
+
+def test_a_matrix_of_two_lines_may_have_its_arguments_behind_its_name() -> None:
+    answer = """M(q) q'' + C(q,q') q' + g(q) = B F
+M(q) = [ M+m        m l cos θ ]
+       [ m l cos θ  J + m l²  ]
+C(q,q') = [ b   -m l θ' sin θ ]
+          [ 0        0        ]
+g(q) = [0; -m g l sin θ],   B = [1; 0]"""
+    cart = built_in.derivation("cart-pole")
+    assert cart.check(answer, hint=0).right
+    for old, new in (("J + m l²", "J - m l²"), ("b   -m", "b   m"), ("[1; 0]", "[1; 1]")):
+        assert old in answer and not cart.check(answer.replace(old, new), hint=0).right

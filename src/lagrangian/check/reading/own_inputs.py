@@ -44,10 +44,17 @@ class OwnInputs:
         """Whether such names are read so."""
         self.asked = False
         """Whether there is one."""
-        self._inputs = model.inputs
+        self.kept = False
+        """Whether names with numbers as their values stay names, which may be those of parameters: l = 1 for L."""
+        self.numbered = False
+        """Whether there is such a name, and a parameter that the answer does not name."""
+        self._inputs, self._parameters = model.inputs, model.parameters
 
     def meant(self, written: str, value: Any, occurs: Callable[[str], int], notes: dict[str, None]) -> Any:
-        """The value of a name, or the input that it is."""
+        """The value of a name, or the input that it is, or the name alone."""
+        if isinstance(value, sp.Expr) and value.is_number and value != 0:
+            self.numbered = self.numbered or not all(occurs(p.name) for p in self._parameters)
+            return sp.Symbol(str(written)) if self.kept else value
         if not isinstance(value, sp.Expr) or bounded.letters(value) != {time}:
             return value
         free = [u for u in self._inputs if not occurs(u.name)]

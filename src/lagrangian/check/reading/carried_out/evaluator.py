@@ -185,8 +185,8 @@ class Evaluator:
         if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
             return self._solution(matrix(a), matrix(b))
         if isinstance(op, (ast.Mult, ast.MatMult)):
-            if isinstance(b, State) and isinstance(a, MatrixBase):
-                b = sp.Matrix([b.entry(k + 1) for k in range(a.shape[1])])
+            if isinstance(b, State) and isinstance(a, (MatrixBase, list)):
+                b = sp.Matrix([b.entry(k + 1) for k in range(matrix(a).shape[1])])
             if isinstance(a, Inverse):
                 return self._solution(a.matrix, matrix(b))
             return times(a, b)

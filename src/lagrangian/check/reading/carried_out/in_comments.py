@@ -1,4 +1,8 @@
-"""Equations of motion that only a comment of a program states, with its matrices: % A(q)*qdd + h(q, v) = B*tau."""
+"""Equations of motion that only a comment of a program states, with its matrices.
+
+% A(q)*qdd + h(q, v) = B*tau        columns of all coordinates, rates and accelerations
+% xdot = A*x + B*u                  a state that a comment lists, x = [s; v]
+"""
 
 from __future__ import annotations
 
@@ -23,6 +27,7 @@ _COMMENT = re.compile(
 _WORD = re.compile(r"[^\W\d]\w*+")
 _TWICE = re.compile(r"(?<=[\w])(?:''|’’|″)")
 _ONCE = re.compile(rf"(?<!\w)({'|'.join(COLUMNS)})['’′]")
+_QUOTIENT = re.compile(r"(?<![\w])d([a-z])[ ]?/[ ]?dt(?!\w)")
 MOST = 20
 """The most comments that are looked at."""
 
@@ -33,12 +38,13 @@ def equations_in_comments(
     """The entries of equations in columns that comments state, with their lines; each entry is 0."""
     for match in islice(_COMMENT.finditer(reader.text), MOST):
         sides = [_ONCE.sub(r"\g<1>d", _TWICE.sub("dd", match[k])).strip().rstrip(".;,") for k in ("left", "right")]
-        known = _columns(" ".join(sides), names, reader)
+        sides = [_QUOTIENT.sub(r"\g<1>d", x) for x in sides]
+        known = _columns(" ".join(sides), names, reader) or _state(" ".join(sides), names, reader)
         if known is None:
             continue
         left, right = (_value(run, side, names | known) for side in sides)
         if isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
-            yield reader.text.count("\n", 0, match.start()) + 1, list((left - right).flat())
+            yield reader.text.count("\n", 0, match.start()) + 1, [x for x in (left - right).flat() if x != 0]
 
 
 def _value(run: Interpreter, side: str, names: dict[str, Value]) -> Value:
@@ -64,3 +70,24 @@ def _columns(said: str, names: dict[str, Value], reader: StateReader) -> dict[st
     if "v" in free and 1 not in orders.values():
         orders["v"] = 1
     return {x: sp.Matrix([c.diff(TIME, k) if k else c for c in q]) for x, k in orders.items()}
+
+
+def _state(said: str, names: dict[str, Value], reader: StateReader) -> dict[str, Any] | None:
+    """What a state, its rate and the inputs are, the entries of which comments list; None if they list none."""
+    words = [x for x in dict.fromkeys(_WORD.findall(said)) if x not in names]
+    stems = {stem: x for x in words for k, stem in spelled_rates(x) if k == 1 and stem in words}
+    if len(stems) != 1:
+        return None
+    ((stem, rate),) = stems.items()
+    rates = reader.rates_of(rate, 2 * len(reader.model.coordinates))
+    if not rates:
+        return None
+    moving = [x.args[0] if isinstance(x, sp.Derivative) and x.derivative_count == 1 else None for x in rates]
+    state = [q if q is not None else x.args[0].diff(TIME) for q, x in zip(moving, rates, strict=True)]  # type: ignore[attr-defined]
+    found: dict[str, Any] = {stem: sp.Matrix(state), rate: sp.Matrix(rates)}
+    inputs = [u.name for u in reader.model.inputs]
+    for word in (x for x in words if x not in found and not reader.scope.meanings(x)[0]):
+        listed = reader.in_comments(word)
+        entries = [listed.get(k + 1, name) for k, name in enumerate(inputs)]
+        found |= {word: sp.Matrix([sp.Symbol(x) for x in entries])} if inputs else {}
+    return found

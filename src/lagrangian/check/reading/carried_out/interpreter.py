@@ -56,6 +56,10 @@ class Interpreter(Evaluator):
     """The one input of the system that a program does not name."""
     said: Set[str] = frozenset()
     """The names of parameters of the system in the program, as its comments say: Mc = M."""
+    kept: bool = False
+    """Whether names of its own that get numbers stay names."""
+    numbered: bool = False
+    """Whether there are such names, and parameters that the program does not name."""
     left_out: list[tuple[int, int]] = field(default_factory=list)
     """The first and the last lines of statements that depend on conditions, which were not carried out."""
     drives: str | None = None
@@ -238,7 +242,7 @@ class Interpreter(Evaluator):
             if isinstance(value, sp.Expr) and given and (self.known(target.id) or target.id in self.said):
                 value = sp.Symbol(target.id)
             elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
-                value = self._of_value(value)
+                value = self._of_value(value, target.id)
             names[target.id] = value = self._table(value, line)
             if isinstance(value, sp.Symbol) and "[" in value.name:
                 self.aliases.setdefault(value, target.id)
@@ -265,9 +269,12 @@ class Interpreter(Evaluator):
             self._assign(ast.Name(name), x, fields.values, line)
         return fields
 
-    def _of_value(self, value: sp.Expr) -> sp.Expr:
+    def _of_value(self, value: sp.Expr, name: str) -> sp.Expr:
         """A number that a program gives to a name of its own; the one parameter that it does not name, of this value:
         slope = pi/12 for α = 15°. A whole number may count something, and ½ is one."""
+        self.numbered = self.numbered or (bool(self.valued) and value != 0)
+        if self.kept and value != 0:
+            return sp.Symbol(name)
         if not self.valued or (2 * value).is_Integer or not value.is_real:
             return value
         size = value.evalf()

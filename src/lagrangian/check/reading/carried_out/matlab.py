@@ -218,10 +218,14 @@ class _Expression:
             self.stack.append("slice")
             self._put("[")
         elif token in "([{" and kind == "mark":
+            if token == "{" and self.before[-1:].isalnum():
+                raise AbandonedError  # an entry of a cell array
             self.stack.append(token)
-            self._put("Matrix([[" if token == "[" else token)
+            self._put({"[": "Matrix([[", "{": "["}.get(token, token))  # {x, y} is a list
         elif token in ")]}" and kind == "mark":
             self._close(token)
+        elif token == ";" and self.stack and self.stack[-1] == "{":
+            self._put(",")
         elif token == ";" and inside:
             self._strip()
             self._put("],[")
@@ -264,6 +268,8 @@ class _Expression:
         if opened == "[":
             self._strip()
             token = "]])"
+        elif opened == "{":
+            token = "]"
         self._put("]" if opened == "slice" else token, ")" if opened == "slice" else None)
 
     def _slices(self) -> bool:

@@ -55,10 +55,11 @@ _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\
 _MATLAB = re.compile(
     r"^[ \t]*+function\b[^\n(]{0,60}\(|^[ \t]*+syms[ \t]|[=(,][ \t]*+@\(|^[^%#\n\\]*+\\[ \t]?\w[^\n%]*+(?:%[^\n]*+)?$"
     r"|^[^%#\n\\=]*+=[^%#\n\\=]*+(?<=[\w\]) \t])\\(?:(?<=[ \t]\\)[ \t]++|(?<=[\w\])]\\))[\[(]"
-    r"|^[^%#\n=]*+=[^%#\n]*?(?:(?<=[\w)\]])\.['’][ \t]*+\*|\b(?:blkdiag|eye)\()",
+    r"|^[^%#\n=]*+=[^%#\n]*?(?:(?<=[\w)\]])\.['’][ \t]*+\*|\b(?:blkdiag|eye)\()"
+    r"|^[^%\n]*+%[^%\n=]{0,60}=[^%\n]{0,60}?\b[A-Z]\*[a-z]\b",
     re.MULTILINE,
 )
-"""Signs of MATLAB: a function, symbols, A \\ b, A \\ [c; d], A.'*b and eye(3)."""
+"""Signs of MATLAB: a function, symbols, A \\ b, A \\ [c; d], A.'*b, eye(3), and % … = A*x."""
 _LATEX = re.compile(r"\\(?:d?dot|[dt]?frac|begin|left|text|cdot)")
 _MARKS = re.compile(r"^(?:[ \t]*+(?:```\w*+|>>>[ \t]?|\.\.\.[ \t]|In[ \t]*+\[\d*+\]:[ \t]?))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*+(?:#|%|//)++(?P<said>[^\n]*+)$", re.MULTILINE)
@@ -91,10 +92,12 @@ class CarriedOut:
     """With the comments that hold accelerations, as they are."""
     bare: str
     notes: tuple[str, ...] = ()
+    numbered: bool = False
+    """Whether names of its own have numbers as values, and parameters of the system are not named."""
 
 
-def carried_out(text: str, model: Model) -> CarriedOut | None:
-    """Return what a program in Python, MATLAB or Julia states.
+def carried_out(text: str, model: Model, *, kept: bool = False) -> CarriedOut | None:
+    """Return what a program in Python, MATLAB or Julia states; names with numbers as values may be ``kept`` as names.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
     carried out on symbols.
@@ -123,6 +126,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
         given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
         run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
+        run.kept = kept
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, MovingNames(model, scope), _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
@@ -145,7 +149,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
     notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
-    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes, run.numbered)
 
 
 def _left_out(first: int, last: int) -> str:

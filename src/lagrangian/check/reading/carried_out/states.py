@@ -28,12 +28,15 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     listed,
 )
+from lagrangian.check.reading.implied_rates import implied_rates
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
+from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 _LIST_BEHIND = re.compile(r"[%#]++[ \t]*+(?:=[ \t]*+)?\[(?P<entries>[^\[\]\n]{1,200}+)\][ \t]*+(?:\^T|['’])?[ \t]*+\Z")
+_RATE = re.compile(r"(?<=\w)['’′]\Z")
 _ACCELERATION = re.compile(r"acc|ddot|dd\b|_tt\b", re.IGNORECASE)
 """Names of functions that return accelerations, and nothing from which these are found."""
 
@@ -60,7 +63,7 @@ class StateReader:
         """The functions that nothing calls, and what they say of the motion; if nothing, accelerations that the program
         uses."""
         made = [f for f in (*self.run.functions.values(), *names.values()) if isinstance(f, OwnFunction)]
-        matrices = {name for name, x in names.items() if isinstance(x, MatrixBase)}
+        matrices = {name for name, x in names.items() if isinstance(x, MatrixBase) or _is_matrix(x)}
         own = self.run.functions | {name: x for name, x in names.items() if isinstance(x, OwnFunction)}
         functions = {id(f): f for f in made}.values()
         found = [(f, self._tried(f, matrices, own)) for f in functions if f not in self.run.called]
@@ -171,6 +174,8 @@ class StateReader:
         )
         found = [s for k, s in spelled_rates(name) if k == order and set(self.scope.meanings(s)[0]) & coordinates]
         found += [s for s in said if set(self.scope.meanings(s)[0]) & coordinates]
+        implied = implied_rates(self.model, [key(name)], [key(name)]) if order == 1 else {}
+        found += [str(x.args[0].func) for x in implied.values()]  # the current of a charge
         return found[0] if found else None
 
     def rates_of(self, name: str, count: int) -> list[sp.Expr]:
@@ -214,7 +219,7 @@ class StateReader:
         found: dict[int, str] = {}
         for comment in re.finditer(r"(?:[#%]|\"\"\")[^\n]*", self.text):
             if (match := form.search(comment.group())) is not None:
-                words = [x for x in re.split(r"[\s,;]+", match["entries"].strip()) if x]
+                words = [_RATE.sub("dot", x) for x in re.split(r"[\s,;]+", match["entries"].strip()) if x]
                 return {k + 1: x for k, x in enumerate(words) if NAME.fullmatch(x)}
             found |= {int(m[1]): f"{m[2]}dot" if m[3] else m[2] for m in single.finditer(comment.group())}
         return found
@@ -278,6 +283,11 @@ def _argument(
     if indices or unpacked or whole or (matlab and any(not _is(x.args[0], "t") for x in called if x.args)):
         return State(name)
     return TIME if name == "t" else sp.Symbol(name)
+
+
+def _is_matrix(value: Value) -> bool:
+    """Whether a value is a list of rows."""
+    return isinstance(value, list) and bool(value) and all(isinstance(x, list) for x in value)
 
 
 def _takes_fields(node: ast.GeneratorExp | ast.ListComp, name: str) -> bool:

@@ -38,7 +38,9 @@ _OPERATOR = "+-−–*/^·×=,;"
 _TIMES = re.compile(r"\s*[*·×@]?\s*")
 _AT = re.compile(r"(?:(?<=[)\]])\s*@\s*|(?<=[\w)\]'])\s+@\s+)(?=[\w(\[])")
 _BARE_NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?\Z")
-_NAMED_ROW = re.compile(r"\s*+[^\W\d]\w*+\s*+=\s*+\[(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
+_NAMED_ROW = re.compile(
+    r"\s*+[^\W\d]\w*+\s*+(?:\([\w,; '’′\u0307]{1,24}\)\s*+)?=\s*+\[(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z"
+)
 _ROW_ALONE = re.compile(r"\s*+(?P<open>\[)(?P<row>[^\[\]=;]++)(?P<close>\])\s*\Z")
 _ATOM = r"[^\W\d]\w{0,15}['’′]{0,2}"
 _BRACED_NAME = re.compile(rf"(?<![_^\w{{,])\{{[ \t]*+(?P<name>{_ATOM}|0)[ \t]*+\}}")
