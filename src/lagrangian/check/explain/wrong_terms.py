@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
+from lagrangian.check.explain.bodies_said import BodiesSaid
+from lagrangian.check.explain.changes.pool import pool_of
 from lagrangian.check.explain.combined_rows import (
     cleared,
     denominator_of,
@@ -15,6 +19,8 @@ from lagrangian.check.explain.combined_rows import (
     terms_of,
     with_combined_rows,
 )
+from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
@@ -28,7 +34,33 @@ VAGUE = ("special_case", "denominator", "multiplier_missing")
 
 def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
-    also in equations into which others were put."""
+    also in equations into which others were put. A definition from which all that is wrong follows goes first."""
+    told = _with_terms(truth, lines, verdict)
+    if told.hint and told.mistakes and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
+        return _with_definition(truth, lines, verdict) or told
+    return told
+
+
+def _with_definition(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
+    """The verdict with the wrong definitions from which all lines follow that are wrong; None if there are none."""
+    wrong = [f.line for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    right = [f.line for f in verdict.findings if f.status.right]
+    if not all(x.kind == "equation" for x in wrong) or not np.isfinite(truth.W).all():
+        return None
+    bodies = BodiesSaid(truth, lines, right)
+    free = bool(truth.derivation.multipliers)  # the scale of multipliers in the others is the answer's own
+    moved = [f for f in verdict.findings if not free or f.status is Status.WRONG]
+    blamed = bodies.of_all(moved, wrong) if wrong and bodies.parts else None
+    if blamed is None:
+        return None
+    mistakes = tuple(reasoned(pool_of(truth), p) for p in blamed.said)
+    return replace(
+        verdict, mistakes=mistakes, alternatives=(), findings=with_wrong_definitions(verdict.findings, blamed)
+    )
+
+
+def _with_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict with the line or the terms that are wrong as its mistakes."""
     if verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
         combined = with_combined_rows(truth, lines, replace(verdict, mistakes=(), alternatives=()))
         wrong = [f.line.expr for f in verdict.findings if f.status is Status.WRONG and not f.follows]
