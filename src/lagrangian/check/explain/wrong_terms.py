@@ -38,7 +38,7 @@ def with_wrong_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     """The verdict on a wrong answer without an explanation, with the line or the terms that are wrong as its mistakes;
     also in equations into which others were put. A definition from which all that is wrong follows goes first."""
     told = _with_terms(truth, lines, verdict)
-    if told.hint and told.mistakes and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
+    if told.hint and told.status is Status.WRONG and all(m.name in (*VAGUE, "term_alone") for m in told.mistakes):
         return _with_definition(truth, lines, verdict) or told
     return told
 
