@@ -79,6 +79,34 @@ def test_the_wrong_term_is_told_where_velocities_are_constrained(right: str, wro
     assert not verdict.right and told in str(verdict.mistakes[0].what)
 
 
+SOLVED = """Rolling: r phi' = s psi'
+psi'' = (tau - (2 m + J/r^2) s s' psi' - c s^2/r^2 psi')/(I + m s^2 + J s^2/r^2)
+s'' = s psi'^2 - k s/m"""
+
+
+def test_the_wrong_term_of_a_denominator_is_told_where_velocities_are_constrained() -> None:
+    assert mill().check(SOLVED).right
+    verdict = mill().check(SOLVED.replace("J s^2/r^2)", "J s/r^2)"))
+    assert not verdict.right
+    assert str(verdict.mistakes[0].what).endswith(" J*s/r^2 should be J*s^2/r^2."), verdict.mistakes[0].what
+
+
+WITH_FORCE = """post   T1 = I psi'^2/2
+wheel  T2 = m (s psi')^2/2 + m s'^2/2 + J phi'^2/2
+condition s psi' - r phi' = 0 with multiplier lam
+psi)  (I + m s^2) psi'' + 2 m s s' psi' = tau + lam s
+s)    m s'' - m s psi'^2 + k s = 0
+phi)  J phi'' = - c phi' - lam r"""
+
+
+def test_an_energy_from_which_an_equation_follows_is_told_beside_multipliers() -> None:
+    assert mill().check(WITH_FORCE).right
+    verdict = mill().check(WITH_FORCE.replace("m s'^2/2 + ", "").replace("m s'' - ", "- "))
+    assert not verdict.right and str(verdict.mistakes[0].what).startswith("Line 2 is not right: the kinetic energy")
+    later = mill().check(WITH_FORCE.replace("m s'' - ", "- "))
+    assert not later.right and all("Line 2" not in str(m.what) for m in later.mistakes)
+
+
 ROWS = "(M + m) x'' + m y'' = 0\n"
 
 

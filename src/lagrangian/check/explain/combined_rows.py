@@ -52,7 +52,8 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
     findings, told = list(verdict.findings), list[WrongTerm]()
     for finding in verdict.findings:
         rows = finding.status is Status.WRONG and finding.line.kind == "equation" and len(finding.differences) != 1
-        if not rows or (wrong := one_wrong_term(on, cleared(finding.line.expr))) is None:
+        written = as_written(lines, finding.line) if rows else finding.line
+        if not rows or (wrong := one_wrong_term(on, cleared(written.expr))) is None:
             continue
         k = next(k for k, f in enumerate(findings) if f is finding)
         if any(wrong.factor == x.factor and _quotient(on, wrong.term, x.term) for x in told):
@@ -71,6 +72,12 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
         differences = (difference(on, wrong, finding.coordinate),)
         findings[k] = replace(finding, differences=differences, coordinate=None, note=note)
     return replace(verdict, findings=tuple(findings))
+
+
+def as_written(lines: Sequence[AnsweredLine], line: AnsweredLine) -> AnsweredLine:
+    """A line as the answer has it, without the multiplier with which it was compared with others."""
+    same = [x for x in lines if (x.kind, x.number, x.text, x.name) == (line.kind, line.number, line.text, line.name)]
+    return same[0] if len(same) == 1 else line
 
 
 def cleared(expr: sp.Expr) -> sp.Expr:
