@@ -133,3 +133,17 @@ def test_a_derivative_of_the_potential_may_have_a_minus(sledge: lg.Derivation, s
     assert not verdict.right and verdict.findings[1].line.kind == "V-slope" and not verdict.findings[1].status.right
     right = sledge.check(wrong.replace("(-k ", "(-k e "))
     assert all(f.status.right for f in right.findings), right
+
+
+def test_an_entry_of_a_mass_matrix_stands_on_no_side_of_the_line_that_is_solved() -> None:
+    s = lg.System("coupled")
+    a, b = s.coordinates("a b")
+    J, m, e, k, c = s.parameters("J m e k c")
+    s.kinetic(J * sp.diff(a, time) ** 2 / 2 + m * (sp.diff(b, time) + e * sp.diff(a, time)) ** 2 / 2, name="both")
+    s.spring(k, deflection=a, name="spring")
+    s.spring(c, deflection=b, name="other spring")
+    coupled = s.derive()
+    program = "% q = [a; b]\nMq = [J + m*e^2, {}*m*e; m*e, m];\nKq = [k, 0; 0, c];\nqdd = Mq\\(-Kq*q);"
+    assert coupled.check(program.format("1"), hint=0).right
+    told = words(coupled, program.format("-1"))
+    assert "e*m*b''" in told and "right-hand side" not in told, told

@@ -24,6 +24,7 @@ LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
 _EQUALS = re.compile(r"(?<![<>=!:])={1,2}(?![=>])")
 _SIGN = re.compile(r"(?<![\d.][eE])(?<![\^_{(*/])[-+−±]")
 _RATE = re.compile(r"['’′″\u0307\u0308]|dot|\bd\w{0,9}\s?/\s?dt|[dD]iff|Derivative|[ẋẍẏÿżṙṁ]")
+_MATRIX = re.compile(r"\s*+(?:\w{1,12}\.)?(?:Matrix|array|\[|\{\{|\\begin)")
 _NAME = re.compile(r"[^\W\d]\w*")
 _DIFFERENTIAL = re.compile(r"\bd(\w{1,12})\s?/\s?dt\b")
 _NO_NAMES = frozenset(["t", "diff", "Derivative", "dt"])
@@ -37,10 +38,13 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
     The difference is given with everything on the left.
     """
     sides = _EQUALS.split(line.text) if len(line.text) <= LONGEST else []
-    if line.kind != "equation" or len(sides) != 2:
+    if line.kind != "equation" or len(sides) != 2 or _MATRIX.match(sides[1]):
         return "", difference
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
     names = _names_in(difference.written if difference.written != 0 else difference.term)
+    moved = any(d.derivative_count > 1 for d in difference.term.atoms(sp.Derivative))
+    if moved and difference.written != 0 and not names & _names(line.text):
+        return "", difference  # an entry of a mass matrix, not of what is solved with it
     here, there = (sum(_names(x) == names for x in _terms(side)) for side in sides)
     if there and not here:
         return flipped
