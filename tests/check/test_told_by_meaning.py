@@ -147,3 +147,18 @@ def test_an_entry_of_a_mass_matrix_stands_on_no_side_of_the_line_that_is_solved(
     assert coupled.check(program.format("1"), hint=0).right
     told = words(coupled, program.format("-1"))
     assert "e*m*b''" in told and "right-hand side" not in told, told
+
+
+def test_what_is_known_of_one_equation_is_told_beside_a_term_of_another() -> None:
+    s = lg.System("two rollers")
+    x, y = s.coordinates("x y")
+    m, J, r, M, k, g = s.parameters("m J r M k g")
+    s.rigid_body(mass=m, inertia=J, at=s.point("C", (x, 0)), frame=s.frame(x / r, name="roller"), name="roller")
+    s.particle(mass=M, at=s.point("L", (0, -y)), name="load")
+    s.spring(k, deflection=y - x, name="spring")
+    s.gravity((0, -1), g)
+    verdict = s.derive().check("m x'' + k (x - y) = 0\nM y'' + k (y - x) = (m + M) g")
+    told = [str(x.what) for x in verdict.mistakes]
+    assert not verdict.right and len(told) == 2, told
+    assert told[0] == "½Jω² of rigid body 'roller' is missing.", told
+    assert "In line 2" in told[1] and "the term -g*m does not belong there" in told[1], told
