@@ -20,7 +20,7 @@ from lagrangian.records import dataclass
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class KnownBeside:
     """A mistake of the pool that explains one wrong equation."""
 
     explanation: Explanation
@@ -35,7 +35,7 @@ class Known:
         return in_words(truth, self.explanation.told[0], self.explanation.under)
 
 
-Slip: TypeAlias = "OwnTerm | Known"
+Slip: TypeAlias = "OwnTerm | KnownBeside"
 
 
 def with_known(
@@ -49,7 +49,7 @@ def with_known(
     return told if any(isinstance(t, OwnTerm) for t in told) else own
 
 
-def _known(pool: Pool, own: OwnTerm, found: Sequence[Alignment], against: Set[int]) -> Known | None:
+def _known(pool: Pool, own: OwnTerm, found: Sequence[Alignment], against: Set[int]) -> KnownBeside | None:
     """The likeliest mistake that explains the equation of a term, of which nothing is said that was written."""
     for a in (x for x in found if own.row in x.rows and not x.solved):
         row = own.row or 0
@@ -57,7 +57,7 @@ def _known(pool: Pool, own: OwnTerm, found: Sequence[Alignment], against: Set[in
         for e in each:
             [t] = e.told
             alone = pool.felt[pool.places[id(t.mistake)]].sum() == 1 and id(t.mistake) not in against
-            known = Known(e)
+            known = KnownBeside(e)
             if alone and e.cost < min(own.cost, EXOTIC) and not any(claimed(known.mistake(pool.truth))):
                 return known
     return None

@@ -24,7 +24,6 @@ LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
 _EQUALS = re.compile(r"(?<![<>=!:])={1,2}(?![=>])")
 _SIGN = re.compile(r"(?<![\d.][eE])(?<![\^_{(*/])[-+−±]")
 _RATE = re.compile(r"['’′″\u0307\u0308]|dot|\bd\w{0,9}\s?/\s?dt|[dD]iff|Derivative|[ẋẍẏÿżṙṁ]")
-_MATRIX = re.compile(r"\s*+(?:\w{1,12}\.)?(?:Matrix|array|\[|\{\{|\\begin)")
 _ACCELERATION = re.compile(r"\w(?:dd|ddot)\b")
 """An acceleration as programs call it."""
 _NAME = re.compile(r"[^\W\d]\w*")
@@ -40,7 +39,7 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
     The difference is given with everything on the left.
     """
     sides = _EQUALS.split(line.text) if len(line.text) <= LONGEST else []
-    if line.kind != "equation" or len(sides) != 2 or _MATRIX.match(sides[1]):
+    if line.kind != "equation" or len(sides) != 2:
         return "", difference
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
     names = _names_in(difference.written if difference.written != 0 else difference.term)
