@@ -162,3 +162,21 @@ def test_what_is_known_of_one_equation_is_told_beside_a_term_of_another() -> Non
     assert not verdict.right and len(told) == 2, told
     assert told[0] == "½Jω² of rigid body 'roller' is missing.", told
     assert "In line 2" in told[1] and "the term -g*m does not belong there" in told[1], told
+
+
+def test_an_energy_follows_from_a_wrong_rate_also_where_the_motion_is_an_angle() -> None:
+    s = lg.System("child on a swing")
+    theta = s.coordinates("theta")
+    M, J, h, A, nu = s.parameters("M J h A nu")
+    alpha = s.define("alpha", A * sp.sin(nu * time))
+    at = (sp.sin(theta) - h * sp.sin(theta + alpha), -sp.cos(theta) + h * sp.cos(theta + alpha))
+    s.rigid_body(mass=M, inertia=J, at=s.point("C", at), frame=s.frame(theta + alpha, name="body"), name="child")
+    swing = s.derive()
+    answer = """alpha' = {0}
+T = 1/2 M theta'^2 + 1/2 (M h^2 + J) (theta' + {0})^2 - M h theta' (theta' + {0}) cos(alpha)"""
+    right, wrong = (answer.format(x) for x in ("A nu cos(nu t)", "A cos(nu t)"))
+    assert all(f.status.right for f in swing.check(right).findings)
+    verdict = swing.check(wrong)
+    assert not verdict.right and [f.follows for f in verdict.findings] == [False, True] and len(verdict.mistakes) == 1
+    verdict = swing.check(wrong.replace("+ 1/2 (M h^2 + J)", "+ (M h^2 + J)"))
+    assert not verdict.right and not any(f.follows for f in verdict.findings)
