@@ -133,3 +133,50 @@ def test_a_derivative_of_the_potential_may_have_a_minus(sledge: lg.Derivation, s
     assert not verdict.right and verdict.findings[1].line.kind == "V-slope" and not verdict.findings[1].status.right
     right = sledge.check(wrong.replace("(-k ", "(-k e "))
     assert all(f.status.right for f in right.findings), right
+
+
+def test_an_entry_of_a_mass_matrix_stands_on_no_side_of_the_line_that_is_solved() -> None:
+    s = lg.System("coupled")
+    a, b = s.coordinates("a b")
+    J, m, e, k, c = s.parameters("J m e k c")
+    s.kinetic(J * sp.diff(a, time) ** 2 / 2 + m * (sp.diff(b, time) + e * sp.diff(a, time)) ** 2 / 2, name="both")
+    s.spring(k, deflection=a, name="spring")
+    s.spring(c, deflection=b, name="other spring")
+    coupled = s.derive()
+    program = "% q = [a; b]\nMq = [J + m*e^2, {}*m*e; m*e, m];\nKq = [k, 0; 0, c];\nqdd = Mq\\(-Kq*q);"
+    assert coupled.check(program.format("1"), hint=0).right
+    told = words(coupled, program.format("-1"))
+    assert "e*m*b''" in told and "right-hand side" not in told, told
+
+
+def test_what_is_known_of_one_equation_is_told_beside_a_term_of_another() -> None:
+    s = lg.System("two rollers")
+    x, y = s.coordinates("x y")
+    m, J, r, M, k, g = s.parameters("m J r M k g")
+    s.rigid_body(mass=m, inertia=J, at=s.point("C", (x, 0)), frame=s.frame(x / r, name="roller"), name="roller")
+    s.particle(mass=M, at=s.point("L", (0, -y)), name="load")
+    s.spring(k, deflection=y - x, name="spring")
+    s.gravity((0, -1), g)
+    verdict = s.derive().check("m x'' + k (x - y) = 0\nM y'' + k (y - x) = (m + M) g")
+    told = [str(x.what) for x in verdict.mistakes]
+    assert not verdict.right and len(told) == 2, told
+    assert told[0] == "½Jω² of rigid body 'roller' is missing.", told
+    assert "In line 2" in told[1] and "the term -g*m does not belong there" in told[1], told
+
+
+def test_an_energy_follows_from_a_wrong_rate_also_where_the_motion_is_an_angle() -> None:
+    s = lg.System("child on a swing")
+    theta = s.coordinates("theta")
+    M, J, h, A, nu = s.parameters("M J h A nu")
+    alpha = s.define("alpha", A * sp.sin(nu * time))
+    at = (sp.sin(theta) - h * sp.sin(theta + alpha), -sp.cos(theta) + h * sp.cos(theta + alpha))
+    s.rigid_body(mass=M, inertia=J, at=s.point("C", at), frame=s.frame(theta + alpha, name="body"), name="child")
+    swing = s.derive()
+    answer = """alpha' = {0}
+T = 1/2 M theta'^2 + 1/2 (M h^2 + J) (theta' + {0})^2 - M h theta' (theta' + {0}) cos(alpha)"""
+    right, wrong = (answer.format(x) for x in ("A nu cos(nu t)", "A cos(nu t)"))
+    assert all(f.status.right for f in swing.check(right).findings)
+    verdict = swing.check(wrong)
+    assert not verdict.right and [f.follows for f in verdict.findings] == [False, True] and len(verdict.mistakes) == 1
+    verdict = swing.check(wrong.replace("+ 1/2 (M h^2 + J)", "+ (M h^2 + J)"))
+    assert not verdict.right and not any(f.follows for f in verdict.findings)

@@ -68,9 +68,12 @@ def _with_rates(
     back = {d: x for x, d in held.items()}
     total: list[sp.Expr] = []
     hidden = cast("sp.Expr", truth.expand(expr).xreplace(held))
+    functions = [x for x in hidden.atoms(sp.sin, sp.cos) if x.has(time)]
+    turned = {x: sp.Dummy() for x in functions if x.has(*back) or x.args[0].has(sp.sin, sp.cos)}  # the place is right
+    hidden, inner = cast("sp.Expr", hidden.xreplace(turned)), {d: x for x, d in turned.items()}
     for term in sp.Add.make_args(bounded.expand(hidden)):
         total.append(_term_with_rates(term, rates, said))
-    return cast("sp.Expr", sp.Add(*total).xreplace(back))
+    return cast("sp.Expr", sp.Add(*total).xreplace(inner).xreplace(back))
 
 
 def _term_with_rates(term: sp.Expr, rates: Sequence[tuple[int, sp.Expr]], said: Mapping[int, sp.Expr]) -> sp.Expr:

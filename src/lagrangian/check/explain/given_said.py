@@ -26,9 +26,10 @@ OF_MOTION = " of the prescribed motion"
 
 
 def of_given(change: LocalChange, sites: Sites) -> LocalChange:
-    """The change, of which the motion that it leaves out or turns is said, or its rate, and not the letter of it."""
+    """The change of one of `OF_LETTERS`, of which the motion that it leaves out or turns is said, or its rate, and not
+    the letter of it."""
     letter: Any = change.right
-    if change.kind not in OF_LETTERS or not isinstance(letter, sp.Symbol):
+    if not isinstance(letter, sp.Symbol):
         return change
     given = [(x, f) for x, f in _motions(sites) if f.has(letter)]
     if len(given) != 1:

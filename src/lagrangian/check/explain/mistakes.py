@@ -18,6 +18,7 @@ from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.joined import is_part, joined
+from lagrangian.check.explain.known_beside import with_known
 from lagrangian.check.explain.line_mistakes import (
     MOST_TOLD,
     UNNATURAL,
@@ -317,8 +318,8 @@ def _of_equations(
         explained, cost = more, more[0].cost
     if (numerators := by_numerators(pool, solved)) and sum(x.cost + 1 for _, x in numerators) - 1 < cost:
         return [], [_of_numerator(pool.truth, expr, x) for expr, x in numerators]
-    own = own_terms(pool, exprs, P, found)
-    if own is not None and sum(t.cost for t in own) + len(own) - 1 < cost:
+    own = with_known(pool, own_terms(pool, exprs, P, found), found, against)
+    if own and sum(t.cost for t in own) + len(own) - 1 < cost:
         return [], [t.mistake(pool.truth) for t in own]
     explained = [e for e in explained if e.cost <= UNNATURAL]
     if not explained and (under := denominator(pool.truth, solved, Q)) is not None:

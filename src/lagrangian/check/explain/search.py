@@ -6,10 +6,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 
 import numpy as np
+from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.derive.sampling import Array
+from lagrangian.model import Gravity
 from lagrangian.records import dataclass
 
 SMALL = 1e-7
@@ -198,9 +201,16 @@ def _plain(pool: Pool) -> tuple[Array, Array, Array]:
 
 
 def _half_changed(one: Told, other: Told) -> bool:
-    """Whether an element is counted twice, and changed in one of both: P s beside P R is one term P s too much."""
-    same = one.mistake.element is not None and one.mistake.element == other.mistake.element
-    return same and "element_twice" in (one.mistake.name, other.mistake.name)
+    """Whether an element is counted twice, and changed in one of both: P s beside P R is one term P s too much, and so
+    is m g y beside M g y."""
+    if "element_twice" not in (one.mistake.name, other.mistake.name):
+        return False
+    if one.mistake.element is not None and one.mistake.element == other.mistake.element:
+        return True
+    weights = [x.mistake.wrong.variant.V for x in (one, other) if x.mistake.wrong is not None]
+    if len(weights) < 2 or 0 in weights or not any(isinstance(x.mistake.element, Gravity) for x in (one, other)):
+        return False
+    return not bounded.cancel(weights[0] / weights[1]).atoms(AppliedUndef)
 
 
 def _kinship(one: Told, other: Told) -> float:

@@ -49,7 +49,8 @@ def _on_side(mistake: Mistake, roots: list[Finding]) -> Mistake:
     line = own[0].line
     side, said = on_side(line, TermDifference("", parts[1], written, mistake.coordinate))
     inside, named = begins == IN_THE_TERM, EQUATION in after
-    if (not side and (named or len(roots) == 1)) or (inside and named and side == LEFT):
+    clear = named and side == LEFT and (inside or ON_LEFT in after)
+    if clear or (not side and (named or len(roots) == 1)):
         return mistake
     if said.term != parts[1]:
         parts = [*_turned(parts[: end + 1]), *parts[end + 1 :]]

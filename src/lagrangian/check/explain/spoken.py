@@ -10,7 +10,7 @@ import numpy as np
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
-from lagrangian.check.explain.given_said import of_given
+from lagrangian.check.explain.given_said import OF_LETTERS, of_given
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Mistake
@@ -40,7 +40,10 @@ def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
     assert possible.change is not None
     row = possible.change.site.coordinate
     factor = under.factor(truth, row) if under is not None and row is not None else None
-    return say.mistake(of_given(possible.change, pool_of(truth).sites), told.times, truth.model, factor)
+    change = possible.change
+    if change.kind in OF_LETTERS:
+        change = of_given(change, pool_of(truth).sites)
+    return say.mistake(change, told.times, truth.model, factor)
 
 
 def in_lagrangian(mistake: Mistake, line: AnsweredLine) -> Mistake:

@@ -24,6 +24,8 @@ LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
 _EQUALS = re.compile(r"(?<![<>=!:])={1,2}(?![=>])")
 _SIGN = re.compile(r"(?<![\d.][eE])(?<![\^_{(*/])[-+−±]")
 _RATE = re.compile(r"['’′″\u0307\u0308]|dot|\bd\w{0,9}\s?/\s?dt|[dD]iff|Derivative|[ẋẍẏÿżṙṁ]")
+_ACCELERATION = re.compile(r"\w(?:dd|ddot)\b")
+"""An acceleration as programs call it."""
 _NAME = re.compile(r"[^\W\d]\w*")
 _DIFFERENTIAL = re.compile(r"\bd(\w{1,12})\s?/\s?dt\b")
 _NO_NAMES = frozenset(["t", "diff", "Derivative", "dt"])
@@ -41,6 +43,9 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
         return "", difference
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
     names = _names_in(difference.written if difference.written != 0 else difference.term)
+    moved = any(d.derivative_count > 1 for d in difference.term.atoms(sp.Derivative))
+    if moved and _ACCELERATION.search(sides[0]) and not _ACCELERATION.search(sides[1]):
+        return "", difference  # on the side of the accelerations, M qdd = f - K q
     here, there = (sum(_names(x) == names for x in _terms(side)) for side in sides)
     if there and not here:
         return flipped
