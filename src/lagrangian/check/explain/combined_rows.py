@@ -66,7 +66,7 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
             continue
         note = (
             finding.note
-            if wrong.factor == sp.oo or _stands_in(wrong.term, finding.line)
+            if wrong.factor == sp.oo or stands_in(wrong.term, finding.line)
             else text("after substituting what other lines say of its names")
         )
         differences = (difference(on, wrong, finding.coordinate),)
@@ -102,7 +102,7 @@ def _put_in_from(
 ) -> Finding | None:
     """The finding for the definition from which a wrong term was put in: its name stands in the line, in which a letter
     of the term does not. None if there is none, or several."""
-    if wrong.factor == sp.oo or _stands_in(wrong.term, line):
+    if wrong.factor == sp.oo or stands_in(wrong.term, line):
         return None
     found: list[Finding] = []
     for x in lines:
@@ -117,7 +117,7 @@ def _put_in_from(
     return found[0] if len(found) == 1 else None
 
 
-def _stands_in(term: sp.Expr, line: AnsweredLine) -> bool:
+def stands_in(term: sp.Expr, line: AnsweredLine) -> bool:
     """Whether the text of a line has all letters of a term, also within words: m₃ae."""
     written = key(line.text)
     return all(key(str(x)) in written for x in bounded.letters(term) if isinstance(x, sp.Symbol))

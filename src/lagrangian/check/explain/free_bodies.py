@@ -66,6 +66,10 @@ class Match:
         wrong = [self._by_states(1 - self.counts[e]) * self.balance.loads[e] for e in elements]
         return self._by_states(self.scale) * np.sum(wrong, axis=0)
 
+    def share(self, element: Element) -> Array:
+        """What a force adds to the line, left minus right, as the line has it, at every state."""
+        return -self._by_states(self.scale * self.counts[element]) * self.balance.loads[element]
+
     def _by_states(self, values: Array) -> Array:
         return np.repeat(values, self.balance.inertia.size // SETS)
 

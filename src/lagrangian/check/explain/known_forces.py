@@ -6,6 +6,7 @@ Where all that is known in a line is right, only its own forces can be wrong in 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -13,8 +14,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.balance_terms import is_mass
+from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, own_terms_of, stands_in
 from lagrangian.check.explain.free_bodies import Match, free_bodies
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Damper, Element, Force, Gravity, Spring, Torque, time
@@ -39,7 +41,8 @@ SAID: dict[sp.Expr, str] = {
 @dataclass(frozen=True, eq=False)
 class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
-    element if it is one, by how much the line is wrong at every state, and the elements that act in it."""
+    element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
+    is written."""
 
     right: bool
     moment: bool
@@ -47,6 +50,7 @@ class KnownPart:
     element: Element | None = None
     excess: Array | None = None
     acting: frozenset[Element] = frozenset()
+    term: WrongTerm | None = None
 
     def may_lack(self, truth: Reference, term: sp.Expr) -> bool:
         """Whether a line with right known forces may still lack a term: one of an element that is not known to act."""
@@ -66,10 +70,12 @@ def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequenc
         if found:
             matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
-    return {i: _part(factors, lines[i], m, explicit) for i, m in matches.items()}
+    return {i: _part(truth, factors, lines[i], m, explicit) for i, m in matches.items()}
 
 
-def _part(factors: Mapping[sp.Expr, Array], line: AnsweredLine, match: Match, explicit: set[Element]) -> KnownPart:
+def _part(
+    truth: Reference, factors: Mapping[sp.Expr, Array], line: AnsweredLine, match: Match, explicit: set[Element]
+) -> KnownPart:
     """What is known in one line; a spring that other lines have under its own letter is missing in it."""
     moment = match.balance.moment
     missing = [e for e in match.omitted if e in explicit and isinstance(e, (Spring, Damper))]
@@ -78,7 +84,8 @@ def _part(factors: Mapping[sp.Expr, Array], line: AnsweredLine, match: Match, ex
         times = next(iter(listed.values()))
         if times is None or len(set(listed.values())) > 1:
             return KnownPart(False, moment)
-        return _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
+        part = _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
+        return replace(part, term=_term(truth, line, match, times)) if len(listed) == 1 else part
     if missing:
         return _said(line, match, missing, ["are missing" if len(missing) > 1 else "is missing"])
     return KnownPart(not match.omitted, moment, acting=frozenset(match.counts))
@@ -98,6 +105,17 @@ def _alike(truth: Reference) -> set[sp.Expr]:
     sizes = [x for b in truth.model.bodies for x in (b.mass, *(y for row in b.tensor for y in row))]
     numbers = {abs(sp.sympify(x).as_coeff_Mul()[0]) for x in sizes}
     return {sp.S.One, *(1 / n for n in numbers if n.is_Integer and n > 1)}
+
+
+def _term(truth: Reference, line: AnsweredLine, match: Match, times: sp.Expr) -> WrongTerm | None:
+    """The term of a line that a wrong force is, if it is one and no name stands for it there."""
+    (element,) = match.wrong
+    own = own_terms_of(line.expr) if terms(line.expr) <= MOST_TERMS else []
+    values = CompiledExpressions(own).at(truth.states) if own else []
+    share = match.share(element)
+    size = NEAR * np.abs(share).max()
+    same = [t for t, x in zip(own, values, strict=True) if np.abs(x - share).max() <= size]
+    return WrongTerm(same[0], 1 / times) if same and stands_in(same[0], line) else None
 
 
 # -- definitions ------------------------------------------------------------------------------------------------------

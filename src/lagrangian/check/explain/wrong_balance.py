@@ -128,13 +128,13 @@ def with_wrong_balance(
     right = [x for x in (*balances.lines, *later) if x is not line and x not in false]
     roots = {_at(f.line) for f in verdict.findings if f.status is Status.WRONG and not f.follows}
     theirs = solved.known is not None or (solved.term is not None and solved.term.term.has(*balances.forces))
-    plain &= theirs or k is None or k in parts
+    plain &= theirs or k is None or k in parts or on is not truth
     if verdict.mistakes and roots == {_at(line)} and not plain:
         return verdict  # it is explained, and no other line is called wrong
     notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
     findings = _marked(verdict.findings, right, blamed, follow)
     mistake = _mistake(blamed, WHY_SOLVED if k is None else WHY)
-    if solved.known is not None and solved.known.said is not None:
+    if solved.term is None and solved.known is not None and solved.known.said is not None:
         title = None if solved.known.element is None else solved.known.element.title
         mistake = replace(mistake, what=solved.known.said, element=title)
     return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
@@ -188,8 +188,9 @@ def _one_blamed(
     for i in told:
         u = balances.forces_without(i) if left_out else None
         if u is not None and _is_true(truth, balances.lines[i], truth.accelerations | u, parts[i].excess):
-            false = tuple(x for x in later if not _is_true(truth, x, truth.accelerations | u))
-            return WrongBalance(i, balances.lines[i], None, false, few=True, known=parts[i])
+            values = truth.accelerations | u
+            false = tuple(x for x in later if not _is_true(truth, x, values))
+            return WrongBalance(i, balances.lines[i], parts[i].term, false, few=True, known=parts[i])
     k = left_out[0] if len(left_out) == 1 else None
     rest = [i for i in every if i != k]
     if len(left_out) <= 1 and balances.compared(rest) and (u := balances.solved(rest)) is not None:
@@ -215,7 +216,7 @@ def _one_blamed(
             listed[i] = found
     if (best := plainest(listed)) is None:
         i = next(iter(told), None)
-        return None if i is None else WrongBalance(i, balances.lines[i], None, few=True, known=parts[i])
+        return None if i is None else WrongBalance(i, balances.lines[i], parts[i].term, few=True, known=parts[i])
     i, term = best
     false = tuple(x for x in later if not _is_true(truth, x, given[i]))
     return WrongBalance(i, balances.lines[i], term, false, few=True)

@@ -63,14 +63,14 @@ def _with_definition(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
 
 def _with_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
     """The verdict with the line or the terms that are wrong as its mistakes."""
-    if verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
+    balanced = with_wrong_balance(truth, lines, verdict)
+    if balanced is verdict and verdict.mistakes and all(m.name in VAGUE for m in verdict.mistakes):
         combined = with_combined_rows(truth, lines, replace(verdict, mistakes=(), alternatives=()))
         wrong = [f.line.expr for f in verdict.findings if f.status is Status.WRONG and not f.follows]
         if any(m.name == "denominator" for m in verdict.mistakes) and any(denominator_of(x) is not None for x in wrong):
             return _with_term_of_denominator(truth, lines, verdict, combined)
         found = _with_denominators(truth, lines, with_terms_alone(combined), combined)
         return found if found.mistakes else verdict
-    balanced = with_wrong_balance(truth, lines, verdict)
     combined = with_combined_rows(truth, lines, balanced)
     told = with_terms_alone(_with_term_of_one_line(truth, combined))
     told = told if balanced.mistakes else _with_denominators(truth, lines, told, combined)
