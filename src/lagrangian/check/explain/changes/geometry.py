@@ -181,7 +181,7 @@ class GeometryChanges:
             square = self.sites.sum(sp.Add(*[bounded.diff(x, v) ** 2 for x in velocity]))
             if not square:
                 return
-            speeds.append(cast("sp.Expr", sp.powdenest(sp.sqrt(self.sites.ring.expr(square)), force=True)))
+            speeds.append(self.sites.ring.root(square))
         for signs in ((1, 1, 1), (1, -1, 1), (1, 1, -1), (1, -1, -1)):
             if len(rates) == 2 and signs[2] < 0:
                 continue

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from math import isqrt
 from typing import TypeAlias, cast
 
 import sympy as sp
@@ -110,6 +111,16 @@ class SumRing:
                 exponents[cosine] += both
                 exponents[cast("sp.Expr", sp.tan(f.args[0]))] = both
         return cast("sp.Expr", sp.Mul(*[f**e for f, e in exponents.items()]))
+
+    def root(self, value: Sum) -> sp.Expr:
+        """The square root of a sum, as if all letters were positive: r of r²."""
+        if len(value) == 1:
+            [(m, c)] = value.items()
+            above, below = isqrt(abs(c.numerator)), isqrt(c.denominator)
+            plain = all(e % 2 == 0 and isinstance(self.atoms[a], sp.Symbol) for a, e in m)
+            if plain and Fraction(above**2, below**2) == c:
+                return self.expr({tuple((a, e // 2) for a, e in m): Fraction(above, below)})
+        return cast("sp.Expr", sp.powdenest(sp.sqrt(self.expr(value)), force=True))
 
     def slope(self, value: Sum, by: sp.Expr) -> Sum:
         """∂value/∂by."""
