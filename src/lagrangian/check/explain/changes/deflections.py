@@ -147,19 +147,12 @@ class DeflectionChanges:
         if len(slopes) < 2:
             return
         force = self._force(strut, cast("sp.Expr", other - whole))
-        rows = {i: self._product(force, slope) for i, slope in slopes.items()}
+        rows = {i: self.sites.ring.of_both(force, slope) for i, slope in slopes.items()}
         rows = {i: x for i, x in rows.items() if x}
         if len(rows) > 1:
             words: Words = (f"the deflection in the force of {strut.title}",)
             site = Site(words=words, brief=words, step=5, element=strut.spring)
             yield made(kind, cost, site, {"rows": rows}, whole, other)
-
-    def _product(self, force: sp.Expr, slope: sp.Expr) -> Sum | None:
-        """A force times what it acts along."""
-        try:
-            return times(self.sites.ring.of(force), self.sites.ring.of(slope))
-        except TooLong:
-            return None
 
     def _others(self, whole: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
         """What may be taken for a deflection: a piece left out or with the wrong sign; another coordinate."""

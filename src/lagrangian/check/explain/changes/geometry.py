@@ -264,7 +264,7 @@ class GeometryChanges:
         ratio = self._ratio(pairs)
         negative = bool(ratio) and bool(speeds)
         negative = negative and all(x.could_extract_minus_sign() for _, x in pairs[: len(speeds)])
-        return sp.Rational(ratio.numerator, ratio.denominator), negative
+        return cast("sp.Rational", sp.Rational(ratio.numerator, ratio.denominator)), negative
 
     def _ratio(self, pairs: Sequence[tuple[sp.Expr, sp.Expr]]) -> Fraction:
         """The number that all quotients are; 0 if they are none or differ."""
@@ -315,7 +315,7 @@ class GeometryChanges:
     def _inertias(self, b: Any, omega: sp.Expr, full: sp.Expr) -> Iterator[LocalChange]:
         ring = self.sites.ring
         square, own = self.gains.of_square(full, ring.of(omega)), ring.of(self.s.rotation(b))
-        names: dict[sp.Rational, float] = {
+        names: dict[Any, float] = {
             sp.Integer(1): 1.9,
             sp.Rational(1, 2): 2.0,
             sp.Rational(2, 5): 2.2,

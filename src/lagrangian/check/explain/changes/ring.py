@@ -62,6 +62,13 @@ class SumRing:
             self._known[expr] = self._read(expr)
         return self._known[expr]
 
+    def of_both(self, a: sp.Expr, b: sp.Expr) -> Sum | None:
+        """The product of two expressions as a sum; None if it is too long."""
+        try:
+            return times(self.of(a), self.of(b))
+        except TooLong:
+            return None
+
     def _read(self, expr: sp.Expr) -> Sum:
         if isinstance(expr, (sp.Rational, sp.Float)):
             number = Fraction(str(expr)) if isinstance(expr, sp.Float) else Fraction(int(expr.p), int(expr.q))

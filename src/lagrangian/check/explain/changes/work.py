@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
-from lagrangian.check.explain.changes.ring import Sum, TooLong, minus, scaled, times
+from lagrangian.check.explain.changes.ring import Sum, TooLong, minus, scaled
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.model import Element
@@ -62,7 +62,7 @@ class WorkChanges:
         ring, arms = self.sites.ring, self.arms
         for effort, right in self._efforts(element, shares):
             yield from self._moved_without_arm(element, shares, effort)
-            moved = {arm: self._product(effort, ring.of(arm)) for arm in arms}
+            moved = {arm: ring.of_both(effort, arm) for arm in arms}
             for i in range(self.sites.n):
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
                 added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
@@ -70,7 +70,7 @@ class WorkChanges:
                 yield from self._half_or_double(effort, right[i], site, i)
                 if right[i].is_number and right[i] not in (0, 1, -1) and (extra := self._sum(effort * _unit(right[i]))):
                     yield _change("no_arm", NUMBER, site, {i: extra}, abs(right[i]), None)
-                own, number = self._share(effort, right[i]), right[i].is_number and right[i] != 0
+                own, number = ring.of_both(effort, right[i]), right[i].is_number and right[i] != 0
                 for arm in arms:
                     for sign in (1, -1):
                         if sign * arm == right[i] or (number and arm == 1):
@@ -84,20 +84,6 @@ class WorkChanges:
                             )
                             kind = "arm_added" if right[i] == 0 else "no_arm" if sign * arm == 1 else "arm"
                             yield _change(kind, cost, place, {i: extra}, right[i], sign * arm)
-
-    def _product(self, effort: sp.Expr, arm: Sum) -> Sum | None:
-        """An effort times an arm."""
-        try:
-            return times(self.sites.ring.of(effort), arm)
-        except TooLong:
-            return None
-
-    def _share(self, effort: sp.Expr, arm: sp.Expr) -> Sum | None:
-        """The share of an effort by its own arm."""
-        try:
-            return self._product(effort, self.sites.ring.of(arm))
-        except TooLong:
-            return None
 
     def _apart(self, moved: Sum | None, sign: int, own: Sum | None) -> Sum | None:
         """What a share gains with another arm."""
@@ -123,9 +109,9 @@ class WorkChanges:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
         if not right.has(*self.lengths) or self._is_part(effort, site.element):
             return
-        for times in (sp.S.Half, sp.Integer(2)):
-            if extra := self._sum(effort * (times - 1) * right):
-                yield _change("arm", 1.5, site, {i: extra}, right, times * right)
+        for number in (sp.S.Half, sp.Integer(2)):
+            if extra := self._sum(effort * (number - 1) * right):
+                yield _change("arm", 1.5, site, {i: extra}, right, number * right)
 
     def _is_part(self, effort: sp.Expr, element: Element | None) -> bool:
         """Whether an effort is a factor of that which an element is given with: half its arm is half of the whole."""
