@@ -10,6 +10,7 @@ the answer does not depend on how fast or how busy a machine is.
 
 from lagrangian.bounded.effort import count_operations
 from lagrangian.bounded.garbage import rarely_collected
+from lagrangian.bounded.irreducible import split
 from lagrangian.bounded.operations import operations
 from lagrangian.bounded.parts import rebuilt, replaced
 from lagrangian.bounded.questions import answered, hard
@@ -55,6 +56,7 @@ __all__ = [
     "searched",
     "simplify",
     "size",
+    "split",
     "terms",
     "together",
     "trigsimp",

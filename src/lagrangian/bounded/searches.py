@@ -11,6 +11,7 @@ from sympy.functions.elementary.hyperbolic import HyperbolicFunction
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
 from lagrangian.bounded.effort import CallCount, SpentError, count_operations
+from lagrangian.bounded.irreducible import product
 from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
 
 T = TypeVar("T")
@@ -76,7 +77,10 @@ _TURNING: tuple[Any, ...] = (TrigonometricFunction, HyperbolicFunction, sp.exp)
 
 
 def factored(expr: sp.Expr) -> sp.Expr | None:
-    """Return an expression as a product, or None if the search takes too long."""
+    """Return an expression as a product, or None if the search takes too long; sums that have no factors but letters
+    need none."""
+    if (found := product(expr)) is not None:
+        return found
     try:
         return _searched_once(sp.factor, expr)
     except _GivenUpError:

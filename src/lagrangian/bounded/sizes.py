@@ -63,6 +63,16 @@ def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
 
     A shared part counts as often as it occurs. ``names`` maps symbols to the size of what they stand for.
     """
+    return _size(expr, names) if names else _plain_size(expr)
+
+
+@lru_cache(maxsize=5_000)
+def _plain_size(expr: sp.Basic) -> int:
+    """The size of an expression, kept: every bound asks for it."""
+    return _size(expr, None)
+
+
+def _size(expr: sp.Basic, names: Mapping[Any, int] | None) -> int:
     found: dict[int, int] = {}
     for node in each(expr):
         if names and node in names:
@@ -115,6 +125,7 @@ def terms(expr: sp.Basic) -> int:
     return longest
 
 
+@lru_cache(maxsize=5_000)
 def slope_size(expr: sp.Basic) -> int:
     """Return an upper bound on the size of the derivative of an expression."""
     sizes: dict[int, int] = {}

@@ -108,6 +108,9 @@ def _factors(expr: sp.Expr) -> Any:
         except PolynomialError:
             return None
 
+    found = bounded.split(expr)
+    if found is not None and not found[1]:
+        return found[0], [(found[2], 1)]
     return bounded.searched(looked_for) or (sp.S.One, [(expr, 1)])
 
 

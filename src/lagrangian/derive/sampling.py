@@ -21,7 +21,6 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
-from lagrangian.bounded.sizes import each
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
@@ -117,13 +116,28 @@ class CompiledExpressions:
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
         expr = sp.sympify(expr)
-        parts = set(each(expr))
+        if expr in self._memo:
+            return self._memo[expr]
+        parts = self._fresh(expr)
         names = {x for x in parts if isinstance(x, (sp.Symbol, AppliedUndef, sp.Derivative))}
         names |= {x.expr for x in names if isinstance(x, sp.Derivative)}
         expr, exact = self._without_fractions(expr, parts)
         for s in sorted((names | exact) - self.table.keys(), key=sp.default_sort_key):
             self.input(s)
         return from_sympy(self.graph, expr, self.table, self._memo)
+
+    def _fresh(self, expr: sp.Basic) -> set[sp.Basic]:
+        """The parts of an expression that are in no expression before it: those have neither fractions nor new
+        symbols."""
+        found: set[sp.Basic] = set()
+        stack = [expr]
+        while stack:
+            part = stack.pop()
+            if part not in found and part not in self._memo:
+                found.add(part)
+                if not isinstance(part, (AppliedUndef, sp.Derivative)):
+                    stack += part.args
+        return found
 
     def input(self, symbol: sp.Basic) -> int:
         """The node of a symbol."""

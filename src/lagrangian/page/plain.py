@@ -6,6 +6,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -68,4 +69,14 @@ def as_cases(step: Any) -> sp.Piecewise:
 
 def plain(expr: sp.Basic) -> str:
     """Return ``expr`` as text that the grammar of expressions can read."""
+    return _kept(expr) if isinstance(expr, sp.Expr) else _printed(expr)
+
+
+@lru_cache(maxsize=5_000)
+def _kept(expr: sp.Expr) -> str:
+    """The text of a formula, kept: the same pieces stand in many sentences."""
+    return _printed(expr)
+
+
+def _printed(expr: sp.Basic) -> str:
     return _Plain({"order": None, "full_prec": False}).doprint(expr)

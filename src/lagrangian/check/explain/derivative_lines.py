@@ -205,11 +205,17 @@ def _same_number(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.
     """The same for several terms that are all wrong by one number, put together: A Ω² sin θ cos θ + m l² Ω² …."""
     if len(rest) > MOST_ALIKE:
         return None
-    numbers = {n for x in rest for t in right if (n := bounded.cancel(x / t)).is_number}
+    numbers = {n for x in rest for t in right if (n := _quotient(x / t)).is_number}
     whole = sp.factor_terms(sp.Add(*[x / n for n in numbers for x in rest])) if len(numbers) == 1 else None
     if whole is None or any(x / n not in right for n in numbers for x in rest):
         return None
     return cast("sp.Expr", (1 + numbers.pop()) * whole), cast("sp.Expr", whole)
+
+
+def _quotient(expr: sp.Expr) -> sp.Expr:
+    """A quotient without common factors; of products of letters it has none."""
+    sums = any(isinstance(f.as_base_exp()[0], sp.Add) for f in sp.Mul.make_args(expr))
+    return bounded.cancel(expr) if sums else expr
 
 
 def _derivative(

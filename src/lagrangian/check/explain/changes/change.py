@@ -70,13 +70,12 @@ class Site:
         def own(old: Sum) -> Sum:
             return gained(old) if old else old
 
-        return replace(
-            self,
-            T=own(self.T),
-            V=own(self.V),
-            Xi={i: own(x) for i, x in self.Xi.items()},
-            rows={i: own(x) for i, x in self.rows.items()},
-        )
+        made = object.__new__(type(self))  # as `replace` makes it, in a fifth of the time: thousands are made
+        made.__dict__.update(self.__dict__)
+        made.__dict__.update(T=own(self.T), V=own(self.V))
+        made.__dict__["Xi"] = {i: own(x) for i, x in self.Xi.items()}
+        made.__dict__["rows"] = {i: own(x) for i, x in self.rows.items()}
+        return made
 
     def within(self, row: int) -> Site:
         """The same in one row alone."""

@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words, made
 from lagrangian.check.explain.changes.pieces import instead_of_piece
-from lagrangian.check.explain.changes.ring import Sum, plus, scaled
+from lagrangian.check.explain.changes.ring import Sum, TooLong, minus, plus, scaled, times
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import Ingredients, partner
 from lagrangian.check.explain.misconceptions.base import put as replaced
@@ -143,8 +143,11 @@ class DeflectionChanges:
     def _in_the_force(self, strut: Strut, kind: str, cost: float, other: sp.Expr) -> Iterator[LocalChange]:
         """Another deflection in the force k δ + b δ′ alone, which acts where it should: ∂δ/∂ξ_i is right."""
         whole = strut.deflection
+        slopes = {i: bounded.diff(whole, q) for i, q in enumerate(self.s.q) if whole.has(q)}
+        if len(slopes) < 2:
+            return
         force = self._force(strut, cast("sp.Expr", other - whole))
-        rows = {i: self.sites.difference(force * bounded.diff(whole, q), sp.S.Zero) for i, q in enumerate(self.s.q)}
+        rows = {i: self.sites.ring.of_both(force, slope) for i, slope in slopes.items()}
         rows = {i: x for i, x in rows.items() if x}
         if len(rows) > 1:
             words: Words = (f"the deflection in the force of {strut.title}",)
@@ -212,8 +215,14 @@ class DeflectionChanges:
 
     def _energy(self, strut: Strut, other: sp.Expr) -> Sum | None:
         """What another deflection adds to ½ k δ²."""
-        k = self._stiffness(strut)
-        return self.sites.difference(k * other**2 / 2, k * strut.deflection**2 / 2, still=True)
+        ring, k = self.sites.ring, self._stiffness(strut) / 2
+        if other.atoms(sp.Pow) or strut.deflection.atoms(sp.Pow):  # √(x² + a²)² is x², and a² does not move
+            return self.sites.difference(k * other**2, k * strut.deflection**2, still=True)
+        try:
+            k, new, old = (ring.of(x) for x in (k, other, strut.deflection))
+            return ring.moving(times(k, times(minus(new, old), plus(new, old))))
+        except TooLong:
+            return None
 
     def _damping(self, strut: Strut, deflection: sp.Expr) -> list[sp.Expr]:
         """−b δ′ ∂δ/∂ξ_i of the damper with a deflection; nothing without a damper."""

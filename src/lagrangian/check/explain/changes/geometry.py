@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from functools import cached_property
 from itertools import combinations
 from typing import Any, cast
@@ -11,6 +12,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words, made
+from lagrangian.check.explain.changes.gains import Gains
 from lagrangian.check.explain.changes.pieces import (
     along_turning_axes,
     instead_of_angle,
@@ -18,11 +20,10 @@ from lagrangian.check.explain.changes.pieces import (
     instead_of_segment,
     segment,
 )
-from lagrangian.check.explain.changes.ring import ONE, TooLong
+from lagrangian.check.explain.changes.ring import ONE, Sum, TooLong, minus, plus, scaled
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import half_square
 from lagrangian.check.explain.misconceptions.base import put as replaced
-from lagrangian.model import Gravity
 from lagrangian.page.formula import Name
 
 AXES = "xyz"
@@ -39,6 +40,8 @@ class GeometryChanges:
         self.sites = sites
         self.s = sites.of
         self.lengths = list(lengths)
+        self.gains = Gains(sites)
+        self._found: dict[Any, tuple[sp.Rational, bool]] = {}
 
     def changes(self) -> Iterator[LocalChange]:
         """All of them; those whose sums would be too long are left out."""
@@ -62,13 +65,9 @@ class GeometryChanges:
             brief: Words = (f"the position of {b.title}",)
             first = 0.01 if any(k == c for k, _ in pieces[1:]) and (c, p) == pieces[0] else 0.0  # x − y: the sign of y
             for instead, kind, cost in instead_of_piece(p):
-                moved = list(position)
-                moved[c] = cast("sp.Expr", position[c] - p + instead)
-                yield from self._moved(b, moved, kind, cost + first, words, brief, p, instead)
+                yield from self._moved(b, [(c, p, instead)], kind, cost + first, words, brief, p, instead)
             for old, new in self._other_letters(p):
-                moved = list(position)
-                moved[c] = cast("sp.Expr", position[c] - p + replaced(p, {old: new}))
-                yield from self._moved(b, moved, "letter", 2.1, words, brief, old, new)
+                yield from self._moved(b, [(c, p, replaced(p, {old: new}))], "letter", 2.1, words, brief, old, new)
         groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
         for c, p in pieces:
             groups.setdefault(segment(p), []).append((c, p))
@@ -81,9 +80,7 @@ class GeometryChanges:
                 every += [([*pair], "segment_direction", 1.95, key, None) for pair in across]
             every += instead_of_angle([p for _, p in group], self._turning_angles)
             for instead, kind, cost, right, written in every:
-                moved = list(position)
-                for (c, p), other in zip(group, instead, strict=True):
-                    moved[c] = cast("sp.Expr", moved[c] - p + other)
+                moved = [(c, p, other) for (c, p), other in zip(group, instead, strict=True)]
                 yield from self._moved(b, moved, kind, cost, words, words, right, written)
 
     def _other_letters(self, piece: sp.Expr) -> Iterator[tuple[sp.Symbol, sp.Symbol]]:
@@ -101,7 +98,7 @@ class GeometryChanges:
     def _moved(
         self,
         b: Any,
-        position: list[sp.Expr],
+        pieces: Sequence[tuple[int, sp.Expr, sp.Expr]],
         kind: str,
         cost: float,
         words: Words,
@@ -109,29 +106,23 @@ class GeometryChanges:
         right: Any,
         written: Any,
     ) -> Iterator[LocalChange]:
-        """The change of the speed alone, and of the speed and the height."""
-        velocity = tuple(self.s.rate(x) for x in position)
-        T = self.sites.difference(half_square(self.s.expand(b.mass), velocity), self.s.translation(b))
-        V = self._lifted(b, position)
+        """The change of the speed alone, and of the speed and the height, with other ``pieces`` of the position: the
+        component, what belongs there and what stands there."""
+        ring, shift = self.sites.ring, dict[int, Any]()
+        for c, old, new in pieces:
+            shift[c] = plus(shift.get(c, {}), minus(ring.of(new), ring.of(old)))
+        V, faster = self.gains.of_height(b, shift), {c: ring.rate(x) for c, x in shift.items()}
+        T = self.gains.of_speed(b, faster)
         if T is None:
             return
         site = Site(words=words, brief=brief, step=2, element=b)
         if V:
             yield made(kind, cost, site, {"T": T, "V": V}, right, written)
             yield made(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
-        if T and (any(x != 0 for x in velocity) or self.s.rotation(b) == 0):  # otherwise its ½mv² is missing
+        moves = T and any(plus(ring.of(x), faster.get(c, {})) for c, x in enumerate(self.s.velocity(b)))
+        if moves or (T and self.s.rotation(b) == 0):  # otherwise its ½mv² is missing
             rates = [self.s.rate(x) if isinstance(x, sp.Expr) and self.s.moves(x) else x for x in (right, written)]
             yield made(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, *rates)
-
-    def _lifted(self, b: Any, position: list[sp.Expr]) -> Any:
-        """What a moved position adds to m g h."""
-        total: sp.Expr = sp.S.Zero
-        for element in self.sites.model.elements:
-            if isinstance(element, Gravity):
-                ways = zip(element.direction, position, self.s.position(b), strict=True)
-                h = -sum((n * (x - y) for n, x, y in ways if n != 0), sp.S.Zero)
-                total = total + self.s.expand(b.mass * element.g * h)
-        return self.sites.ring.moving(self.sites.sum(total))
 
     def _velocities(self, b: Any) -> Iterator[LocalChange]:
         """A rate left out or with the wrong sign in one component; speeds added as numbers."""
@@ -139,32 +130,32 @@ class GeometryChanges:
         own = self.s.translation(b)
         mass = self.s.expand(b.mass)
         brief: Words = (f"the velocity of {b.title}",)
-        for c, x in enumerate(velocity):
-            rates = [v for v in self.s.v if x.has(v)]
+        parts = {(c, v): x - replaced(x, {v: sp.S.Zero}) for c, x in enumerate(velocity) for v in self.s.v if x.has(v)}
+        sums = {key: self.sites.ring.of(part) for key, part in parts.items()}
+        for c in range(len(velocity)):
+            rates = [v for k, v in parts if k == c]
             for v in rates:
-                part = x - replaced(x, {v: sp.S.Zero})
-                new = own + mass / 2 * part**2
-                yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, part)
+                part, moved = parts[c, v], sums[c, v]
+                twice = self.gains.of_square(mass, moved)
+                yield from self._gained(b, twice, "velocity_part_twice", 2.3, brief, brief, part)
                 words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
                 sign = 1.61 if len(rates) > 1 and v == rates[0] else 1.6  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
                 for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", sign)):
-                    changed = list(velocity)
-                    changed[c] = cast("sp.Expr", x + number * part)
-                    yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
+                    T = self.gains.of_speed(b, {c: scaled(moved, number)})
+                    yield from self._gained(b, T, kind, cost, words, brief, part)
         yield from self._carried(b, velocity, own, mass)
         rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
         rates = rates if len(rates) > 1 else []
         parallel = 2 <= len(rates) <= 3 and self._parallel(velocity, rates)
         told: set[tuple[Any, Any]] = set()
         for v in rates[1:] if parallel and len(rates) == 2 else rates:  # ẋ − ẏ for ẋ + ẏ: the sign of ẏ was slipped
-            gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
+            turned = {c: scaled(x, -2) for (c, w), x in sums.items() if w == v}
             cost = 1.55 if parallel else 1.7
             right, against = self._against([velocity], v)
             if (right, against) not in told:
                 told.add((right, against))
-                yield from self._kinetic(
-                    b, half_square(mass, gone), own, "rate_sign", cost, brief, brief, right, against
-                )
+                T = self.gains.of_speed(b, turned)
+                yield from self._gained(b, T, "rate_sign", cost, brief, brief, right, against)
         if 2 <= len(rates) <= 3 and not parallel:
             yield from self._as_numbers(b, velocity, rates, own, mass, brief)
 
@@ -190,7 +181,7 @@ class GeometryChanges:
             square = self.sites.sum(sp.Add(*[bounded.diff(x, v) ** 2 for x in velocity]))
             if not square:
                 return
-            speeds.append(cast("sp.Expr", sp.powdenest(sp.sqrt(self.sites.ring.expr(square)), force=True)))
+            speeds.append(self.sites.ring.root(square))
         for signs in ((1, 1, 1), (1, -1, 1), (1, 1, -1), (1, -1, -1)):
             if len(rates) == 2 and signs[2] < 0:
                 continue
@@ -236,69 +227,78 @@ class GeometryChanges:
             if len(coupled) < 2:
                 continue
             words: Words = (Name("T*"),)
-            turned = replaced(self.s.T, {v: -v})
             right, against = self._against([self.s.velocity(b) for b in coupled], v)
-            yield from self._kinetic(None, turned, self.s.T, "rate_sign", 1.2, words, words, right, against)
+            T = self.gains.of_rate(self.s.T, v, -v)
+            yield from self._gained(None, T, "rate_sign", 1.2, words, words, right, against)
         for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
             for sign in (1, -1):
-                table = {v: v + sign * w}
                 for b in self.s.bodies:
                     old = self.s.kinetic(b)
                     if old.has(v):
                         words = (f"the kinetic energy of {b.title}",)
-                        right, written = self._quoted([b], v, w, sign)
-                        yield from self._kinetic(
-                            b, replaced(old, table), old, "rate", 1.6, words, words, right, written
-                        )
+                        T = self.gains.of_rate(old, v, v + sign * w)
+                        yield from self._gained(b, T, "rate", 1.6, words, words, *self._quoted((b,), v, w, sign))
                 if self.s.T.has(v):
-                    words = (Name("T*"),)
-                    right, written = self._quoted(self.s.bodies, v, w, sign)
-                    yield from self._kinetic(
-                        None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, right, written
-                    )
+                    words, every = (Name("T*"),), tuple(self.s.bodies)
+                    T = self.gains.of_rate(self.s.T, v, v + sign * w)
+                    yield from self._gained(None, T, "rate", 1.7, words, words, *self._quoted(every, v, w, sign))
 
-    def _quoted(self, bodies: Sequence[Any], v: Any, w: Any, sign: int) -> tuple[sp.Expr, sp.Expr]:
+    def _quoted(self, bodies: tuple[Any, ...], v: Any, w: Any, sign: int) -> tuple[sp.Expr, sp.Expr]:
         """What belongs there and what stands there where ξ̇_i + g ξ̇_j is put in place of ξ̇_i, with g = ±1.
 
         In a·(ξ̇_i − g ξ̇_j) that leaves a·ξ̇_i: ż stands where ẋ − ż belongs. Where all speeds and angular velocities that
         hold ξ̇_i have the same multiple of ξ̇_j beside it, and T* of what is no body as well, this is quoted with it;
         otherwise ξ̇_i and what was put in its place.
         """
+        if (bodies, v, w) not in self._found:
+            self._found[bodies, v, w] = self._beside(bodies, v, w)
+        held, leads = self._found[bodies, v, w]
+        return (sign * w - v if held == -sign and leads else v + held * w), v + (held + sign) * w
+
+    def _beside(self, bodies: tuple[Any, ...], v: Any, w: Any) -> tuple[sp.Rational, bool]:
+        """The multiple of ξ̇_j that stands beside ξ̇_i everywhere, else 0, and whether all ξ̇_i have the sign −."""
         speeds = [x for b in bodies for x in (*self.s.velocity(b), *self.s.omega(b)) if x.has(v)]
         pairs = [(bounded.diff(x, w), bounded.diff(x, v)) for x in speeds]
-        energies = [x for e in self.sites.others if (x := self.s.kinetic(e)).has(v)] if bodies is self.s.bodies else []
-        pairs += [(bounded.diff(x, v, w), bounded.diff(x, v, v)) for x in energies]
-        first_by_w, first_by_v = pairs[0] if pairs else (sp.S.Zero, v)
-        held = bounded.cancel(first_by_w / first_by_v) if first_by_v != 0 else sp.S.Zero
-        if not held.is_Rational or any(bounded.expand(by_w - held * by_v) != 0 for by_w, by_v in pairs):
-            held = sp.S.Zero
-        backwards = (
-            held == -sign and bool(speeds) and all(x.could_extract_minus_sign() for _, x in pairs[: len(speeds)])
-        )
-        return (sign * w - v if backwards else v + held * w), v + (held + sign) * w
+        own = [self.s.kinetic(e) for e in self.sites.others] if bodies == tuple(self.s.bodies) else []
+        pairs += [(bounded.diff(x, v, w), bounded.diff(x, v, v)) for x in own if x.has(v)]
+        ratio = self._ratio(pairs)
+        negative = bool(ratio) and bool(speeds)
+        negative = negative and all(x.could_extract_minus_sign() for _, x in pairs[: len(speeds)])
+        return cast("sp.Rational", sp.Rational(ratio.numerator, ratio.denominator)), negative
+
+    def _ratio(self, pairs: Sequence[tuple[sp.Expr, sp.Expr]]) -> Fraction:
+        """The number that all quotients are; 0 if they are none or differ."""
+        of = self.sites.ring.of
+        if not pairs or any(a == 0 or b == 0 for a, b in pairs):
+            return Fraction(0)
+        try:
+            sums = [(of(a), of(b)) for a, b in pairs]
+        except TooLong:
+            return Fraction(0)
+        first, by = sums[0]
+        m = next(iter(by), None)
+        ratio = first.get(m, Fraction(0)) / by[m] if m is not None else Fraction(0)
+        return ratio if all(a == scaled(b, ratio) for a, b in sums) else Fraction(0)
 
     def _turning(self, b: Any) -> Iterator[LocalChange]:
         """Another angular velocity; m L² in place of J; an inertia where there is none."""
         omega = self.s.omega(b)
         words: Words = (f"the angular velocity of {b.title}",)
-        mass = self.s.expand(b.mass)
+        mass, ring = self.s.expand(b.mass), self.sites.ring
         rates = list(self.s.v)
         if omega and len([w for w in omega if w != 0]) == 1 and b.axes is not None:
-            own = self.s.rotation(b)
-            [right] = [w for w in omega if w != 0]
+            [(axis, right)] = [(k, w) for k, w in enumerate(omega) if w != 0]
             rates += [right] if right not in rates else []
             for instead, cost in self._other_rates(right):
-                turned = tuple(instead if w != 0 else w for w in omega)
-                yield from self._kinetic(
-                    b, self.s.rotating(b, turned), own, "omega", cost, words, words, right, instead
-                )
+                T = self.gains.of_turning(b, axis, minus(ring.of(instead), ring.of(right)))
+                yield from self._gained(b, T, "omega", cost, words, words, right, instead)
             for length in self.lengths:
-                yield from self._inertias(b, own, right, mass * length**2)
+                yield from self._inertias(b, right, mass * length**2)
         for length in self.lengths:
+            full = mass * length**2
             for v in rates:
-                extra = mass * length**2 * v**2 / 2
                 where: Words = (f"the kinetic energy of {b.title}",)
-                T = self.sites.difference(extra, sp.S.Zero)
+                T = self.gains.of_square(full, ring.of(v))
                 if T:
                     site = Site(words=where, brief=where, step=2, element=b, T=T)
                     yield LocalChange(
@@ -308,12 +308,14 @@ class GeometryChanges:
                         effect=site,
                         free=True,
                         positive=True,
-                        right=mass * length**2,
+                        right=full,
                         written=v,
                     )
 
-    def _inertias(self, b: Any, own: sp.Expr, omega: sp.Expr, full: sp.Expr) -> Iterator[LocalChange]:
-        names = {
+    def _inertias(self, b: Any, omega: sp.Expr, full: sp.Expr) -> Iterator[LocalChange]:
+        ring = self.sites.ring
+        square, own = self.gains.of_square(full, ring.of(omega)), ring.of(self.s.rotation(b))
+        names: dict[Any, float] = {
             sp.Integer(1): 1.9,
             sp.Rational(1, 2): 2.0,
             sp.Rational(2, 5): 2.2,
@@ -328,9 +330,8 @@ class GeometryChanges:
         }
         words: Words = (f"the moment of inertia of {b.title}",)
         for number, cost in names.items():
-            yield from self._kinetic(
-                b, number * full * omega**2 / 2, own, "inertia_form", cost, words, words, None, number * full
-            )
+            T = minus(scaled(square, Fraction(number.p, number.q)), own) if square is not None else None
+            yield from self._gained(b, T, "inertia_form", cost, words, words, None, number * full)
 
     def _other_rates(self, right: sp.Expr) -> list[tuple[sp.Expr, float]]:
         """Other angular velocities: the right one and a rate too much, likelier than any other."""
@@ -370,7 +371,12 @@ class GeometryChanges:
         right: Any,
         written: Any = None,
     ) -> Iterator[LocalChange]:
-        T = self.sites.difference(new, old)
+        yield from self._gained(b, self.sites.difference(new, old), kind, cost, words, brief, right, written)
+
+    def _gained(
+        self, b: Any, T: Sum | None, kind: str, cost: float, words: Words, brief: Words, right: Any, written: Any = None
+    ) -> Iterator[LocalChange]:
+        """What a kinetic energy gains."""
         if T:
             yield made(kind, cost, Site(words=words, brief=brief, step=2, element=b), {"T": T}, right, written)
 

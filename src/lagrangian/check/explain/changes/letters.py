@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site
-from lagrangian.check.explain.changes.ring import Monomial, Sum, TooLong, minus, product, put, scaled
+from lagrangian.check.explain.changes.ring import Monomial, Sum, TooLong, exponent, minus, put, raised, scaled
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import partner
 from lagrangian.model import Damper
@@ -31,6 +31,7 @@ class LetterChanges:
         self.ring = sites.ring
         self.model = sites.model
         self._found: dict[int, list[tuple[Sum, str, float]]] = {}
+        self._alike: dict[sp.Symbol, list[sp.Symbol]] = {}
         self._written: dict[tuple[int, int], sp.Expr] = {}
         self._gained: dict[tuple[Monomial, int, int], list[tuple[Monomial, Fraction | int]]] = {}
 
@@ -56,7 +57,7 @@ class LetterChanges:
 
     def _at(self, site: Site, atom: int) -> Iterator[LocalChange]:
         right = self.ring.atoms[atom]
-        exponents = {dict(m).get(atom, 0) for s in site.sums() for m in s}
+        exponents = {exponent(m, atom) for s in site.sums() for m in s}
         for k, (instead, kind, cost) in enumerate(self.instead(atom)):
             effect = self._put(site, atom, k, instead)
             if effect is None:
@@ -94,13 +95,13 @@ class LetterChanges:
         if max(exponents) == 2:
 
             def once(s: Sum) -> Sum:
-                return {_with(m, atom, 1) if dict(m).get(atom) == 2 else m: c for m, c in s.items()}
+                return {_with(m, atom, 1) if exponent(m, atom) == 2 else m: c for m, c in s.items()}
 
             yield from self._of(site, once, "not_squared", 1.6, atom)
         if exponents <= {0, 1} and not isinstance(self.ring.atoms[atom], sp.Derivative):
 
             def twice(s: Sum) -> Sum:
-                return {_with(m, atom, 2) if dict(m).get(atom) == 1 else m: c for m, c in s.items()}
+                return {_with(m, atom, 2) if exponent(m, atom) == 1 else m: c for m, c in s.items()}
 
             turned = isinstance(self.ring.atoms[atom], (sp.sin, sp.cos))
             yield from self._of(site, twice, "squared", 3.4 if turned else 2.4, atom)
@@ -256,6 +257,11 @@ class LetterChanges:
 
     def alike(self, symbol: sp.Symbol) -> list[sp.Symbol]:
         """The parameters that may be taken for one."""
+        if symbol not in self._alike:
+            self._alike[symbol] = self._alike_found(symbol)
+        return self._alike[symbol]
+
+    def _alike_found(self, symbol: sp.Symbol) -> list[sp.Symbol]:
         if symbol not in self._kinds:
             return []
         own = self._kinds[symbol]
@@ -305,10 +311,10 @@ class LetterChanges:
             yield from self._divisors(site)
             for p in (*self.lengths, *self.ratios):
                 a = self.ring.atom(p)
-                powers = [dict(m).get(a, 0) for s in site.sums() for m in s]
+                powers = {exponent(m, a) for s in site.sums() for m in s}
                 held, most = min(powers, default=0), max(powers, default=0)
                 for e in (1, -1, 2, -2):
-                    effect = site.changed(lambda s, by=((a, e),): {product([m, by]): c for m, c in s.items()})
+                    effect = site.changed(lambda s, a=a, e=e: {raised(m, a, e): c for m, c in s.items()})
                     cost = (1.9 if abs(e) == 1 else 2.2) + site.surcharge
                     yield LocalChange(
                         kind=("divisor_missing" if most <= -e else "foreign_factor")
@@ -324,11 +330,10 @@ class LetterChanges:
     def _divisors(self, site: Site) -> Iterator[LocalChange]:
         """1/cos θ once, twice or squared too much or too little, where it stands."""
         for a in site.atoms():
-            powers = {dict(m).get(a, 0) for s in site.sums() for m in s}
-            if not isinstance(self.ring.atoms[a], sp.cos) or max(powers) >= 0:
+            if not isinstance(self.ring.atoms[a], sp.cos) or max(exponent(m, a) for s in site.sums() for m in s) >= 0:
                 continue
             for e in (1, 2, -1, -2):
-                effect = site.changed(lambda s, by=((a, e),): {product([m, by]): c for m, c in s.items()})
+                effect = site.changed(lambda s, a=a, e=e: {raised(m, a, e): c for m, c in s.items()})
                 kind = "foreign_factor" if e < 0 else "factor_missing"
                 written = self.ring.atoms[a] ** -abs(e)
                 yield LocalChange(kind=kind, cost=1.8 + site.surcharge, site=site, effect=effect, written=written)

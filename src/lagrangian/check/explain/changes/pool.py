@@ -90,11 +90,13 @@ class Pool:
         self.cost = np.array([p.cost for p in self.all])
         self._kept: dict[object, Any] = {}
         count = len(self.all)
-        largest = [np.abs(x.reshape(count, -1)).max(axis=1) for x in (self.W, self.T, self.V, self.Xi)]
-        self._choose(np.isfinite(largest).all(axis=0) & (np.max(largest, axis=0) < LARGEST))
+        every = [x.reshape(count, -1) for x in (self.W, self.T, self.V, self.Xi)]
+        self._choose(np.all([(x.max(axis=1) < LARGEST) & (x.min(axis=1) > -LARGEST) for x in every], axis=0))
 
     def _choose(self, chosen: Any) -> None:
         """Keep some of the possible mistakes."""
+        if chosen.all():
+            return
         self.all = [p for p, keep in zip(self.all, chosen, strict=True) if keep]
         for name in ("W", "T", "V", "L", "Xi", "cost"):
             setattr(self, name, getattr(self, name)[chosen])
@@ -185,7 +187,7 @@ def _table(sums: Sequence[Sum]) -> tuple[list[Monomial], sparse.csr_matrix]:
         for m, c in s.items():
             rows.append(k)
             columns.append(index.setdefault(m, len(index)))
-            values.append(float(c))
+            values.append(c.numerator / c.denominator)
     return list(index), sparse.csr_matrix((values, (rows, columns)), shape=(len(sums), len(index)))
 
 

@@ -9,8 +9,9 @@ cosines of whole angles, and whatever else is not a sum or product. A sum maps e
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
+from math import isqrt
 from typing import TypeAlias, cast
 
 import sympy as sp
@@ -45,6 +46,8 @@ class SumRing:
         self.atoms: list[sp.Expr] = []
         self._index: dict[sp.Basic, int] = {}
         self._known: dict[sp.Basic, Sum] = {}
+        self._slopes: dict[tuple[int, sp.Expr], Sum] = {}
+        self._rates: dict[int, Sum] = {}
 
     def atom(self, expr: sp.Expr) -> int:
         """The number of an atom."""
@@ -59,6 +62,13 @@ class SumRing:
             self._known[expr] = self._read(expr)
         return self._known[expr]
 
+    def of_both(self, a: sp.Expr, b: sp.Expr) -> Sum | None:
+        """The product of two expressions as a sum; None if it is too long."""
+        try:
+            return times(self.of(a), self.of(b))
+        except TooLong:
+            return None
+
     def _read(self, expr: sp.Expr) -> Sum:
         if isinstance(expr, (sp.Rational, sp.Float)):
             number = Fraction(str(expr)) if isinstance(expr, sp.Float) else Fraction(int(expr.p), int(expr.q))
@@ -69,9 +79,9 @@ class SumRing:
                 add(total, self.of(part))
             return total
         if isinstance(expr, sp.Mul):
-            whole: Sum = {ONE: Fraction(1)}
-            for factor in cast("tuple[sp.Expr, ...]", expr.args):
-                whole = times(whole, self.of(factor))
+            whole, *others = map(self.of, cast("tuple[sp.Expr, ...]", expr.args))
+            for factor in others:
+                whole = times(whole, factor)
             return whole
         if isinstance(expr, sp.Pow) and isinstance(expr.exp, sp.Rational):
             return self._power(expr)
@@ -109,19 +119,40 @@ class SumRing:
                 exponents[cast("sp.Expr", sp.tan(f.args[0]))] = both
         return cast("sp.Expr", sp.Mul(*[f**e for f, e in exponents.items()]))
 
+    def root(self, value: Sum) -> sp.Expr:
+        """The square root of a sum, as if all letters were positive: r of r²."""
+        if len(value) == 1:
+            [(m, c)] = value.items()
+            above, below = isqrt(abs(c.numerator)), isqrt(c.denominator)
+            plain = all(e % 2 == 0 and isinstance(self.atoms[a], sp.Symbol) for a, e in m)
+            if plain and Fraction(above**2, below**2) == c:
+                return self.expr({tuple((a, e // 2) for a, e in m): Fraction(above, below)})
+        return cast("sp.Expr", sp.powdenest(sp.sqrt(self.expr(value)), force=True))
+
     def slope(self, value: Sum, by: sp.Expr) -> Sum:
         """∂value/∂by."""
+        return self._derived(value, lambda a: self._slope_of(a, by))
+
+    def rate(self, value: Sum) -> Sum:
+        """d/dt of a sum."""
+        return self._derived(value, self._rate_of)
+
+    def _derived(self, value: Sum, inner: Callable[[int], Sum]) -> Sum:
+        """The product rule, by the derivatives of atoms."""
         total: Sum = {}
         for m, c in value.items():
             for a, e in m:
-                inner = self._slope_of(a, by)
-                if inner:
-                    lowered = {product([m, ((a, -1),)]): c * e}
-                    add(total, times(lowered, inner))
+                if by_atom := inner(a):
+                    add(total, times({joined(m, ((a, -1),)): c * e}, by_atom))
         return total
 
     def _slope_of(self, a: int, by: sp.Expr) -> Sum:
-        atom = self.atoms[a]
+        """The derivative of an atom."""
+        if (a, by) not in self._slopes:
+            self._slopes[a, by] = self._slope_found(self.atoms[a], by)
+        return self._slopes[a, by]
+
+    def _slope_found(self, atom: sp.Expr, by: sp.Expr) -> Sum:
         if atom == by:
             return {ONE: Fraction(1)}
         if isinstance(atom, (sp.Symbol, sp.Derivative, AppliedUndef)):
@@ -131,6 +162,12 @@ class SumRing:
         if not held.has(inner):
             return {}
         return self.of(cast("sp.Expr", bounded.replaced(bounded.diff(held, inner), self._back)))
+
+    def _rate_of(self, a: int) -> Sum:
+        """The derivative of an atom by time."""
+        if a not in self._rates:
+            self._rates[a] = self.of(bounded.diff(self.atoms[a], time))
+        return self._rates[a]
 
     def fold(self, value: Sum) -> Sum:
         """The same with cos A cos B + sin A sin B = cos(A − B), sin² + cos² = 1 and the like, wherever they occur."""
@@ -200,7 +237,9 @@ def _folded_pair(f: sp.Expr, g: sp.Expr, own: Fraction, other: Fraction) -> tupl
 def add(total: Sum, other: Sum, number: Fraction | int = 1) -> Sum:
     """Add ``number`` times a sum to ``total``, in place."""
     for m, c in other.items():
-        new = total.get(m, Fraction(0)) + c * number
+        new = c if number == 1 else -c if number == -1 else c * number
+        if m in total:
+            new = total[m] + new
         if new:
             total[m] = new
         else:
@@ -233,8 +272,10 @@ def times(a: Sum, b: Sum) -> Sum:
     total: Sum = {}
     for m, c in a.items():
         for n, d in b.items():
-            key = product([m, n])
-            new = total.get(key, Fraction(0)) + c * d
+            key = joined(m, n)
+            new = c * d if c != 1 else d
+            if key in total:
+                new = total[key] + new
             if new:
                 total[key] = new
             else:
@@ -246,8 +287,8 @@ def times(a: Sum, b: Sum) -> Sum:
 
 def power(a: Sum, exponent: int) -> Sum:
     """a to a whole power of at least 0."""
-    result: Sum = {ONE: Fraction(1)}
-    for _ in range(exponent):
+    result: Sum = a if exponent else {ONE: Fraction(1)}
+    for _ in range(exponent - 1):
         result = times(result, a)
     return result
 
@@ -260,22 +301,61 @@ def inverse(a: Sum) -> Sum:
 
 def product(monomials: Iterable[Monomial]) -> Monomial:
     """The product of monomials."""
-    exponents: dict[int, int] = {}
+    whole: Monomial = ONE
     for m in monomials:
-        for a, e in m:
-            exponents[a] = exponents.get(a, 0) + e
-    return tuple(sorted((a, e) for a, e in exponents.items() if e))
+        whole = joined(whole, m)
+    return whole
+
+
+def joined(m: Monomial, n: Monomial) -> Monomial:
+    """The product of two monomials."""
+    if not m or not n:
+        return m or n
+    if m[-1][0] < n[0][0]:
+        return m + n
+    if n[-1][0] < m[0][0]:
+        return n + m
+    exponents = dict(m)
+    for a, e in n:
+        if a in exponents:
+            e += exponents.pop(a)
+        if e:
+            exponents[a] = e
+    return tuple(sorted(exponents.items()))
+
+
+def raised(m: Monomial, atom: int, exponent: int) -> Monomial:
+    """A monomial times a power of an atom."""
+    return joined(m, ((atom, exponent),))
 
 
 def put(value: Sum, atom: int, instead: Sum) -> Sum:
     """A sum with ``instead`` in place of an atom in every positive power; raises `TooLong`."""
     total: Sum = {}
+    powers: dict[int, Sum | None] = {}
     for m, c in value.items():
-        e = dict(m).get(atom, 0)
-        if e == 0:
+        e = exponent(m, atom)
+        if e and e not in powers:
+            powers[e] = _whole_power(instead, e)
+        stands = powers[e] if e else None
+        if stands is None:
             add(total, {m: c})
-            continue
-        rest = {product([m, ((atom, -e),)]): c}
-        replaced = power(instead, e) if e > 0 else inverse(power(instead, -e)) if len(instead) == 1 else None
-        add(total, times(rest, replaced) if replaced is not None else {m: c})
+        else:
+            rest = tuple(x for x in m if x[0] != atom)
+            add(total, times({rest: c}, stands))
     return total
+
+
+def exponent(m: Monomial, atom: int) -> int:
+    """The exponent of an atom in a monomial."""
+    for a, e in m:
+        if a == atom:
+            return e
+    return 0
+
+
+def _whole_power(a: Sum, exponent: int) -> Sum | None:
+    """a to a whole power; None for one below 0 if it is no monomial."""
+    if exponent > 0:
+        return power(a, exponent)
+    return inverse(power(a, -exponent)) if len(a) == 1 else None

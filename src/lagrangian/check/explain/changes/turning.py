@@ -8,16 +8,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words, made
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import partner, put
+from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.page.formula import Name
 
 MOST_PARTS = 9
 """An angular velocity with more parts is not changed part by part."""
+SMALL = 1e-9
+"""What is larger at a random state is not 0."""
 
 
 class TurningChanges:
@@ -46,10 +50,16 @@ class TurningChanges:
         if frame.parent is None or frame.axis is None:
             return own
         turn, J = sp.Matrix(frame.local_rotation), sp.Matrix(b.inertia)
-        if any(bounded.trigsimp(x) != 0 for x in sp.Matrix(turn * J - J * turn).flat()):
+        apart = [x for x in sp.Matrix(turn * J - J * turn).flat() if x != 0]
+        if not self._vanish(apart) or any(bounded.trigsimp(x) != 0 for x in apart):
             return own
         before, rate = frame.parent.angular_velocity, self.s.rate(self.s.expand(frame.angle))
         return tuple(self.s.expand(x) + n * rate for x, n in zip(before, frame.axis, strict=True))
+
+    def _vanish(self, exprs: Sequence[sp.Expr]) -> bool:
+        """Whether all expressions are 0 at random states; where they are not, nothing has to be simplified."""
+        values = CompiledExpressions(exprs).at(States(self.s.model, 1))
+        return not np.isfinite(values).all() or bool(np.abs(values).max(initial=0.0) < SMALL)
 
     def _parts(self, b: Any, omega: Sequence[sp.Expr]) -> Iterator[LocalChange]:
         """A part of a component left out, with the wrong sign, or with the cosine for the sine."""

@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
-from lagrangian.check.explain.changes.ring import Sum, TooLong, scaled
+from lagrangian.check.explain.changes.ring import Sum, TooLong, minus, scaled
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.model import Element
@@ -59,8 +59,10 @@ class WorkChanges:
 
     def _arms(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
         """Every effort of an element times every arm, in place of its share or where it has none."""
+        ring, arms = self.sites.ring, self.arms
         for effort, right in self._efforts(element, shares):
             yield from self._moved_without_arm(element, shares, effort)
+            moved = {arm: ring.of_both(effort, arm) for arm in arms}
             for i in range(self.sites.n):
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
                 added: Words = (f"{element.title} is counted in the equation of ", self.s.q[i])
@@ -68,12 +70,12 @@ class WorkChanges:
                 yield from self._half_or_double(effort, right[i], site, i)
                 if right[i].is_number and right[i] not in (0, 1, -1) and (extra := self._sum(effort * _unit(right[i]))):
                     yield _change("no_arm", NUMBER, site, {i: extra}, abs(right[i]), None)
-                for arm in self.arms:
+                own, number = ring.of_both(effort, right[i]), right[i].is_number and right[i] != 0
+                for arm in arms:
                     for sign in (1, -1):
-                        if sign * arm == right[i] or (right[i].is_number and right[i] != 0 and arm == 1):
+                        if sign * arm == right[i] or (number and arm == 1):
                             continue  # another sign or number is a change of the whole
-                        extra = self._sum(effort * (sign * arm - right[i]))
-                        if extra:
+                        if extra := self._apart(moved[arm], sign, own):
                             place = replace(site, words=added) if right[i] == 0 else site
                             cost = (
                                 (1.9 if arm == 1 else 2.1)
@@ -82,6 +84,12 @@ class WorkChanges:
                             )
                             kind = "arm_added" if right[i] == 0 else "no_arm" if sign * arm == 1 else "arm"
                             yield _change(kind, cost, place, {i: extra}, right[i], sign * arm)
+
+    def _apart(self, moved: Sum | None, sign: int, own: Sum | None) -> Sum | None:
+        """What a share gains with another arm."""
+        if moved is None or own is None:
+            return None
+        return self.sites.ring.fold(minus(scaled(moved, sign), own))
 
     def _moved_without_arm(self, element: Element, shares: dict[int, Sum], effort: sp.Expr) -> Iterator[LocalChange]:
         """The effort itself in another equation, in place of the one share that it has."""
@@ -101,9 +109,9 @@ class WorkChanges:
         """Half an arm and twice an arm that is a length: the force of the middle of a rod, or of its other end."""
         if not right.has(*self.lengths) or self._is_part(effort, site.element):
             return
-        for times in (sp.S.Half, sp.Integer(2)):
-            if extra := self._sum(effort * (times - 1) * right):
-                yield _change("arm", 1.5, site, {i: extra}, right, times * right)
+        for number in (sp.S.Half, sp.Integer(2)):
+            if extra := self._sum(effort * (number - 1) * right):
+                yield _change("arm", 1.5, site, {i: extra}, right, number * right)
 
     def _is_part(self, effort: sp.Expr, element: Element | None) -> bool:
         """Whether an effort is a factor of that which an element is given with: half its arm is half of the whole."""

@@ -147,8 +147,9 @@ class Ingredients:
 
     def rotating(self, body: RigidBody, omega: tuple[sp.Expr, ...]) -> sp.Expr:
         """½ ωᵀ I ω with a different ω."""
-        w = sp.Matrix(omega)
-        return self.expand((w.T * body.inertia * w)[0] / 2)
+        inertia = cast("list[list[sp.Expr]]", body.inertia.tolist())
+        turned = [sp.Add(*[J * w for J, w in zip(row, omega, strict=True) if J != 0 and w != 0]) for row in inertia]
+        return self.expand(sp.Add(*[w * x for w, x in zip(omega, turned, strict=True) if w != 0]) / 2)
 
     def kinetic(self, element: Element) -> sp.Expr:
         """The contribution of an element to T*."""

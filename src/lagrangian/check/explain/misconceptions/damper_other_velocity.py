@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.explain.misconceptions.base import Ingredients, Variant
+from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, put
 from lagrangian.derive.algebra import OutOfReach
 from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import Body, Damper
@@ -122,6 +122,10 @@ def _absolute(s: Ingredients, i: int) -> sp.Expr:
     def made() -> sp.Expr:
         p = s.momenta[i]
         inertia = bounded.diff(p, s.v[i])
+        if inertia != 0 and not inertia.has(s.v[i]) and put(p, {s.v[i]: sp.S.Zero}) == 0:
+            return s.v[i]
+        if isinstance(inertia, sp.Symbol):
+            return bounded.expand(p / inertia)
         return bounded.expand(bounded.cancel(p / inertia)) if inertia != 0 else sp.S.Zero
 
     return s.kept(("absolute", i), made)

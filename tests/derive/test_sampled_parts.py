@@ -1,0 +1,37 @@
+"""Expressions that share parts are evaluated as each one alone, whatever is known of their parts."""
+
+import numpy as np
+import sympy as sp
+
+from built_in import derivation
+from effort import at_most
+from lagrangian import bounded
+from lagrangian.bounded import sizes
+from lagrangian.derive.sampling import CompiledExpressions, States
+
+
+def test_parts_that_were_seen_before() -> None:
+    model = derivation("cart-pole").model
+    q, w = model.coordinates
+    sine, third = sp.sin(w.symbol), sp.Rational(1, 3)
+    exprs = [
+        third * sine + q.rate,
+        (third * sine + q.rate) ** 2 * sp.Rational(2, 7),
+        sp.sqrt(15) * sine - third,
+        q.acceleration * (third * sine + q.rate) + sp.sin(2),
+        third * sine + q.rate,
+    ]
+    states = States(model, 2)
+    together = CompiledExpressions(exprs)
+    for expr, values, k in zip(exprs, together.at(states), range(len(exprs)), strict=True):
+        assert np.array_equal(values, CompiledExpressions([expr]).at(states)[0])
+        assert together.exactly(states, 1)[k] == CompiledExpressions([expr]).exactly(states, 1)[0]
+
+
+def test_an_expression_that_was_seen_before_is_not_looked_through_again() -> None:
+    T = derivation("double-pendulum").T
+    compiled = CompiledExpressions([T])
+    size, slope_size = bounded.size(T), sizes.slope_size(T)
+    with at_most(40):
+        assert compiled.node(T) == compiled.ids[0]
+        assert (bounded.size(T), sizes.slope_size(T)) == (size, slope_size)
