@@ -219,3 +219,72 @@ def test_a_mistake_in_one_of_two_equal_elements_says_so() -> None:
     verdict = wagon().check("\n".join(OF_WAGON.splitlines()[4:]).replace("2 c theta'", "c theta'"))
     assert not verdict.right
     assert str(verdict.mistakes[0].what).startswith("One of damper 'joint 1' and damper 'joint 2' ")
+
+
+TABLE = r"""\begin{align*}
+\text{sledge} & & T &= \tfrac12 M\dot x^2 & V &= 0\\
+\text{slider} & & T &= \tfrac12 m(\dot x + \dot y)^2 & V &= \tfrac12 k y^2
+\end{align*}
+$T = \frac12 M\dot x^2 + \frac12 m(\dot x + \dot y)^2$
+
+$V = \frac12 k y^2$
+
+$(M + m)\ddot x + m\ddot y = 0$
+
+$m(\ddot x + \ddot y) + k y = 0$"""
+
+
+def test_energies_in_rows_behind_words_are_those_of_parts() -> None:
+    verdict = sledge().check(TABLE)
+    assert verdict.right and {f.line.number for f in verdict.findings} >= {2, 3, 5, 7, 9, 11}
+    wrong = sledge().check(TABLE.replace(r"\tfrac12 m(\dot x + \dot y)^2 &", r"\tfrac12 m(\dot x - \dot y)^2 &"))
+    assert [f.line.number for f in wrong.findings if not f.status.right] == [3]
+
+
+@cache
+def hoist() -> Derivation:
+    """A drum with a brake and a slider on a spring lower a weight: z = r φ + x."""
+    sys = System("hoist")
+    phi, x, z = sys.coordinates("phi x z")
+    J, m, M, r, k, c, g = sys.parameters("J m M r k c g")
+    tau = sys.inputs("tau")
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(phi, name="turn"), name="drum")
+    sys.particle(m, at=sys.point("S", (x, 0)), name="slider")
+    sys.particle(M, at=sys.point("W", (0, -z)), name="weight")
+    sys.gravity((0, -1), g)
+    sys.spring(k, deflection=x)
+    sys.damper(c, deflection=phi, name="brake")
+    sys.torque(tau, on=phi, name="motor")
+    sys.constraint(z - r * phi - x, name="rope")
+    return sys.derive()
+
+
+def test_a_force_that_is_put_in_without_its_arm_is_told() -> None:
+    right = """z'' = r phi'' + x''
+m x'' + k x + M (r phi'' + x'') - M g = 0
+J phi'' + c phi' - tau + r (M (r phi'' + x'') - M g) = 0"""
+    assert hoist().check(right).right
+    verdict = hoist().check(right.replace("+ r (M (r phi'' + x'') - M g)", "+ M (r phi'' + x'') - M g"))
+    assert not verdict.right
+    assert str(verdict.mistakes[0].what) == (
+        "In line 3, -M*g + M*(r*phi'' + x'') should be r*(-M*g + M*(r*phi'' + x''))."
+    ), verdict.mistakes[0].what
+
+
+def test_a_drum_turns_with_its_motor_and_its_brake() -> None:
+    sys = System("winch")
+    s = sys.coordinates("s")
+    M, J, a, c = sys.parameters("M J a c")
+    tau = sys.inputs("tau")
+    sys.particle(M, at=sys.point("P", (s, 0)), name="load")
+    sys.kinetic(J * (2 * s.diff() / a) ** 2 / 2, name="drum")
+    sys.torque(tau, on=2 * s / a, name="motor")
+    sys.damper(c, deflection=2 * s / a, name="brake")
+    derivation = sys.derive()
+    right = "the drum turns: psi' = 2 s'/a\n(M + 4 J/a^2) s'' + 4 c s'/a^2 = 2 tau/a"
+    assert derivation.check(right).right
+    verdict = derivation.check("the drum turns: psi' = s'/a\n(M + J/a^2) s'' + c s'/a^2 = tau/a")
+    assert not verdict.right
+    assert str(verdict.mistakes[0].what).startswith(
+        "Line 1 is not right: the angular velocity of 'drum' is 2*s'/a, not"
+    )

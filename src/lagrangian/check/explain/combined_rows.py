@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import Any, cast
 
 import numpy as np
@@ -27,6 +28,8 @@ MOST_TERMS, MOST_LETTERS = 60, 12
 """The most terms of a line that are tried, and the most letters that may be a factor."""
 MOST_ANGLES = 8
 """The most angles of which a sine or a cosine may be a factor."""
+MOST_IN_GROUP = 14
+"""The most terms of an equation in which a group with one wrong factor is sought."""
 MOST_PRODUCTS = 400
 """The most products of a term and an arm that a line may lack."""
 NEAR = 1e-8
@@ -172,8 +175,28 @@ def one_wrong_term(truth: Reference, expr: sp.Expr) -> WrongTerm | None:
     found.sort(key=lambda x: x[0])
     if not found:
         right = _right_terms(truth)
-        return _lacking(right, wrong, _outside(truth, CompiledExpressions(right).at(truth.states))) if right else None
+        values = CompiledExpressions(right).at(truth.states) if right else np.empty((0, truth.states.size))
+        lacking = _lacking(right, wrong, _outside(truth, values)) if right else None
+        return lacking or _group_in_factor(truth, expr, wrong)
     return None if len(found) > 1 and found[0][0] == found[1][0] else found[0][1]
+
+
+def _group_in_factor(truth: Reference, expr: sp.Expr, wrong: Array) -> WrongTerm | None:
+    """Two or three terms of an equation, as they are written, that have the same wrong factor, as a force that was put
+    in has with a wrong arm, if all others are right. None if there are none, or several."""
+    listed = [cast("sp.Expr", t) for t in sp.Add.make_args(expr)]
+    if not 4 < len(listed) <= MOST_IN_GROUP or not truth.derivation.multipliers:
+        return None
+    outside = _outside(truth, CompiledExpressions(listed).at(truth.states))
+    for count in (2, 3):
+        groups = {
+            cast("sp.Expr", sp.Add(*(listed[k] for k in chosen))): outside[list(chosen)].sum(axis=0)
+            for chosen in combinations(range(len(listed)), count)
+        }
+        found = [x for _, x in in_factors(truth, wrong, groups) if x.factor != 0]
+        if found:
+            return found[0] if len(found) == 1 else None
+    return None
 
 
 def term_to_blame(truth: Reference, expr: sp.Expr, values: Mapping[sp.Basic, Array]) -> WrongTerm | None:

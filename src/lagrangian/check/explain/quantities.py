@@ -18,6 +18,7 @@ from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.deflections import struts
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.explain.shafts import shafts
 from lagrangian.check.explain.turned_axes import turned_places, turned_velocities
 from lagrangian.check.explain.twins import twins
 from lagrangian.check.reference import Reference
@@ -79,7 +80,8 @@ class Sayables:
     def __init__(self, truth: Reference) -> None:
         s = ingredients_of(truth.derivation)
         self.of = s
-        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_energies(s), *_of_coordinates(s), *_turned(s))
+        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_shafts(s), *_of_energies(s))
+        every = (*every, *_of_coordinates(s), *_turned(s))
         self.all = [q for q in every if q.right != 0]
         self.all = [*self.all, *of_twins(s, self.all)][:MOST]
         self.rights = [truth.put(q.right) for q in self.all]
@@ -227,6 +229,21 @@ def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
         yield Sayable("rate", d, words, rate, worked)
         yield Sayable("rate", d, words, rate, pulled)
         yield Sayable("force", d, (f"force of {d.title}",), b * rate, _force(b * rate, slopes))
+
+
+def _of_shafts(s: Ingredients) -> Iterator[Sayable]:
+    """The rates at which something turns together with what drives and brakes it."""
+    for owner, w, J, same in shafts(s):
+
+        def turned(said: sp.Expr, w: sp.Expr = w, J: sp.Expr = J, same: Any = same) -> Effect:
+            braked = [_damped(s, b, said, w) for e, b in same if isinstance(e, Damper)]
+            pushed = sp.Add(*[effort for e, effort in same if not isinstance(e, Damper)])
+            Xi = [pushed * (bounded.diff(said, v) - bounded.diff(w, v)) for v in s.v]
+            Xi = [sp.Add(x, *[b.Xi[i] for b in braked]) for i, x in enumerate(Xi)]
+            return Effect(T=J * (said**2 - w**2) / 2, Xi=tuple(Xi), D=sp.Add(*[b.D for b in braked]))
+
+        words = (f"angular velocity of {owner.title.replace('kinetic ', '')}",)
+        yield Sayable("turning", owner, words, w, turned)
 
 
 def _force(right: sp.Expr, slopes: Sequence[sp.Expr], by: sp.Expr = sp.S.One) -> Adds:
