@@ -233,6 +233,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         return checked(value.applyfunc(make) if isinstance(value, MatrixBase) else make(scalar(value)))
     if name in ("array", "asarray") and isinstance(given[0], list) and given[0] and all(map(is_scalar, given[0])):
         return matrix(given[0])  # whose sums are no longer lists
+    if name in ("list", "tuple") and given and isinstance(given[0], (list, tuple, MatrixBase)):
+        return listed(given[0])
     if name in SAME:
         return given[0] if given else UNKNOWN
     if name in ("symbols", "Symbol", "sym", "var"):
@@ -255,6 +257,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "dot": lambda: dot(given[0], given[1]) if 1 in matrix(given[0]).shape else times(given[0], given[1]),
         "hypot": lambda: sp.sqrt(scalar(given[0]) ** 2 + scalar(given[1]) ** 2),
         "blkdiag": lambda: checked(sp.diag(*(scalar(x) if is_scalar(x) else matrix(x) for x in given))),
+        "struct": lambda: dict(zip(given[::2], given[1::2], strict=False)),
         "cross": lambda: cross(given[0], given[1]),
         "diag": lambda: sp.diag(*map(scalar, listed(given[0]) if len(given) == 1 else given)),
         "transpose": lambda: matrix(given[0]).T,
@@ -272,6 +275,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         ("mat", "Matrix"),
         *((x, "len") for x in ("numel", "length")),
         ("block_diag", "blkdiag"),
+        *((x, "diag") for x in ("Diagonal", "diagm", "diagonal")),
         ("block", "Matrix"),
     ):
         table[alias] = table[same]
