@@ -49,6 +49,13 @@ SAME = frozenset(
     ]
 )
 """What changes no value."""
+_ALIASES: Mapping[str, str] = {
+    **dict.fromkeys(("ImmutableMatrix", "mat", "block"), "Matrix"),
+    **dict.fromkeys(("numel", "length"), "len"),
+    **dict.fromkeys(("Diagonal", "diagm", "diagonal"), "diag"),
+    **{"arctan2": "atan2", "Subs": "subs", "block_diag": "blkdiag"},
+}
+"""Other names of functions."""
 SHOWN = frozenset(
     ["print", "pprint", "display", "disp", "pretty", "pretty_print", "latex", "mprint", "mlatex", "fprintf", "mpprint"]
 )
@@ -268,17 +275,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "atan2": lambda: sp.atan2(scalar(given[0]), scalar(given[1])),
         "len": lambda: sp.Integer(len(listed(given[0]))),
     }
-    for alias, same in (
-        ("ImmutableMatrix", "Matrix"),
-        ("arctan2", "atan2"),
-        ("Subs", "subs"),
-        ("mat", "Matrix"),
-        *((x, "len") for x in ("numel", "length")),
-        ("block_diag", "blkdiag"),
-        *((x, "diag") for x in ("Diagonal", "diagm", "diagonal")),
-        ("block", "Matrix"),
-    ):
-        table[alias] = table[same]
+    table |= {alias: table[same] for alias, same in _ALIASES.items()}
     if name in ("concatenate", "hstack", "vstack"):
         return stacked(given)
     if name in ("zeros", "ones", "eye", "identity", "zeros_like", "empty"):
