@@ -273,3 +273,67 @@ def test_lists_in_braces_may_be_put_in_for_others() -> None:
     assert right(CELLS, "elastic-pendulum")
     for old, new in (("{Rd, Thd, R,", "{Rd, Thd, 2*R,"), ("t) - subs(diff(Ls,Th)", "t) + subs(diff(Ls,Th)")):
         assert old in CELLS and not right(CELLS.replace(old, new), "elastic-pendulum")
+
+
+CHAIN = "K = np.array([[k1+k2, -k2, 0], [-k2, k2+k3, -k3], [0, -k3, k3+k4]])"
+ROWS = """k = [k1, k2, k3, k4]
+m = [m1, m2, m3]
+def rhs(t, y):
+    x, v = y[:3], y[3:]
+    xx = [0, *x, 0]
+    a = []
+    for i in range(3):
+        f = k[i]*(xx[i] - xx[i+1]) + k[i+1]*(xx[i+2] - xx[i+1])
+        a.append(f/m[i])
+    a[1] += (F - b*(v[1] - v[2]))/m[1]
+    a[2] += b*(v[1] - v[2])/m[2]
+    return list(v) + a
+"""
+COUNTED = """k = [k1 k2 k3 k4]; m = [m1 m2 m3];
+K = zeros(3); M = diag(m);
+for i = 1:3
+  K(i,i) = k(i) + k(i+1);
+end
+K(1,2) = -k(2); K(2,1) = -k(2); K(2,3) = -k(3); K(3,2) = -k(3);
+C = b*[0 0 0; 0 1 -1; 0 -1 1];
+A = [zeros(3) eye(3); -M\\K -M\\C];
+B = [zeros(3,1); M\\[0; 1; 0]];
+% xdot = A*x + B*F, x = [x1; x2; x3; v1; v2; v3]
+"""
+SAID = f"""import numpy as np
+M = np.diag([m1, m2, m3])
+{CHAIN}
+C = np.array([[0, 0, 0], [0, b, -b], [0, -b, b]])
+f = np.array([0, F, 0])
+# M x'' + C x' + K x = f
+"""
+SUMMED = """import sympy as sp
+t = sp.Symbol('t')
+x = [sp.Function(f'x{i}')(t) for i in (1, 2, 3)]
+m1, m2, m3, k1, k2, k3, k4, b, F = sp.symbols('m1 m2 m3 k1 k2 k3 k4 b F')
+T = sum(mi*xi.diff(t)**2 for mi, xi in zip([m1, m2, m3], x))/2
+V = k1*x[0]**2/2 + k2*(x[1]-x[0])**2/2 + k3*(x[2]-x[1])**2/2 + k4*x[2]**2/2
+D = b*(x[2].diff(t) - x[1].diff(t))**2/2
+for xi, Qi in zip(x, [0, F, 0]):
+    print(T.diff(xi.diff(t)).diff(t) - T.diff(xi) + V.diff(xi) + D.diff(xi.diff(t)) - Qi, '= 0')
+"""
+
+
+@pytest.mark.parametrize(
+    ("program", "old", "new"),
+    [
+        (ROWS, "a[2] += b", "a[2] -= b"),
+        (ROWS, "list(v) + a", "list(x) + a"),
+        (COUNTED, "k(i) + k(i+1)", "k(i) - k(i+1)"),
+        (COUNTED, "-M\\C]", "M\\C]"),
+        (COUNTED, "[x1; x2; x3; ", "[x2; x1; x3; "),
+        (SAID, "+ C x'", "- C x'"),
+        (SAID, "[0, F, 0]", "[F, 0, 0]"),
+        (SUMMED, "f'x{i}'", "f'x{4 - i}'"),
+        (SUMMED, "x[2].diff(t) -", "x[2].diff(t) +"),
+    ],
+)
+def test_rows_of_several_bodies_are_judged(program: str, old: str, new: str) -> None:
+    assert old in program
+    assert right(program, "three-masses")
+    assert not right(program.replace(old, new), "three-masses")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 import lagrangian as lg
+from built_in import derivation
 from student_answers import CART, POLE, right
 
 ROD = "(J + m l^2) theta'' = moment of the weight − moment of inertia forces = m g l sin(theta) - m l x'' cos(theta)"
@@ -71,3 +72,14 @@ def test_a_damper_d_makes_no_virtual_displacement_of_a_rate() -> None:
 def test_degrees_of_freedom_with_a_number_are_words(words: str) -> None:
     assert right(f"{CART}\n{words}{POLE}")
     assert not right(f"{CART}\n{words}{POLE.replace('m g l', '2 m g l')}")
+
+
+def test_an_equation_that_ends_in_a_word_states_no_force() -> None:
+    general = "For one degree of freedom, the moments about P give J_P theta'' = moment, with"
+    answer = f"{general} J_P = m l^2/3:\nJ_P theta'' + m g l/2 cos theta = 0\nx = l/2 cos theta, y = l/2 sin theta"
+    ladder = derivation("ladder")
+    assert ladder.check(answer, hint=0).right
+    assert not ladder.check(answer.replace("+ m g", "- m g"), hint=0).right
+    assert not ladder.check(answer.replace("l^2/3", "l^2/12"), hint=0).right
+    explained = answer.replace("with J_P", "moment = m g l sin theta, with J_P")
+    assert not ladder.check(explained, hint=0).right

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
-from itertools import islice
 from typing import Any
 
 import sympy as sp
@@ -18,6 +17,7 @@ from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applie
 from lagrangian.check.reading.carried_out.values import (
     LIBRARY,
     MODULES,
+    MOST_COLUMNS,
     MOST_ENTRIES,
     MOST_STEPS,
     TIME,
@@ -39,11 +39,14 @@ from lagrangian.check.reading.carried_out.values import (
     bind,
     called_name,
     constant,
+    counted,
     entry_of,
     equated,
     has_unknown,
+    is_list,
     is_scalar,
     is_square,
+    joined,
     listed,
     matrix,
     number,
@@ -119,14 +122,14 @@ class Evaluator:
             return self._named(node.id, names)
         if isinstance(node, ast.BinOp):
             return self._kept(self.operated(node.op, self.value(node.left, names), self.value(node.right, names)))
-        if isinstance(node, ast.UnaryOp):
-            return self._signed(node.op, self.value(node.operand, names))
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, (ast.USub, ast.UAdd)):
+            sign = sp.Integer(-1 if isinstance(node.op, ast.USub) else 1)
+            return self.operated(ast.Mult(), sign, self.value(node.operand, names))
         if isinstance(node, (ast.List, ast.Tuple)):
-            return [self.value(x, names) for x in node.elts]
+            return [y for x in node.elts for y in self._unpacked(x, names)]
         if isinstance(node, ast.Dict):
-            return {
-                self.value(k, names): self.value(v, names) for k, v in zip(node.keys, node.values, strict=True) if k
-            }
+            pairs = zip(node.keys, node.values, strict=True)
+            return {self.value(k, names): self.value(v, names) for k, v in pairs if k}
         if isinstance(node, ast.Attribute):
             return self._attribute(node, names)
         if isinstance(node, ast.Call):
@@ -141,9 +144,15 @@ class Evaluator:
         if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
             self.sides |= {x.id for x in (node.left, node.comparators[0]) if isinstance(x, ast.Name)}
             return equated(self.value(node.left, names), self.value(node.comparators[0], names))
+        if isinstance(node, ast.FormattedValue):
+            return self.value(node.value, names)
         if isinstance(node, ast.JoinedStr):
-            return ""
+            return joined([self.value(x, names) for x in node.values])  # f"x{i}"
         raise AbandonedError
+
+    def _unpacked(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
+        """The entries that an entry of a list is: [0, *x, 0]."""
+        return listed(self.value(node.value, names)) if isinstance(node, ast.Starred) else [self.value(node, names)]
 
     def _kept(self, value: Value) -> Value:
         """A result, whose operations are counted."""
@@ -167,17 +176,14 @@ class Evaluator:
             return TIME
         return sp.Symbol(name)
 
-    def _signed(self, op: ast.unaryop, value: Value) -> Value:
-        if not isinstance(op, (ast.USub, ast.UAdd)):
-            raise AbandonedError
-        return self.operated(ast.Mult(), sp.Integer(-1 if isinstance(op, ast.USub) else 1), value)
-
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
         if isinstance(a, Outside) or isinstance(b, Outside):
             return UNKNOWN
         if isinstance(a, Mechanical) or isinstance(b, Mechanical):
             return combined(op, a, b)
+        if isinstance(op, ast.Add) and is_list(a) and is_list(b) and not self.matlab:
+            return [*a, *b]
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
@@ -197,10 +203,12 @@ class Evaluator:
         raise AbandonedError
 
     def _solution(self, A: MatrixBase, b: MatrixBase) -> Value:
-        """The column x of A x = b, as unknowns; of several columns nothing is known."""
+        """The column x of A x = b, as unknowns; of many columns nothing is known."""
         n = A.shape[0]
         if A.shape != (n, n) or b.shape[0] != n:
             raise AbandonedError
+        if 1 < b.shape[1] <= MOST_COLUMNS:
+            return sp.Matrix.hstack(*(self._solution(A, b[:, k]) for k in range(b.shape[1])))
         x = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n if b.shape[1] == 1 else 0))
         self.solved |= dict.fromkeys(x, (A, b, x))
         return sp.Matrix(x) if x else UNKNOWN
@@ -242,13 +250,7 @@ class Evaluator:
     def iterated(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
         """What a loop goes through: a list, range(…), zip(…), enumerate(…)."""
         if isinstance(node, ast.Call) and (called := called_name(node.func)) in ("range", "zip", "enumerate"):
-            given = [self.value(x, names) for x in node.args]
-            if called == "range":
-                found: list[Value] = [sp.Integer(k) for k in islice(range(*map(number, given)), MOST_ENTRIES + 1)]
-            elif called == "zip":
-                found = [list(x) for x in zip(*map(listed, given), strict=False)]
-            else:
-                found = [[sp.Integer(k), x] for k, x in enumerate(listed(given[0]))]
+            found = counted(called, [self.value(x, names) for x in node.args])
         else:
             found = listed(self.value(node, names))
         if len(found) > MOST_ENTRIES:
@@ -294,8 +296,6 @@ class Evaluator:
         if (of := made(name, given, options) or method(name, given, options)) is not None:
             self.methods += [(node.lineno, of)] if isinstance(of, MechanicsMethod) else []
             return of
-        if name == "struct" and all(isinstance(x, str) for x in given[::2]):
-            return dict(zip(given[::2], given[1::2], strict=False))
         if name in ("subs", "Subs") and len(given) > 1:
             return self._replaced(given[0], pairs_of(given[1:]))
         if self.matlab and isinstance(node.func, ast.Name) and given and not options:
@@ -374,7 +374,7 @@ class Evaluator:
                 start = self._bound(at.lower, names, 0, first)
                 end = self._bound(at.upper, names, self.states, 0)
                 found = [of.entry(k + 1) for k in range(start, end)]
-                return sp.Matrix(found) if self.matlab and found else found
+                return sp.Matrix(found) if found else found
             return of.entry(number(self.value(at, names)) + 1 - first)
         if isinstance(at, ast.Tuple) and isinstance(of, MatrixBase) and len(at.elts) == 2:
             row, column = (x if isinstance(x, ast.Slice) else number(self.value(x, names)) - first for x in at.elts)

@@ -22,12 +22,15 @@ from lagrangian.check.reading.carried_out.values import TIME, Value, matrix
 from lagrangian.check.reading.names import COLUMNS, spelled_rates
 
 _COMMENT = re.compile(
-    r"(?:[%#]|//)++[ \t]*+(?:[^\n:=]{0,60}:(?!=))?+(?P<left>[^\n=]{3,200}+)=(?P<right>[^\n=]{1,200}+)$", re.MULTILINE
+    r"(?:[%#]|//)++[ \t]*+(?:[^\n:=]{0,60}:(?!=))?+(?P<left>[^\n=]{3,200}+)=(?P<right>[^=\n]{1,200}?)"
+    r"(?=$|[,;.][ \t]++\w++[ \t]*+=)",
+    re.MULTILINE,
 )
 _WORD = re.compile(r"[^\W\d]\w*+")
 _TWICE = re.compile(r"(?<=[\w])(?:''|’’|″)")
 _ONCE = re.compile(rf"(?<!\w)({'|'.join(COLUMNS)})['’′]")
 _QUOTIENT = re.compile(r"(?<![\w])d([a-z])[ ]?/[ ]?dt(?!\w)")
+_PRODUCT = re.compile(r"(?<=[\w)\]])[ ](?=[\w(\[])")
 MOST = 20
 """The most comments that are looked at."""
 
@@ -38,7 +41,7 @@ def equations_in_comments(
     """The entries of equations in columns that comments state, with their lines; each entry is 0."""
     for match in islice(_COMMENT.finditer(reader.text), MOST):
         sides = [_ONCE.sub(r"\g<1>d", _TWICE.sub("dd", match[k])).strip().rstrip(".;,") for k in ("left", "right")]
-        sides = [_QUOTIENT.sub(r"\g<1>d", x) for x in sides]
+        sides = [_PRODUCT.sub("*", _QUOTIENT.sub(r"\g<1>d", x)) for x in sides]
         known = _columns(" ".join(sides), names, reader) or _state(" ".join(sides), names, reader)
         if known is None:
             continue

@@ -31,6 +31,7 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     called_name,
     equated,
+    is_list,
     is_number,
     is_scalar,
     is_sided,
@@ -114,7 +115,7 @@ class Interpreter(Evaluator):
         elif isinstance(s, ast.AnnAssign) and s.value is not None:
             self._assign(s.target, self.value(s.value, names), names, s.lineno)
         elif isinstance(s, ast.AugAssign):
-            before = self.value(ast.Name(getattr(s.target, "id", ""), ast.Load()), names)
+            before = self._value_of(s.target, names)
             self._assign(s.target, self.operated(s.op, before, self.value(s.value, names)), names, s.lineno)
         elif isinstance(s, ast.Expr):
             with suppress(*TROUBLES):
@@ -295,6 +296,10 @@ class Interpreter(Evaluator):
         if not all(0 <= k < MOST_ENTRIES for k in at):
             raise AbandonedError
         before = names.get(held.id)
+        if not self.matlab and before is not None and is_list(before) and len(at) == 1 and at[0] < len(before):
+            names[held.id] = [value if k == at[0] else x for k, x in enumerate(before)]
+            self.stated.append(Shown(held.lineno, held.id, names[held.id]))
+            return
         made = matrix(before) if isinstance(before, (list, tuple, MatrixBase)) and len(before) else sp.zeros(0, 0)
         flat = len(at) == 1 and made.shape[0] == 1
         row, column = (0, at[0]) if flat else (at[0], at[1] if len(at) > 1 else 0)

@@ -49,6 +49,13 @@ SAME = frozenset(
     ]
 )
 """What changes no value."""
+_ALIASES: Mapping[str, str] = {
+    **dict.fromkeys(("ImmutableMatrix", "mat", "block"), "Matrix"),
+    **dict.fromkeys(("numel", "length"), "len"),
+    **dict.fromkeys(("Diagonal", "diagm", "diagonal"), "diag"),
+    **{"arctan2": "atan2", "Subs": "subs", "block_diag": "blkdiag"},
+}
+"""Other names of functions."""
 SHOWN = frozenset(
     ["print", "pprint", "display", "disp", "pretty", "pretty_print", "latex", "mprint", "mlatex", "fprintf", "mpprint"]
 )
@@ -233,6 +240,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         return checked(value.applyfunc(make) if isinstance(value, MatrixBase) else make(scalar(value)))
     if name in ("array", "asarray") and isinstance(given[0], list) and given[0] and all(map(is_scalar, given[0])):
         return matrix(given[0])  # whose sums are no longer lists
+    if name in ("list", "tuple") and given and isinstance(given[0], (list, tuple, MatrixBase)):
+        return listed(given[0])
     if name in SAME:
         return given[0] if given else UNKNOWN
     if name in ("symbols", "Symbol", "sym", "var"):
@@ -255,6 +264,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "dot": lambda: dot(given[0], given[1]) if 1 in matrix(given[0]).shape else times(given[0], given[1]),
         "hypot": lambda: sp.sqrt(scalar(given[0]) ** 2 + scalar(given[1]) ** 2),
         "blkdiag": lambda: checked(sp.diag(*(scalar(x) if is_scalar(x) else matrix(x) for x in given))),
+        "struct": lambda: dict(zip(given[::2], given[1::2], strict=False)),
         "cross": lambda: cross(given[0], given[1]),
         "diag": lambda: sp.diag(*map(scalar, listed(given[0]) if len(given) == 1 else given)),
         "transpose": lambda: matrix(given[0]).T,
@@ -265,16 +275,7 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "atan2": lambda: sp.atan2(scalar(given[0]), scalar(given[1])),
         "len": lambda: sp.Integer(len(listed(given[0]))),
     }
-    for alias, same in (
-        ("ImmutableMatrix", "Matrix"),
-        ("arctan2", "atan2"),
-        ("Subs", "subs"),
-        ("mat", "Matrix"),
-        *((x, "len") for x in ("numel", "length")),
-        ("block_diag", "blkdiag"),
-        ("block", "Matrix"),
-    ):
-        table[alias] = table[same]
+    table |= {alias: table[same] for alias, same in _ALIASES.items()}
     if name in ("concatenate", "hstack", "vstack"):
         return stacked(given)
     if name in ("zeros", "ones", "eye", "identity", "zeros_like", "empty"):

@@ -135,7 +135,7 @@ def carried_out(text: str, model: Model, *, kept: bool = False) -> CarriedOut | 
         found += [(one.line, f"{called} = {written(one.value)}") for one, called in other_rates(run)]
         if not any(_ACCELERATES.search(x) for _, x in found):
             in_comments = equations_in_comments(run, names, reader)
-            found += [(line, f"{written(x)} = 0") for line, entries in in_comments for x in entries]
+            found += [(line, f"{written(_explicit(run, x))} = 0") for line, entries in in_comments for x in entries]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
     if not any(_ACCELERATES.search(x) for _, x in found):

@@ -186,6 +186,9 @@ class StateReader:
             said = list(self.in_comments(stem).values())
             own = [set(self.scope.meanings(x)[0]) & coordinates for x in said]
             moving = [(x, 1) if y else (self.rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
+            if all(own[: len(coordinates)]) and not any(self.scope.meanings(x)[0] for x in said[len(coordinates) :]):
+                listed = said[: len(coordinates)]  # x = [x1; x2; v1; v2]
+                moving = [(x, order) for order in (1, 2) for x in listed] if len(said) == 2 * len(listed) else moving
             if len(said) == count and all(x for x, _ in moving):
                 return [sp.Function(x)(TIME).diff(TIME, order) for x, order in moving]
         return []
@@ -212,15 +215,18 @@ class StateReader:
 
     def in_comments(self, name: str) -> dict[int, str]:
         """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi."""
-        form = re.compile(rf"(?<!\w){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]")
+        form = re.compile(
+            rf"(?<![\w*]){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]"
+        )
         single = re.compile(
             rf"(?<!\w){re.escape(name)}[(\[](\d)[)\]]\s*=\s*([^\W\d]\w*+)( ?(?:dot|rate|punkt)\b|['’])?(?![\w'/])"
         )
         found: dict[int, str] = {}
         for comment in re.finditer(r"(?:[#%]|\"\"\")[^\n]*", self.text):
-            if (match := form.search(comment.group())) is not None:
+            for match in form.finditer(comment.group()):
                 words = [_RATE.sub("dot", x) for x in re.split(r"[\s,;]+", match["entries"].strip()) if x]
-                return {k + 1: x for k, x in enumerate(words) if NAME.fullmatch(x)}
+                if named := {k + 1: x for k, x in enumerate(words) if NAME.fullmatch(x)}:
+                    return named
             found |= {int(m[1]): f"{m[2]}dot" if m[3] else m[2] for m in single.finditer(comment.group())}
         return found
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Mapping, Sequence
+from itertools import islice
 from typing import Any, TypeAlias, cast
 
 import sympy as sp
@@ -27,6 +28,8 @@ LARGEST_NUMBER = 10**60
 """The largest number, and the largest denominator of one."""
 MOST_ENTRIES = 64
 """The most entries of a matrix or a list."""
+MOST_COLUMNS = 4
+"""The most columns for which linear equations are solved at once."""
 HIGHEST = 12
 """The highest power."""
 
@@ -234,6 +237,16 @@ def is_number(value: Value) -> bool:
     return isinstance(value, Outside) or (isinstance(value, sp.Expr) and not value.free_symbols)
 
 
+def is_list(value: Value) -> bool:
+    """Whether a value is a list of Python, which a sum makes longer, and no matrix by its rows."""
+    return isinstance(value, list) and not any(isinstance(x, (list, MatrixBase)) for x in value)
+
+
+def joined(parts: Sequence[Value]) -> str:
+    """Return a string of its parts; an empty one if these are no names and numbers."""
+    return "".join(map(str, parts)) if all(isinstance(x, (str, sp.Integer)) for x in parts) else ""
+
+
 def is_scalar(value: Value) -> bool:
     """Whether a value is a single quantity."""
     return isinstance(value, sp.Expr) or (isinstance(value, (int, float)) and not isinstance(value, bool))
@@ -347,3 +360,12 @@ def bind(target: ast.expr, value: Value, names: dict[str, Value]) -> None:
             bind(one, part, names)
     else:
         raise AbandonedError
+
+
+def counted(called: str, given: Sequence[Value]) -> list[Value]:
+    """Return what a loop over range(…), zip(…) or enumerate(…) goes through."""
+    if called == "range":
+        return [sp.Integer(k) for k in islice(range(*map(number, given)), MOST_ENTRIES + 1)]
+    if called == "zip":
+        return [list(x) for x in zip(*map(listed, given), strict=False)]
+    return [[sp.Integer(k), x] for k, x in enumerate(listed(given[0]))]

@@ -33,7 +33,7 @@ from lagrangian.check.reading.prose.conditions import without_conditions
 from lagrangian.check.reading.prose.headings import without_headings
 from lagrangian.check.reading.prose.joined_words import with_words_joined
 from lagrangian.check.reading.prose.remarks import is_remark
-from lagrangian.check.reading.prose.sides_in_words import without_sides_in_words
+from lagrangian.check.reading.prose.sides_in_words import ends_in_a_word, without_sides_in_words
 from lagrangian.check.reading.prose.sketches import without_sketches
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.check.reading.prose.words_or_mathematics import (
@@ -169,7 +169,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     split = [row for row in (without_sums(row, words.names) for row in split) if row.text.strip()]
     found = [AnswerRow(row.start, without_sides_in_words(_bare(row.text, words), words)) for row in split]
     if len(found) > 1:
-        told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words.names)]
+        told = [(row, own) for row, own in zip(found, split, strict=True) if not _explained(row, own, words)]
         found, split = [row for row, _ in told], [own for _, own in told]
     levels = [is_level(row.text, own.text, words) for row, own in zip(found, split, strict=True)]
     named = zip(found, levels, strict=True)
@@ -211,11 +211,11 @@ def _bare(text: str, words: Words) -> str:
     return without_tail(bare, words, led=bare != text and "=" in text)
 
 
-def _explained(row: AnswerRow, own: AnswerRow, names: Names) -> bool:
+def _explained(row: AnswerRow, own: AnswerRow, words: Words) -> bool:
     """Whether one side of a row consisted of words, which a note tells: N is the contact force = lambda."""
     empty = row.text.lstrip().startswith("=") and not own.text.lstrip().startswith("=")
-    if empty:
-        names.notes.setdefault(f"'{' '.join(own.text.split())}' was not judged: one side consists of words.")
+    if empty := empty or ends_in_a_word(row.text, words):
+        words.names.notes.setdefault(f"'{' '.join(own.text.split())}' was not judged: one side consists of words.")
     return empty
 
 

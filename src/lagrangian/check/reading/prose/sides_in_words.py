@@ -20,6 +20,17 @@ _SENTENCE = re.compile(r"(?:[^\W\d_]{2,}[ \t]+){2}[^\W\d_]")
 _SHORTEST = 4
 """The fewest letters of a word; shorter ones are names but in a phrase."""
 
+_LAST = re.compile(
+    r"=[ \t]*+(?:[^\W\d_]{2,4}[ \t]++){0,3}(?P<word>(?:[Mm]oment|torque|force|Kraft|Kräfte)s?e?)[ \t.]*+\Z"
+)
+"""A last side that says only what it is: J_P θ'' = moment."""
+
+
+def ends_in_a_word(row: str, words: Words) -> bool:
+    """Whether the last side of a statement only says what it is, in a word that nothing else explains."""
+    last = _LAST.search(row)
+    return last is not None and words.count(last["word"]) == 1 and not words.names.known(last["word"])
+
 
 def without_sides_in_words(row: str, words: Words) -> str:
     """Return a statement with at least three sides without those in words, if two others are left."""
