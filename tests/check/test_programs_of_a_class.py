@@ -113,6 +113,7 @@ def right(text: str, model: str = "cart-pole") -> bool:
     [
         (CONDITION, "F - b*v", "F + b*v"),
         (CONDITION, "        F = 5.0", "        b = -b"),
+        (CONDITION, "    if t < 1:", "    b = -b if t < 1 else 2*b\n    if t < 1:"),
         (OBJECT, "F - self.b*v", "F + self.b*v"),
         (OBJECT, "= M, mass", "= M, 2*mass"),
         (TABLE, "omega**2", "omega"),

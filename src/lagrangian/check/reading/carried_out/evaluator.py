@@ -217,7 +217,7 @@ class Evaluator:
         if node.attr == "_t":
             return TIME  # dynamicsymbols._t
         of = self.value(node.value, names)
-        if of is UNKNOWN:
+        if isinstance(of, Outside) and of is not LIBRARY:
             return sp.Symbol(node.attr) if self.known(node.attr) else UNKNOWN  # p.m of p = Parameters()
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)

@@ -17,6 +17,7 @@ from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
     LIBRARY,
+    LOST,
     MOST_ENTRIES,
     TIME,
     TROUBLES,
@@ -138,7 +139,8 @@ class Interpreter(Evaluator):
         try:
             return self.value(node, names)
         except TROUBLES:
-            return UNKNOWN
+            used = {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
+            return LOST if any(map(self.known, used)) else UNKNOWN
 
     def _loop(self, s: ast.For, names: dict[str, Value]) -> None:
         """Carry out a loop; of what one over too much changes, such as the steps of a solver, nothing is known."""
@@ -234,7 +236,7 @@ class Interpreter(Evaluator):
             for one, part in zip(target.elts, parts, strict=True):
                 self._assign(one, part, names, line)
         elif isinstance(target, ast.Name):
-            if isinstance(value, Outside) and self.known(target.id):
+            if isinstance(value, Outside) and value is not LOST and self.known(target.id):
                 value = sp.Symbol(target.id)  # F = workpiece(t, x), which the program has elsewhere
             given = isinstance(value, sp.Symbol) and not self.known(value.name) and "[" not in value.name
             given = given or (

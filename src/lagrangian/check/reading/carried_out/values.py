@@ -46,7 +46,8 @@ class Outside:
     """What no symbol stands for: a module, a figure, the solution of a solver. Nothing is done with it."""
 
 
-UNKNOWN, LIBRARY = Outside(), Outside()
+UNKNOWN, LIBRARY, LOST = Outside(), Outside(), Outside()
+"""What is not known, a module, and what is made of parameters in a way that is not known."""
 MODULES = frozenset(
     ["np", "numpy", "sp", "sympy", "math", "me", "mechanics", "scipy", "plt", "jnp", "cmath", "la", "linalg", "physics"]
 )
