@@ -69,7 +69,8 @@ def _with_terms(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdic
         if any(m.name == "denominator" for m in verdict.mistakes) and any(denominator_of(x) is not None for x in wrong):
             return _with_term_of_denominator(truth, lines, verdict, combined)
         found = _with_denominators(truth, lines, with_terms_alone(combined), combined)
-        return found if found.mistakes else verdict
+        if found.mistakes:
+            return found
     balanced = with_wrong_balance(truth, lines, verdict)
     combined = with_combined_rows(truth, lines, balanced)
     told = with_terms_alone(_with_term_of_one_line(truth, combined))
