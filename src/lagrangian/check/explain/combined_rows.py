@@ -55,8 +55,9 @@ def with_combined_rows(truth: Reference, lines: Sequence[AnsweredLine], verdict:
     findings, told = list(verdict.findings), list[WrongTerm]()
     for finding in verdict.findings:
         rows = finding.status is Status.WRONG and finding.line.kind == "equation" and len(finding.differences) != 1
-        written = as_written(lines, finding.line) if rows else finding.line
-        if not rows or (wrong := one_wrong_term(on, cleared(written.expr))) is None:
+        exprs = [finding.line.expr, as_written(lines, finding.line).expr] if rows else []
+        found = (one_wrong_term(on, cleared(x)) for x in exprs)
+        if not rows or (wrong := next((x for x in found if x is not None), None)) is None:
             continue
         k = next(k for k, f in enumerate(findings) if f is finding)
         if any(wrong.factor == x.factor and _quotient(on, wrong.term, x.term) for x in told):

@@ -37,7 +37,7 @@ EACH = frozenset(
     ["speed", "component", "along", "turning", "height", "kinetic", "translation", "rotation", "potential", "inertia"]
 )
 """Kinds of quantities that are said of each of two equal bodies at once."""
-MOST = 80
+MOST = 100
 """The largest number of quantities of a system."""
 
 

@@ -316,7 +316,7 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
     if q.kind in ("position", "height", "apart", "deflection"):
         return not rates and (moves or (q.kind == "position" and s.rate(said) != 0))
     if q.kind in ("turning", "speed", "component", "along"):
-        return bool(rates) or said == 0
+        return bool(rates) or (said == 0 and q.kind in ("component", "along"))
     if q.kind == "rate":
         return bool(moves or rates)
     common = letters_in(said) & letters_in(q.right)
