@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from types import FunctionType
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import sympy as sp
 
@@ -23,7 +23,7 @@ _describing: ContextVar[set[sp.Rational] | None] = ContextVar("decimals", defaul
 def noted(number: sp.Expr) -> sp.Expr:
     """Return a number that was written as a decimal; the description that is being made remembers it."""
     if (found := _describing.get()) is not None and isinstance(number, sp.Rational) and number.q != 1:
-        found.add(sp.Rational(abs(int(number.p)), int(number.q)))
+        found.add(cast("sp.Rational", sp.Rational(abs(int(number.p)), int(number.q))))
     return number
 
 

@@ -70,7 +70,7 @@ def _ratio(right: Any, written: Any) -> sp.Rational | None:
     number = Fraction(times).limit_denominator(LARGEST_DENOMINATOR)
     if number == 0 or np.abs(written - float(number) * right).max() > SMALL * np.abs(written).max():
         return None
-    return sp.Rational(number.numerator, number.denominator)
+    return cast("sp.Rational", sp.Rational(number.numerator, number.denominator))
 
 
 def put_together(expr: sp.Expr) -> sp.Expr:
