@@ -113,3 +113,34 @@ def test_known_forces_are_counted_on_every_body() -> None:
     parts = known_parts(truth, [AnsweredLine("equation", line, 1)], [])
     assert not parts[0].right
     assert str(parts[0].said).endswith("counts twice.")
+
+
+@cache
+def flail() -> lg.Derivation:
+    """A rod m, I on a hinge at the radius e of a rotor J, without gravity; angles phi and beta, relative."""
+    s = lg.System("flail")
+    phi, beta = s.coordinates("phi beta")
+    J, I, m, e, a = s.parameters("J I m e a")
+    arm = s.frame(phi, name="rotor")
+    rod = s.frame(beta, parent=arm, name="rod")
+    hinge = s.point("hinge", (e, 0), frame=arm)
+    s.rigid_body(0, inertia=J, at=s.origin, frame=arm, name="rotor")
+    s.rigid_body(m, inertia=I, at=s.point("centre", (a, 0), relative_to=hinge, frame=rod), frame=rod, name="rod")
+    s.torque(s.inputs("tau"), on=phi)
+    return s.derive()
+
+
+FLAIL = """along the rod:  a_n = -a (phi' + beta')^2 - e phi'^2 cos(beta) + e phi'' sin(beta)
+across the rod: a_t = a (phi'' + beta'') + e phi'' cos(beta) + e phi'^2 sin(beta)
+m a_n = H_n
+m a_t = H_t
+I (phi'' + beta'') = -a H_t
+J phi'' = tau - e (H_t cos(beta) + H_n sin(beta))
+(I + m a^2) (phi'' + beta'') + m a e (phi'' cos(beta) + phi'^2 sin(beta)) = 0
+(J + m e^2) phi'' + m a e cos(beta) (phi'' + beta'') - m a e sin(beta) (phi' + beta')^2 = tau"""
+
+
+def test_forces_between_which_long_relations_hold_are_given_up() -> None:
+    said = "H_n acts along the rod (outward), H_t at right angles to it.\n"
+    assert check_answer(flail(), said + FLAIL).right
+    assert not check_answer(flail(), said + FLAIL.replace("- m a e sin(beta)", "+ m a e sin(beta)")).right

@@ -129,7 +129,8 @@ def _values(lines: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Ite
 
 
 def _contradictions(aside: Sequence[AnsweredLine], unknown: Collection[sp.Basic]) -> Iterator[AnsweredLine]:
-    """What relations say of the system, once each unknown name has been eliminated."""
+    """What relations say of the system, once each unknown name has been eliminated; those that become too long say
+    nothing."""
     waiting = [line for line in aside if line.kind == "equation" and bounded.operations(line.expr) <= LONGEST]
     waiting = waiting[:MOST]
     while waiting:
@@ -139,7 +140,8 @@ def _contradictions(aside: Sequence[AnsweredLine], unknown: Collection[sp.Basic]
             continue
         slope = cast("sp.Expr", _slope(first.expr, name))
         value = name - first.expr / slope
-        put = [replace(x, expr=bounded.expand(cast("sp.Expr", x.expr.xreplace({name: value})))) for x in waiting]
+        put = [replace(x, expr=cast("sp.Expr", x.expr.xreplace({name: value}))) for x in waiting]
+        put = [replace(x, expr=bounded.expand(x.expr)) for x in put if bounded.operations(x.expr) <= 4 * LONGEST]
         waiting = [x for x in put if x.expr.has(*unknown)]
         found = [x for x in put if not x.expr.has(*unknown)]
         yield from (x for x in found if bounded.operations(x.expr) <= 4 * LONGEST and bounded.expand(x.expr) != 0)
