@@ -341,6 +341,7 @@ def test_rows_of_several_bodies_are_judged(program: str, old: str, new: str) -> 
 
 
 IN_COMMENT = """% matrices of the cart, q = [x; theta], Mm*qdd + Cm*qd = f(t)
+syms M m J l b g F theta theta_dot real
 Mm = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2];
 Cm = [b, -m*l*sin(theta)*theta_dot; 0, 0];
 f = [F; m*g*l*sin(theta)];
