@@ -1,4 +1,4 @@
-"""A mistake is told where it was done: in a derivative, in a place of a body that is carried around, in an acceleration.
+"""A mistake is told where it was done: in a derivative, a place of a body that is carried around, an acceleration.
 
 Oracle: by hand. A seat m on a bar l that hangs from a crown at the distance a from its axis, which turns with Ω:
 
