@@ -166,8 +166,13 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         if others and verdict.hint >= 3:
             yield text("It could also be this: ", *others[0].what.parts)
         return
-    yield text("No mistake was found that explains all of it; these are the places to look at.")
-    yield from _places(verdict)
+    if places := list(_places(verdict)):
+        yield text("No mistake was found that explains all of it; these are the places to look at.")
+        yield from places
+        return
+    first = verdict.first_wrong
+    where = f": go through {first.line.title} once more, term by term" if first is not None else ""
+    yield text(f"No mistake was found that explains all of it{where}.")
 
 
 def _places(verdict: Verdict) -> Iterator[Item]:

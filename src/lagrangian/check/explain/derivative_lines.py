@@ -162,6 +162,8 @@ def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
     if right == 0 or written == 0 or not functions:
         return WHY
     quotient = bounded.cancel(right / written)
+    if (inside := _inside(title, written, quotient)) is not None:
+        return text("The chain rule: ", inside, " has the inner derivative ", quotient, ".")
     rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
     if quotient == -1 and (not isinstance(title, Total) or any(x != 0 and right.has(x) for x in rates.values())):
         return WHY_FUNCTION
@@ -170,6 +172,18 @@ def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
             angle = cast("sp.Expr", f.args[0])
             return text("The chain rule: sine and cosine of ", angle, " have the inner derivative ", inner, ".")
     return WHY
+
+
+def _inside(title: Left, written: sp.Expr, missing: sp.Expr) -> sp.Expr | None:
+    """The sum in a derivative by a coordinate whose own derivative is the factor that is missing: a + l sin θ."""
+    by = cast("sp.Expr", title.by) if isinstance(title, Partial) else None
+    sums = [f.as_base_exp()[0] for f in sp.Mul.make_args(written)]
+    found = [
+        x
+        for x in sums
+        if isinstance(x, sp.Add) and by is not None and bounded.expand(bounded.diff(x, by) - missing) == 0
+    ]
+    return found[0] if found and not missing.is_number else None
 
 
 def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mistake]:
@@ -198,7 +212,22 @@ def _replaced(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Exp
     for more, less in (rest, rest[::-1]) if len(rest) == 2 else ():
         if -less in right and more not in right and more in written:  # two that are missing stand for nothing
             return more, -less
-    return _same_number(rest, right)
+    return _same_number(rest, right) or _same_factor(rest, right)
+
+
+def _same_factor(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:
+    """The same for several terms that all lack one factor, or have it too much, put together: m Ω² (a + l sin θ) for
+    m Ω² (a + l sin θ) l cos θ."""
+    lost = [-x for x in rest if -x in right]
+    there = [x for x in rest if -x not in right]
+    if not 1 < len(lost) == len(there) <= MOST_ALIKE:
+        return None
+    quotients = (_quotient(lost[0] / x) for x in there)
+    factors = [f for f in quotients if {*lost} == {bounded.expand(f * y) for y in there}]
+    if not factors or sp.Add.make_args(factors[0])[1:]:
+        return None
+    whole = cast("sp.Expr", sp.factor_terms(sp.Add(*there)))
+    return whole, cast("sp.Expr", factors[0] * whole)
 
 
 def _same_number(rest: Sequence[sp.Expr], right: Sequence[sp.Expr]) -> tuple[sp.Expr, sp.Expr] | None:

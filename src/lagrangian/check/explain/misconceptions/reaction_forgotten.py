@@ -14,13 +14,18 @@ WHY = text("What pushes two bodies apart acts on both, with opposite signs; so d
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Drop one end of every pair; drop each contribution to a Ξ if there are two of opposite sign."""
+    """Drop one end of every pair; drop each contribution to a Ξ if there are two of opposite sign.
+
+    Where this leaves what belongs to one relative coordinate in every Ξ, that is likelier what was done.
+    """
     for element in s.acting:
         shares = s.shares(element)
         for kept, lost in both_ends(s, element):
             what = text(f"Only one end of {element.title} is counted: its reaction on ", *lost.on, " is missing.")
             change = {i: s.xi((kept,), i) - shares.get(i, 0) for i in range(s.n)}
-            yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element, stated=NO_D)
+            changed = {i: x for i, x in change.items() if x != 0}
+            everywhere = len(shares) == 1 and len(changed) == s.n - 1 and {*changed.values()} == {*shares.values()}
+            yield Variant(what=what, Xi=changed, element=element, stated=NO_D, doubt=int(everywhere))
         for i, x in shares.items():
             if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):
                 what = text(f"The reaction of {element.title} is missing in the equation of ", s.q[i], ".")

@@ -1,0 +1,92 @@
+"""A mistake is told where it was done: in a derivative, a place of a body that is carried around, an acceleration.
+
+Oracle: by hand. A seat m on a bar l that hangs from a crown at the distance a from its axis, which turns with Ω:
+
+    T* = ½ m (l² θ̇² + Ω² (a + l sin θ)²),   ∂T*/∂θ = m Ω² (a + l sin θ) l cos θ,   V = −m g l cos θ
+
+and a hammer (m) with a hinge on a disc (J), with friction in the hinge, β relative to the disc.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+from sympy import cos, sin
+
+from lagrangian import Derivation, System
+from lagrangian.model import time
+
+
+@cache
+def swing() -> Derivation:
+    """A seat on a bar, on a crown that turns."""
+    sys = System("swing")
+    theta = sys.coordinates("theta")
+    m, l, a, Omega, c, g = sys.parameters("m l a Omega c g")
+    crown = sys.frame(Omega * time, name="crown", axis=(0, 0, 1))
+    sys.particle(m, at=crown.point(a + l * sin(theta), 0, -l * cos(theta)), name="seat")
+    sys.gravity((0, 0, -1), g)
+    sys.damper(c, deflection=theta)
+    return sys.derive()
+
+
+@cache
+def mill() -> Derivation:
+    """A hammer on a disc."""
+    sys = System("mill")
+    phi, beta = sys.coordinates("phi beta")
+    J, m, e, a, b, c = sys.parameters("J m e a b c")
+    tau = sys.inputs("tau")
+    disc, arm = sys.frame(phi, name="disc"), sys.frame(phi + beta, name="hammer")
+    sys.rigid_body(0, J, at=sys.origin, frame=disc, name="disc")
+    tip = (e * cos(phi) + a * cos(phi + beta), e * sin(phi) + a * sin(phi + beta))
+    sys.rigid_body(m, 0, at=sys.point("S", tip), frame=arm, name="hammer")
+    sys.damper(b, deflection=phi)
+    sys.damper(c, deflection=beta)
+    sys.torque(tau, on=phi)
+    return sys.derive()
+
+
+def told(system: Derivation, answer: str) -> list[str]:
+    """What is said of a wrong answer, its best explanation first."""
+    verdict = system.check(answer)
+    assert not verdict.right
+    return [" ".join(str(m.what).split()) for m in verdict.mistakes]
+
+
+DERIVED = """T = 1/2 m (l^2 theta'^2 + Omega^2 (a + l sin(theta))^2)
+V = -m g l cos(theta)
+dT/dtheta = {}
+m l^2 theta'' - ({}) + m g l sin(theta) = -c theta'"""
+SLOPE = "m Omega^2 (a + l sin(theta)) l cos(theta)"
+
+
+@pytest.mark.parametrize(
+    ("slope", "said"),
+    [
+        ("m Omega^2 (a + l sin(theta))", "the factor l*cos(theta) is missing"),
+        ("m Omega^2 (a + l sin(theta)) cos(theta)", "the factor l is missing"),
+    ],
+)
+def test_the_inner_derivative_of_a_sum_is_told(slope: str, said: str) -> None:
+    assert swing().check(DERIVED.format(SLOPE, SLOPE)).right
+    first, *others = told(swing(), DERIVED.format(slope, slope))
+    assert said in first and not others
+    why = swing().check(DERIVED.format(slope, slope)).mistakes[0].why
+    assert ("chain rule" in str(why)) == ("cos" in said)
+
+
+def test_where_nothing_is_found_a_line_is_named() -> None:
+    slope = "m Omega^2 (a + l cos(theta)) sin(theta)^3"
+    verdict = swing().check(DERIVED.format(slope, slope))
+    assert not verdict.right and not verdict.mistakes
+    text = " ".join(verdict.to_text().split())
+    assert "these are the places" not in text and "go through line 3 once more, term by term" in text
+
+
+def test_what_belongs_to_one_relative_coordinate_is_counted_in_every_equation() -> None:
+    answer = "T = 1/2 J phi'^2 + 1/2 m (e^2 phi'^2 + a^2 (phi' + beta')^2 + 2 e a phi' (phi' + beta') cos(beta))\n"
+    answer += "Q_phi = tau - b phi' {}\nQ_beta = -c beta'"
+    assert mill().check(answer.format("")).right
+    assert "in every" in told(mill(), answer.format("- c beta'"))[0]
