@@ -17,6 +17,7 @@ from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, bla
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
+from lagrangian.check.explain.inertia_forms import as_form, cancelled
 from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.known_beside import with_known
 from lagrangian.check.explain.line_mistakes import (
@@ -37,13 +38,7 @@ from lagrangian.check.explain.reasoned import as_defined, reasoned
 from lagrangian.check.explain.reduced import of_reduced
 from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
-from lagrangian.check.explain.search import (
-    EXOTIC,
-    Explanation,
-    Told,
-    by_rows,
-    first_explained,
-)
+from lagrangian.check.explain.search import EXOTIC, Explanation, Told, by_rows, first_explained
 from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.explain.slips import below_right_equations, of_slip
@@ -204,7 +199,8 @@ def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
-    return all(is_quotable(in_words(truth, t, explanation.under), written) for t in explanation.told)
+    told, under = explanation.told, explanation.under
+    return all(is_quotable(in_words(truth, t, under), written | cancelled(truth, t.mistake)) for t in told)
 
 
 def _without_partial(
@@ -372,7 +368,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(is_part(pool, t, of) for of, _ in chosen)]
     wide = joined(pool, chosen)
-    chosen = [(narrowed(pool, t, kinds), under) for t, under in wide]
+    chosen = [(narrowed(pool, as_form(pool, t), kinds), under) for t, under in wide]
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
     every = [with_term(pool, t, a, in_words(pool.truth, t, a), kinds) for t, a in chosen]
