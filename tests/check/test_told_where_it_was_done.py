@@ -90,3 +90,52 @@ def test_what_belongs_to_one_relative_coordinate_is_counted_in_every_equation() 
     answer += "Q_phi = tau - b phi' {}\nQ_beta = -c beta'"
     assert mill().check(answer.format("")).right
     assert "in every" in told(mill(), answer.format("- c beta'"))[0]
+
+
+CARRIED = """r = {0}, z = -l cos(theta)
+T = 1/2 m (l^2 theta'^2 + Omega^2 ({0})^2)
+V = m g z
+m l^2 theta'' - m Omega^2 ({0}) l cos(theta) + m g l sin(theta) = -c theta'"""
+
+
+def test_a_place_on_what_turns_by_itself_is_judged_though_only_its_value_is_used() -> None:
+    right = swing().check(CARRIED.format("a + l sin(theta)"))
+    assert right.right and not right.notes
+    wrong = CARRIED.format("l sin(theta)")
+    first, *others = told(swing(), wrong)
+    assert first.startswith("Line 1 is not right") and "is a + l*sin(theta), not l*sin(theta)" in first and not others
+    assert [f.follows for f in swing().check(wrong).findings if not f.status.right] == [False, True, True]
+
+
+@cache
+def bridge() -> Derivation:
+    """A leaf with a weight on a rope, h = 2 l sin(θ/2)."""
+    sys = System("bridge")
+    theta = sys.coordinates("theta")
+    J, m, l, c, g = sys.parameters("J m l c g")
+    F = sys.inputs("F")
+    leaf = sys.frame(-theta, name="leaf")
+    sys.rigid_body(0, J, at=sys.origin, frame=leaf, name="leaf")
+    weight = sys.point("W", (0, 2 * l * sin(theta / 2)))
+    sys.particle(m, at=weight, name="weight")
+    sys.gravity((0, -1), g)
+    sys.damper(c, deflection=theta)
+    sys.force((0, -F), at=weight)
+    return sys.derive()
+
+
+BALANCES = """weight: m h'' = S - m g - F, h'' = {}
+leaf: J theta'' = -S l cos(theta/2) - c theta'
+(J + m l^2 cos(theta/2)^2) theta'' {} + c theta' + (m g + F) l cos(theta/2) = 0"""
+FULL = ("l cos(theta/2) theta'' - l/2 sin(theta/2) theta'^2", "- m l^2/2 sin(theta/2) cos(theta/2) theta'^2")
+
+
+def test_a_wrong_acceleration_is_told_before_what_follows_from_it() -> None:
+    assert bridge().check(BALANCES.format(*FULL)).right
+    for short in ("l cos(theta/2) theta''", "-l cos(theta/2) theta''"):
+        first, *others = told(bridge(), BALANCES.format(short, ""))
+        assert first.startswith("Line 1 is not right: the y component of the acceleration") and not others
+    turned = told(bridge(), BALANCES.format(FULL[0].replace("l/2", "l"), FULL[1].replace("l^2/2", "l^2")))
+    assert turned[0].startswith("Line 1 is not right")
+    other = told(bridge(), BALANCES.format(FULL[0], ""))  # the acceleration is right: the equation has it wrong
+    assert "Line 1" not in other[0]

@@ -28,8 +28,11 @@ from lagrangian.page.formula import Left
 from lagrangian.records import dataclass
 
 SIGNED = frozenset(
-    ["component", "along", "apart", "turning", "height", "deflection", "rate", "force", "damping", "restoring"]
-)
+    [
+        "component", "along", "apart", "turning", "height", "deflection", "rate", "force", "damping", "restoring",
+        "acceleration",
+    ]
+)  # fmt: skip
 """Kinds that an answer may count in the other sense."""
 LEVEL = frozenset(["position", "height", "deflection", "potential"])
 """Kinds that a constant does not change."""
@@ -39,6 +42,8 @@ EACH = frozenset(
 """Kinds of quantities that are said of each of two equal bodies at once."""
 MOST = 100
 """The largest number of quantities of a system."""
+LONGEST_VELOCITY = 120
+"""The largest number of operations of a velocity whose acceleration is held against what an answer says."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,13 +80,12 @@ class Sayable:
 
 
 class Sayables:
-    """The quantities of a system, with their values at every state."""
+    """The quantities of a system, or the accelerations in it, with their values at every state."""
 
-    def __init__(self, truth: Reference) -> None:
+    def __init__(self, truth: Reference, *, accelerations: bool = False) -> None:
         s = ingredients_of(truth.derivation)
         self.of = s
-        every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_shafts(s), *_of_energies(s))
-        every = (*every, *_of_coordinates(s), *_turned(s))
+        every: tuple[Sayable, ...] = tuple(_accelerations(s)) if accelerations else _all_of(s)
         self.all = [q for q in every if q.right != 0]
         self.all = [*self.all, *of_twins(s, self.all)][:MOST]
         self.rights = [truth.put(q.right) for q in self.all]
@@ -92,6 +96,17 @@ class Sayables:
 def quantities_of(truth: Reference) -> Sayables:
     """The quantities of a system, collected once for the systems that were checked most recently."""
     return Sayables(truth)
+
+
+@lru_cache(maxsize=16)
+def accelerations_of(truth: Reference) -> Sayables:
+    """The accelerations of the bodies of a system, collected where an answer says one."""
+    return Sayables(truth, accelerations=True)
+
+
+def _all_of(s: Ingredients) -> tuple[Sayable, ...]:
+    every = (*_of_bodies(s), *_of_springs(s), *_of_dampers(s), *_of_shafts(s), *_of_energies(s))
+    return (*every, *_of_coordinates(s), *_turned(s))
 
 
 def of_twins(s: Ingredients, every: Sequence[Sayable]) -> Iterator[Sayable]:
@@ -141,6 +156,26 @@ def _turned(s: Ingredients) -> Iterator[Sayable]:
         for axes, x in turned_velocities(s, b):
             words = (f"component of the velocity of {b.title}", *axes)
             yield Sayable("along", b, words, x, lambda said, m=m, x=x: Effect(T=m * (said**2 - x**2) / 2))
+
+
+def _accelerations(s: Ingredients) -> Iterator[Sayable]:
+    """The components of accelerations, and angular accelerations: another one adds m (a − a₀) ∂r/∂ξ_i to each row."""
+    for b in s.bodies:
+        if bounded.operations(*s.velocity(b)) > LONGEST_VELOCITY:
+            continue
+        for c, (x, v) in enumerate(zip(s.position(b), s.velocity(b), strict=True)):
+            right, slopes = s.rate(v), [s.expand(b.mass) * bounded.diff(x, q) for q in s.q]
+            words = (f"{'xyz'[c]} component of the acceleration of {b.title}",)
+            yield Sayable("acceleration", b, words, right, partial(_accelerated, right, slopes))
+        omega = s.omega(b) if isinstance(b, RigidBody) else ()
+        for w in omega if len(omega) == 1 else ():
+            right, slopes = s.rate(w), [s.expand(b.inertia[0]) * bounded.diff(w, v) for v in s.v]
+            words = (f"angular acceleration of {b.title}",)
+            yield Sayable("acceleration", b, words, right, partial(_accelerated, right, slopes))
+
+
+def _accelerated(right: sp.Expr, slopes: Sequence[sp.Expr], said: sp.Expr) -> Effect:
+    return _pushing(sp.Add(said, -right), slopes)
 
 
 def _elsewhere(s: Ingredients, b: Any, placed: Callable[[sp.Expr], list[sp.Expr]], said: sp.Expr) -> Effect:

@@ -14,6 +14,9 @@ WHY = {
     "speed": text(_SPEED),
     "component": text(_SPEED),
     "along": text(_SPEED),
+    "acceleration": text(
+        "The acceleration is the derivative of the velocity: what multiplies a rate in it is differentiated as well."
+    ),
     "turning": text("ω is how fast the body itself turns against the fixed axes."),
     "inertia": text("Take the moment of inertia that is given, about the centre of mass."),
     "axis": text(

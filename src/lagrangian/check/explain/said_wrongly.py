@@ -16,7 +16,15 @@ from lagrangian.check.explain.dampers_said import damper_share
 from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
-from lagrangian.check.explain.quantities import LEVEL, SIGNED, Effect, Sayable, quantities_of
+from lagrangian.check.explain.quantities import (
+    LEVEL,
+    SIGNED,
+    Effect,
+    Sayable,
+    Sayables,
+    accelerations_of,
+    quantities_of,
+)
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_RELATIVE, WHY_TERM
@@ -150,26 +158,39 @@ class SaidWrongly:
         return values
 
 
-def in_names_of(truth: Reference, line: AnsweredLine) -> sp.Expr | None:
-    """What a definition says, in names of the system; None if it says nothing that could be a quantity of it."""
+def in_names_of(truth: Reference, line: AnsweredLine, *, accelerating: bool = False) -> sp.Expr | None:
+    """What a definition says, in names of the system; None if it says nothing that could be a quantity of it, or an
+    acceleration, unless these are asked for."""
     if line.kind != "definition" or bounded.operations(line.expr) > LONGEST:
         return None
     if line.name in truth.model.symbols:
         return None
     said = truth.expand(line.expr)
     foreign = said.free_symbols - truth.names
-    if foreign or said.has(*(c.acceleration for c in truth.model.coordinates)):
+    if foreign or (not accelerating and _accelerates(truth, said)):
         return None
     return said if letters_in(said) or said == 0 else None
 
 
-def _plausible(truth: Reference, line: AnsweredLine, turned: bool) -> list[int]:
+def _accelerates(truth: Reference, said: sp.Expr) -> bool:
+    return said.has(*(c.acceleration for c in truth.model.coordinates))
+
+
+def _quantities(truth: Reference, said: sp.Expr) -> Sayables:
+    """The quantities that what is said may be of: accelerations if it holds any."""
+    return accelerations_of(truth) if _accelerates(truth, said) else quantities_of(truth)
+
+
+def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool) -> list[int]:
     """The places of the quantities that a name may stand for by its letters; only Q_… for a generalized force.
 
-    If its axes are ``turned``, v_x is no component along the fixed one.
+    If its axes are ``turned``, v_x is no component along the fixed one. Accelerations have names of any letters.
     """
-    every, name = quantities_of(truth).all, line.name or ""
-    kinds, owner = kinds_of(name), owner_of(name, truth.model)
+    every, name = _quantities(truth, said).all, line.name or ""
+    owner = owner_of(name, truth.model)
+    if _accelerates(truth, said):
+        return [k for k, q in enumerate(every) if owner in (None, q.owner)]
+    kinds = kinds_of(name)
     kinds = None if kinds is not None and set(kinds) <= OF_RATES and _is_place(truth, line) else kinds
     found = [
         k for k, q in enumerate(every) if (q.kind != "Xi" if kinds is None else PART_OF.get(q.kind, q.kind) in kinds)
@@ -191,14 +212,14 @@ def _is_place(truth: Reference, line: AnsweredLine) -> bool:
 def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False, turned: bool = False) -> list[Sayable]:
     """The quantities whose value a definition has, as it counts them, along ``turned`` axes if those are meant; with
     ``but``, a constant more does not matter."""
-    said = in_names_of(truth, line)
+    said = in_names_of(truth, line, accelerating=True)
     trivial = said is None or _is_trivial(said)
     if said is None or (trivial and kinds_of(line.name or "") is None):
         return []
-    every = quantities_of(truth)
+    every = _quantities(truth, said)
     values = CompiledExpressions([said]).at(truth.states)[0]
     found: list[Sayable] = []
-    for k in _plausible(truth, line, turned) if np.isfinite(values).all() else ():
+    for k in _plausible(truth, line, said, turned) if np.isfinite(values).all() else ():
         q, right = every.all[k], every.values[k]
         if trivial and q.kind not in TRIVIAL:
             continue
@@ -231,12 +252,12 @@ def _is_trivial(said: sp.Expr) -> bool:
 
 def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> Iterator[SaidWrongly]:
     """What a definition may say wrongly of the quantities that its name may stand for."""
-    said = in_names_of(truth, line)
+    said = in_names_of(truth, line, accelerating=True)
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
-    every, right = quantities_of(truth), right_quantities(truth, line, but=True, turned=turned)
+    every, right = _quantities(truth, said), right_quantities(truth, line, but=True, turned=turned)
     s, elsewhere = every.of, bool(right)
-    for k in _plausible(truth, line, turned):
+    for k in _plausible(truth, line, said, turned):
         q = every.all[k]
         if not _alike(s, q, said) or any(q is x for x in right):
             continue
@@ -319,6 +340,8 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
         return bool(rates) or (said == 0 and q.kind in ("component", "along"))
     if q.kind == "rate":
         return bool(moves or rates)
+    if q.kind == "acceleration":
+        return True
     common = letters_in(said) & letters_in(q.right)
     return q.kind == "Xi" or any(x.is_Symbol for x in common)
 

@@ -36,7 +36,8 @@ def turned_places(
     s: Ingredients, b: Any
 ) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, Callable[[sp.Expr], list[sp.Expr]]]]:
     """The components of a position along such axes, from the fixed point or from that by which it is carried, that
-    change; each with the position that another value in its place leads to."""
+    change; each with the position that another value in its place leads to. Only along axes that no coordinate turns
+    do they hold angles: a + l sin θ from the axis of a crown."""
     if bounded.operations(*s.velocity(b)) > LONGEST:
         return
     seen = {bounded.expand(sign * x) for x in s.position(b) for sign in (1, -1)}
@@ -45,7 +46,8 @@ def turned_places(
         for words, axes in islice(_axes(s, b), MOST_AXES):
             way = [x - y for x, y in zip(s.position(b), base, strict=True)]
             for k, x in _along(s, axes, way):
-                if s.moves(x) and not x.has(sp.sin, sp.cos) and not {x, -x} & seen:
+                plain = not x.has(sp.sin, sp.cos) or not axes.has(*s.q)
+                if s.moves(x) and plain and not {x, -x} & seen:
                     seen.add(x)
                     yield words, x, partial(_placed, s.position(b), axes, k, x)
 
