@@ -221,26 +221,6 @@ def test_a_mistake_in_one_of_two_equal_elements_says_so() -> None:
     assert str(verdict.mistakes[0].what).startswith("One of damper 'joint 1' and damper 'joint 2' ")
 
 
-TABLE = r"""\begin{align*}
-\text{sledge} & & T &= \tfrac12 M\dot x^2 & V &= 0\\
-\text{slider} & & T &= \tfrac12 m(\dot x + \dot y)^2 & V &= \tfrac12 k y^2
-\end{align*}
-$T = \frac12 M\dot x^2 + \frac12 m(\dot x + \dot y)^2$
-
-$V = \frac12 k y^2$
-
-$(M + m)\ddot x + m\ddot y = 0$
-
-$m(\ddot x + \ddot y) + k y = 0$"""
-
-
-def test_energies_in_rows_behind_words_are_those_of_parts() -> None:
-    verdict = sledge().check(TABLE)
-    assert verdict.right and {f.line.number for f in verdict.findings} >= {2, 3, 5, 7, 9, 11}
-    wrong = sledge().check(TABLE.replace(r"\tfrac12 m(\dot x + \dot y)^2 &", r"\tfrac12 m(\dot x - \dot y)^2 &"))
-    assert [f.line.number for f in wrong.findings if not f.status.right] == [3]
-
-
 @cache
 def hoist() -> Derivation:
     """A drum with a brake and a slider on a spring lower a weight: z = r φ + x."""

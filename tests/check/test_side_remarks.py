@@ -242,3 +242,18 @@ def test_an_energy_that_is_stated_again_is_taken_back() -> None:
     said = "Originally I wrote T = 5 M x'^2, but without the pole."
     assert derivation("cart-pole").check(f"{said}\n{whole}\n{CART}\n{POLE}").right
     assert not derivation("cart-pole").check(f"{said}\n{whole.replace('1/2 (M', '(M')}\n{CART}\n{POLE}").right
+
+
+@pytest.mark.parametrize(
+    "remark",
+    [
+        "There is no spring, so the result is (M + m) x'' + b x' = F",
+        "With no friction in the hinge, the final equation: (J + m l^2) theta'' = m g l sin(theta)",
+        "Without friction: (M + m) x'' = F",
+        "Check: (M + m) x'' + m l theta'' = F",
+        "height above the unit mark: V = m g h\nwith h = - l cos(theta)",
+        "unit mass, T = m A^2\nA = l theta'",
+    ],
+)
+def test_words_of_a_force_or_a_unit_hide_no_wrong_line(remark: str) -> None:
+    assert not right(f"{CART}\n{POLE}\n{remark}")

@@ -102,20 +102,25 @@ def _remark(truth: Reference, line: AnsweredLine) -> str | None:
         return None
     if "case" in line.beside or foreign or not accelerates:
         return "it is a remark beside the equations"
-    return _special_case(truth, line.expr)
+    return _special_case(truth, line.expr, lacks="lacks" in line.beside)
 
 
-def _special_case(truth: Reference, expr: sp.Expr) -> str | None:
+def _special_case(truth: Reference, expr: sp.Expr, *, lacks: bool) -> str | None:
     """Why an equation may be right in a special case: it lacks terms of a right one and has all others as they are,
-    or a coordinate is held at 0, whose own equation says how it is held."""
+    or a coordinate is held at 0, whose own equation says how it is held.
+
+    Where words say that it ``lacks`` a force, the motions may be small, and no inertia is missing.
+    """
     if (form := truth.form(expr)) is None:
         return "it is a remark beside the equations"
-    small_ones = ([truth.form(row) for row in rows] for rows in _rows_for_small(truth) if rows)
+    small_ones = ([truth.form(row) for row in rows] for rows in _rows_for_small(truth) if rows and lacks)
+    moving = [c.acceleration for c in truth.model.coordinates]
     for forms in (truth.forms, *small_ones):
         for like, right in zip(likeness(form, forms), forms, strict=True):
             known = right if like.score > 0 else None
             told = () if known is None else differences(truth, form, known, like.factor, like.index)
-            if told and all(x.kind == "missing" and x.written == 0 for x in told):
+            inert = lacks and any(x.term.has(*moving) for x in told)
+            if told and not inert and all(x.kind == "missing" and x.written == 0 for x in told):
                 return "it lacks terms of a right equation, which may be 0 in a special case"
     P = CompiledExpressions([expr]).at(truth.states)
     for i, c in enumerate(truth.model.coordinates):

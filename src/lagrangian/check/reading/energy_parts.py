@@ -69,10 +69,6 @@ _LISTED = re.compile(
 """An energy behind the name of what has it: flyer  T = 1/2 J phi'^2."""
 _AGAIN = re.compile(r"[ \t]{2,}(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])")
 """One more energy of what has the row above: its rotation below its translation."""
-_TEX_ROW = re.compile(r"[ \t]*+(?P<words>\\text\s?\{(?P<label>[^{}]{3,30})\})[ \t]*+&")
-_TEX_LETTER = re.compile(r"&[ \t]*+(?P<letter>T\*?|V|U)[ \t]*+&?[ \t]*+=")
-"""The energies in a row of a table in LaTeX, behind the name of what has them."""
-_TEX_WHOLE = re.compile(r"[ \t]*+(?:\$|\\[(\[])?[ \t]*+(?P<letter>T|V|U)[ \t]*+&?[ \t]*+=")
 _WHOLE = re.compile(
     r"[ \t]*+(?:(?:[-*•+–]|\d{1,2}[.)]|\w\))[ \t]++)?(?:(?:total|whole|all|sum|system|gesamt)[ \t]?:?[ \t]++)?"
     r"(?P<letter>T\*?|V|U)[ \t]*+=(?![=>])",
@@ -99,7 +95,6 @@ def with_parts_of_energies(written: TracedText, model: Model, taken: Callable[[s
     latex = _LATEX.search(written.text) is not None
     parts = _Parts(model, lambda x: taken(x) or key(x) in own, own, latex=latex)
     parts.listed = parts.rows_of_parts(line.group() for line in lines)
-    parts.whole = {m["letter"] for line in lines if (m := _TEX_WHOLE.match(line.group())) is not None}
     named = [edit for line in lines for edit in parts.named(line)]
     return written.edited([*parts.sums(lines), *named])
 
@@ -121,8 +116,6 @@ class _Parts:
         self.kind: str | None = None
         self.columns: list[str | None] = []
         self.body, self.indent = list[str](), 0
-        self.whole = set[str]()
-        """The energies that an answer in LaTeX states as a whole."""
         self.listed = self.more = frozenset[str]()
         """The rows of lists that state the energy of a part, each with the name of it in front."""
         self.summands = dict[str, list[tuple[int, str, str]]]()
@@ -138,14 +131,6 @@ class _Parts:
             yield from self._in_table(text, at)
             return
         self.columns = []
-        if self.latex and (row := _TEX_ROW.match(text)) is not None:
-            found = [m for m in _TEX_LETTER.finditer(text, row.end("label")) if m["letter"][0] in self.whole]
-            if found:
-                yield at + row.start("words"), at + row.end("words"), ""
-            for m in found:
-                name = self._name("T" if m["letter"][0] == "T" else "V", row["label"])
-                yield at + m.start("letter"), at + m.end("letter"), name
-            return
         if text in self.more and (row := _AGAIN.match(text)) is not None:
             listed = self.summands["T" if row["letter"][0] == "T" else "V"]
             listed.append((at, row["letter"], f"{listed[-1][2]}x"))

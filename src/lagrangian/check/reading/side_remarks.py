@@ -92,11 +92,14 @@ _ABSENT = re.compile(
 )
 """Words of what a check leaves out: no friction, small angles."""
 _LACKS = re.compile(
-    r"\W{0,4}(?:[^\s=:,.;]{1,20}[ ]){0,6}?(?:no|without|neglecting|ignoring|ohne|kein(?:e[nr]?)?|sans)[ ]"
+    r"\W{0,4}(?:(?:for|with|and|small|angles?|motions?|oscillations?|für|kleine|winkel|und|mit|pour|petits?|angles|et|"
+    r"alpha|beta|gamma|delta|theta|phi|psi|[^\W\d_])[ ]){0,6}?"
+    r"(?:no|without|neglecting|ignoring|ohne|kein(?:e[nr]?)?|sans)[ ]"
     r"(?:[^\W\d_]{2,12}[ ]){0,2}?"
     r"(?:gravity|weight|friction|damp\w{0,6}|drag|force|input|torque|drive|motor|load|springs?|losses|"
     r"dissipation|excitation|schwerkraft|gewicht|reibung|dämpf\w{0,6}|kraft|moment|antrieb|federn?|pesanteur|"
-    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b[^=\n:,]{0,30}[:,]",
+    r"frottement\w?|amortiss\w{0,8}|couple|ressorts?)\b[^=\n:,]{0,30}[:,]"
+    r"(?![^=\n]{0,200}\b(?:final|second|first|results?|equations?|solved|gives?|is|are|so|ergebnis|gleichung|ist)\b)",
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
@@ -167,7 +170,11 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
         inside = range(bisect_right(starts, r.start) - 1, bisect_right(starts, r.end - 1))
         rests = any(_REST.search(lines[k]) for k in inside[:1])
         for k in inside:
-            said[k + 1] = said.get(k + 1, frozenset()) | {"case" if r.case else "check", *(["rest"] if rests else [])}
+            said[k + 1] = said.get(k + 1, frozenset()) | {
+                "case" if r.case else "check",
+                *(["lacks"] if r.lacks else []),
+                *(["rest"] if rests else []),
+            }
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}

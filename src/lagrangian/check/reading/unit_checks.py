@@ -6,10 +6,15 @@ import re
 from collections.abc import Callable, Iterator
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
-from lagrangian.quantities.units import joined, lookup
 
-_SAID = re.compile(r"^[^=\n]{0,60}?\b(?:units?|dimensions?|einheit(?:en)?|dimensionen|unités?)\b", re.IGNORECASE)
+_SAID = re.compile(
+    r"^[^\w\n]{0,6}(?:\d{1,2}[.)][ \t]*)?(?:(?:check|checking|kontrolle|probe)[ \t]+(?:(?:of|the|der)[ \t]+){0,2})?"
+    r"(?:units?|dimensions?|einheit(?:en)?|dimensionen|unités?)(?:[ \t]+check)?[ \t]*:",
+    re.IGNORECASE,
+)
 """The words with which a line begins that checks units."""
+UNITS = frozenset(["kg", "m", "s", "N", "J", "W", "rad", "Nm", "Ns", "Nms", "kgm"])
+"""The units in which mechanics is checked; h, A and V may be names of the answer's own."""
 _PART = re.compile(r"[^,;\n]++")
 _NAME = re.compile(r"[^\W\d_]+")
 _OTHER = re.compile(r"[\w\s*·./^()\[\]{}²³⁻¹−$-]*")
@@ -36,5 +41,5 @@ def _ends_in_units(part: str, taken: Callable[[str], bool]) -> bool:
     """Whether what stands behind the last equals sign is a product of units."""
     last = part.rsplit("=", 1)[1].rstrip(" \t.✓✔")
     names = _NAME.findall(last)
-    units = _OTHER.fullmatch(last) is not None and all(lookup(x) or joined(x) for x in names)
+    units = _OTHER.fullmatch(last) is not None and UNITS.issuperset(names)
     return units and any(not taken(x) for x in names)

@@ -66,7 +66,6 @@ _NAME_BEFORE = re.compile(
 """The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F."""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
-_WORDS_ALONE = re.compile(r"[\s&]*+(?:\\(?:text|mathrm|textbf)\s?\{[^{}]{1,40}\}[\s&:]*+)?")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
 _ARROWS = (
     r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
@@ -298,8 +297,6 @@ def _outer(text: str) -> str:
     places = [b for a, b in pairwise([-1, *places]) if a < 0 or text[a + 1 : b].strip() != "="]  # a &=& b
     between = places[1::2]
     pairs = [text[a:b] for a, b in pairwise([0, *between, len(text)])]
-    if len(pairs) > 2 and _WORDS_ALONE.fullmatch(pairs[0]) is not None:  # words in front of both
-        pairs, between = pairs[1:], between[1:]
     if between and all("=" in pair and not _STARTS.match(pair) for pair in pairs):
         for at in between:
             letters[at] = "\x00"

@@ -44,7 +44,7 @@ _BEHIND = re.compile(
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
 _TOLD_BEHIND = re.compile(
-    r"(?<=\S)[ \t]{4,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
+    r"(?<=[\w)\]'’′²³])[ \t]{4,40}+(?=[^\W\d_]{1,3}_)[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
     r"(?:(?!(?:alpha|beta|gamma|delta|theta|phi|psi|omega|sin|cos|tan|sqrt|exp|sign|sgn|ddot|dot)\b)[a-zäöüß]{2,24}"
     r"[ \t]){2,8}(?![a-z]{0,24}[ \t]*[*/^+-])[a-zäöüß]{3,24}[ \t]*$",
     re.MULTILINE,
@@ -55,9 +55,11 @@ _MULTIPLIER = re.compile(
 )
 """The multiplier of a constraint, behind a gap at the end of its line."""
 _CONSTANT = re.compile(
-    r"\$[^$=\n]{1,40}=[ \t]*\$[ \t]*(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?", re.IGNORECASE
+    r"\$\\?[A-Za-z]{1,12}[ \t]*=[ \t]*\$[ \t]*(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?"
+    r"(?=[ \t]*(?:[,;)]|$|[ \t](?:is|are|and|as|for|ist|und|est|et)\b))",
+    re.IGNORECASE | re.MULTILINE,
 )
-"""That something is constant, in a formula and a word: $x =$ const."""
+"""That a name is constant, in a formula and a word: $x =$ const."""
 
 
 def without_legend(written: TracedText) -> TracedText:
