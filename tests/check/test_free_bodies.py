@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian.check.explain.free_bodies import free_bodies
 from lagrangian.check.explain.known_forces import known_parts
@@ -144,3 +145,24 @@ def test_forces_between_which_long_relations_hold_are_given_up() -> None:
     said = "H_n acts along the rod (outward), H_t at right angles to it.\n"
     assert check_answer(flail(), said + FLAIL).right
     assert not check_answer(flail(), said + FLAIL.replace("- m a e sin(beta)", "+ m a e sin(beta)")).right
+
+
+CART = """M x'' = F - b x' - H
+m (x'' + l theta'' cos(theta) - l theta'^2 sin(theta)) = H
+m (-l theta'' sin(theta) - l theta'^2 cos(theta)) = N - m g
+J theta'' = N l sin(theta) - H l cos(theta)"""
+
+
+def test_a_weight_that_is_missing_in_its_own_balance() -> None:
+    wrong = CART.replace("N - m g", "N")
+    verdict = check_answer(built_in.derivation("cart-pole"), wrong)
+    assert {f.line.number: f.status.right for f in verdict.findings} == {1: True, 2: True, 3: False, 4: True}
+    assert told(built_in.derivation("cart-pole"), wrong) == "In line 3, the force of gravity 'g' is missing."
+
+
+def test_a_name_for_a_force_that_is_another_one() -> None:
+    wrong = "R = 3 b x'\n" + CART.replace("b x'", "R")
+    assert (
+        told(built_in.derivation("cart-pole"), wrong)
+        == "Line 1 is not right: the force of damper 'b' is b*x', not 3*b*x'."
+    )

@@ -5,7 +5,7 @@ Where all that is known in a line is right, only its own forces can be wrong in 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
@@ -17,7 +17,7 @@ from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, own_terms_of, stands_in
 from lagrangian.check.explain.free_bodies import Match, free_bodies
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.verdict import AnsweredLine
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.model import Damper, Element, Force, Gravity, Spring, Torque, time
 from lagrangian.page.formula import Text, text
@@ -27,6 +27,7 @@ MOST_LETTERS = 12
 """The most letters that may be a factor of a force."""
 MOST_LAWS = 6
 """The most springs and dampers of which a name may be the force."""
+WHY = text("A spring's force is its stiffness times its own deflection, a damper's its constant times the rate of it.")
 NEAR = 1e-8
 """The relative size of what is rounding."""
 NUMBERS = tuple(sign * sp.Rational(p, q) for p in range(1, 9) for q in range(1, 9) for sign in (1, -1))
@@ -42,7 +43,7 @@ SAID: dict[sp.Expr, str] = {
 class KnownPart:
     """Whether all known forces of a line are right, whether it is a moment, what is said of a force that is not, its
     element if it is one, by how much the line is wrong at every state, the elements that act in it, and the term as it
-    is written."""
+    is written. It is ``tentative`` where a force may be in one of the answer's own."""
 
     right: bool
     moment: bool
@@ -51,6 +52,7 @@ class KnownPart:
     excess: Array | None = None
     acting: frozenset[Element] = frozenset()
     term: WrongTerm | None = None
+    tentative: bool = False
 
     def may_lack(self, truth: Reference, term: sp.Expr) -> bool:
         """Whether a line with right known forces may still lack a term: one of an element that is not known to act."""
@@ -70,11 +72,18 @@ def known_parts(truth: Reference, lines: Sequence[AnsweredLine], forces: Sequenc
         if found:
             matches[i] = min(found, key=lambda m: (len(m.wrong), len(m.omitted)))
     explicit = {e for m in matches.values() for e in m.counts if e not in m.omitted and e not in m.wrong}
-    return {i: _part(truth, factors, lines[i], m, explicit) for i, m in matches.items()}
+    own = {i: bool(forces) and lines[i].expr.has(*forces) for i in matches}
+    return {i: _part(truth, factors, lines[i], m, explicit, own=own[i]) for i, m in matches.items()}
 
 
 def _part(
-    truth: Reference, factors: Mapping[sp.Expr, Array], line: AnsweredLine, match: Match, explicit: set[Element]
+    truth: Reference,
+    factors: Mapping[sp.Expr, Array],
+    line: AnsweredLine,
+    match: Match,
+    explicit: set[Element],
+    *,
+    own: bool,
 ) -> KnownPart:
     """What is known in one line; a spring that other lines have under its own letter is missing in it."""
     moment = match.balance.moment
@@ -87,8 +96,14 @@ def _part(
         part = _said(line, match, list(listed), _wrong_by(times, several=len(listed) > 1))
         return replace(part, term=_term(truth, line, match, times)) if len(listed) == 1 else part
     if missing:
-        return _said(line, match, missing, ["are missing" if len(missing) > 1 else "is missing"])
+        return _said(line, match, missing, _missing(missing))
+    if match.omitted and own:
+        return replace(_said(line, match, list(match.omitted), _missing(match.omitted)), tentative=True)
     return KnownPart(not match.omitted, moment, acting=frozenset(match.counts))
+
+
+def _missing(elements: Collection[Element]) -> list[str | sp.Expr]:
+    return ["are missing" if len(elements) > 1 else "is missing"]
 
 
 def _is_plain(match: Match, scale: sp.Expr | None, alike: set[sp.Expr]) -> bool:
@@ -131,30 +146,52 @@ def weighs(truth: Reference, line: AnsweredLine) -> bool:
     return bool(letters & (inert | weights) or letters - known - {time})
 
 
-def wrong_law(truth: Reference, line: AnsweredLine) -> bool:
-    """Whether a definition is meant to be the force of springs and dampers, F = k (y − s) + d ẏ, and is another one."""
+def with_wrong_law(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
+    """The verdict with a name that is meant to be the force of springs and dampers, F = k (y − s) + d ẏ, and is another
+    one; as it is if it is explained. None if there is none: balances are right with the right force alone."""
+    found = [(x, right) for x in lines if (right := _right_law(truth, x)) is not None]
+    if not found or verdict.mistakes:
+        return verdict if found else None
+    line, (titles, effort) = found[0]
+    what = text(
+        f"{line.title[:1].upper()}{line.title[1:]} is not right: {titles} is ", effort, ", not ", line.expr, "."
+    )
+    brief = text(f"{line.title[:1].upper()}{line.title[1:]}, the force of an element, is not right.")
+    blamed = Finding(line, Status.WRONG)
+    kept = tuple(f for f in verdict.findings if (f.line.number, f.line.text) != (line.number, line.text))
+    mistake = Mistake("wrong_law", what, WHY, 6, brief=brief)
+    return replace(verdict, mistakes=(mistake,), alternatives=(), findings=inserted(kept, blamed))
+
+
+def _right_law(truth: Reference, line: AnsweredLine) -> tuple[str, sp.Expr] | None:
+    """The elements of which a definition is meant to be the force, in words, and this force; None if it is right."""
     moving = [c.acceleration for c in truth.model.coordinates]
     if line.kind != "definition" or line.expr.has(*moving) or weighs(truth, line):
-        return False
+        return None
     letters = bounded.letters(line.expr)
-    efforts = [effort for own, effort in _laws(truth) if own & letters]
-    if not efforts:
-        return False
-    values = CompiledExpressions([line.expr, *efforts]).at(truth.states)
+    used = [(e, effort) for e, own, effort in _laws(truth) if own & letters]
+    if not used:
+        return None
+    values = CompiledExpressions([line.expr, *(effort for _, effort in used)]).at(truth.states)
     size = np.abs(values[0]).max()
-    signs = map(np.array, product((1.0, -1.0), repeat=len(efforts)))
-    return not any(np.abs(values[0] - s @ values[1:]).max() <= NEAR * size for s in signs)
+    signs = [np.array(s) for s in product((1.0, -1.0), repeat=len(used))]
+    apart = [float(np.abs(values[0] - s @ values[1:]).max()) for s in signs]
+    if min(apart) <= NEAR * size:
+        return None
+    nearest = signs[apart.index(min(apart))]
+    titles = " and ".join(f"the force of {e.title}" for e, _ in used)
+    return titles, sp.Add(*(int(s) * effort for s, (_, effort) in zip(nearest, used, strict=True)))
 
 
-def _laws(truth: Reference) -> list[tuple[set[sp.Basic], sp.Expr]]:
-    """The letters k and b of every linear spring and damper, and its force."""
+def _laws(truth: Reference) -> list[tuple[Element, set[sp.Basic], sp.Expr]]:
+    """Every linear spring and damper, its letters k or b, and its force."""
     model = truth.model
-    found: list[tuple[set[sp.Basic], sp.Expr]] = []
+    found: list[tuple[Element, set[sp.Basic], sp.Expr]] = []
     for e in model.elements:
         if isinstance(e, Spring) and e.k is not None:
-            found.append((truth.expand(e.k).free_symbols, truth.expand(e.k * e.extension(model))))
+            found.append((e, truth.expand(e.k).free_symbols, truth.expand(e.k * e.extension(model))))
         elif isinstance(e, Damper) and e.b is not None:
-            found.append((truth.expand(e.b).free_symbols, truth.expand(e.b * e.rate(model))))
+            found.append((e, truth.expand(e.b).free_symbols, truth.expand(e.b * e.rate(model))))
     return found[:MOST_LAWS]
 
 

@@ -18,7 +18,7 @@ from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
-from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, wrong_law
+from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, with_wrong_law
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
@@ -104,8 +104,8 @@ def with_wrong_balance(
     """
     if verdict.status is not Status.WRONG or truth.n < 2 or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
-    if any(wrong_law(truth, x) for x in lines):
-        return verdict
+    if (law := with_wrong_law(truth, lines, verdict)) is not None:
+        return law
     on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
     if on is None or (balances := _balances(on, lines)) is None:
         return verdict
@@ -215,7 +215,7 @@ def _one_blamed(
                 found = [replace(m, cost=m.cost - MOMENT) for m in found]
             listed[i] = found
     if (best := plainest(listed)) is None:
-        i = next(iter(told), None)
+        i = next((i for i in told if not parts[i].tentative), None)
         return None if i is None else WrongBalance(i, balances.lines[i], parts[i].term, few=True, known=parts[i])
     i, term = best
     false = tuple(x for x in later if not _is_true(truth, x, given[i]))
