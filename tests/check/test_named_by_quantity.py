@@ -88,3 +88,15 @@ def test_a_stated_moment_of_inertia_is_told_before_the_energy_in_the_same_line()
     assert rolling().check(ROLLING.format(**RIGHT | {"T": line.format("1/2", "1/2")}), hint=0).right
     words = told(rolling(), wrong)
     assert words == "Line 1 is not right: the moment of inertia of rigid body 'wheel' is M*R^2/2, not M*R^2.", words
+
+
+def test_the_deflection_in_a_stated_energy_is_told_where_it_was_taken_twice_as_far() -> None:
+    line = "V_rope = 1/2 k ({} (z - x))^2\n"
+    assert rolling().check(line.format("") + ROLLING.format(**RIGHT), hint=0).right
+    wrong = ROLLING.format(**RIGHT).replace("k (", "4 k (")
+    words = told(rolling(), line.format("2") + wrong)
+    assert "the deflection of spring 'rope' is -x + z, not -2*x + 2*z" in words.replace("2*(-x + z)", "-2*x + 2*z"), (
+        words
+    )
+    words = told(rolling(), "V_rope = k (z - x)^2\n" + ROLLING.format(**RIGHT).replace("k (", "2 k ("))
+    assert "½" in words and "not 2" not in words, words

@@ -4,6 +4,7 @@ with φ̇, ½ m ṡ² where it moves with ½ ṡ."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from math import isqrt
 from typing import Any, cast
@@ -42,6 +43,17 @@ def taken_as(
         said = SaidWrongly(line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
         return [], [said.mistake]
     return found, own
+
+
+def taken_in(truth: Reference, said: SaidWrongly) -> SaidWrongly | None:
+    """What a definition of a kinetic or potential energy takes a quantity of its element as: 2 x of ½ k (2 x)²."""
+    kind, owner = ("T" if said.T != 0 else "V"), said.words.of.owner
+    line = replace(said.line, kind=kind, expr=truth.expand(said.line.expr))
+    for q, sign, written in _found(truth, line, said.adds(truth, kind, None)):
+        if q.owner is owner:
+            effect = put(truth, q.adds(sign * written))
+            return SaidWrongly(said.line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
+    return None
 
 
 def _is_square_of_part(found: Explanation) -> bool:
