@@ -100,3 +100,42 @@ def test_the_deflection_in_a_stated_energy_is_told_where_it_was_taken_twice_as_f
     )
     words = told(rolling(), "V_rope = k (z - x)^2\n" + ROLLING.format(**RIGHT).replace("k (", "2 k ("))
     assert "½" in words and "not 2" not in words, words
+
+
+@cache
+def sleeve() -> lg.Derivation:
+    """A sleeve at r on a rod θ, which a motor turns, with a brake; what stands in front of θ̈ is no constant."""
+    s = lg.System("sleeve")
+    r, theta = s.coordinates("r theta")
+    J, m, b, d = s.parameters("J m b d")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(theta, name="rod"), name="bar")
+    s.particle(m, at=s.point("P", (r, 0), frame=s.frame(theta, name="turned")), name="mass")
+    s.damper(b, deflection=theta, name="brake")
+    s.damper(d, deflection=r, name="oil")
+    s.torque(s.input("tau"), on=theta)
+    return s.derive()
+
+
+SOLVED = "r'' = r theta'^2 - d r'/m\ntheta'' = (tau - b theta' - 2 m r r' theta')/({})"
+
+
+@pytest.mark.parametrize(
+    ("below", "said"),
+    [
+        (
+            "J + m r",
+            "In the denominator's term m*r^2 of the equation of theta, r stands once, and belongs there squared.",
+        ),
+        ("J", "The denominator's term m*r^2 of the equation of theta is missing."),
+        ("J - m r^2", "The denominator's term m*r^2 of the equation of theta has the wrong sign."),
+    ],
+)
+def test_a_wrong_denominator_is_told_by_its_own_term(below: str, said: str) -> None:
+    assert sleeve().check(SOLVED.format("J + m r^2"), hint=0).right
+    words = told(sleeve(), SOLVED.format(below))
+    assert words.startswith(said) and "bar" not in words, words
+
+
+def test_a_wrong_numerator_is_not_in_the_denominator() -> None:
+    words = told(sleeve(), SOLVED.format("J + m r^2").replace("2 m", "m"))
+    assert "denominator" not in words, words
