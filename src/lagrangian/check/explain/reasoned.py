@@ -26,8 +26,8 @@ from lagrangian.page.formula import text
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
-ENERGIES = ("kinetic", "potential")
-"""The kinds of quantities in which a velocity or a deflection is squared."""
+STORED = "potential"
+"""The kind of quantities in which a deflection is squared."""
 SHOWN = ("component", "along", "velocity")
 """Quantities whose formulas show at once what is wrong."""
 PLACES = ("position", "height", "apart", "place", "component", "along", "velocity")
@@ -70,7 +70,7 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
     own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
     if not own:
-        taken = taken_in(pool.truth, said) if said.words.of.kind in ENERGIES else None
+        taken = taken_in(pool.truth, said) if said.words.of.kind == STORED and not said.words.apart else None
         return mistake if taken is None else taken.mistake
     cost, first = own[0]
     others = distinct([x for other, x in own[1:] if other <= cost + ALIKE and x.why != first.why], [first])

@@ -46,11 +46,10 @@ def taken_as(
 
 
 def taken_in(truth: Reference, said: SaidWrongly) -> SaidWrongly | None:
-    """What a definition of a kinetic or potential energy takes a quantity of its element as: 2 x of ½ k (2 x)²."""
-    kind, owner = ("T" if said.T != 0 else "V"), said.words.of.owner
-    line = replace(said.line, kind=kind, expr=truth.expand(said.line.expr))
-    for q, sign, written in _found(truth, line, said.adds(truth, kind, None)):
-        if q.owner is owner:
+    """What a definition of a potential energy takes the deflection of its spring as: 2 x of ½ k (2 x)²."""
+    line = replace(said.line, kind="V", expr=truth.expand(said.line.expr))
+    for q, sign, written in _found(truth, line, said.V):
+        if q.owner is said.words.of.owner:
             effect = put(truth, q.adds(sign * written))
             return SaidWrongly(said.line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
     return None
