@@ -88,3 +88,54 @@ def test_a_stated_moment_of_inertia_is_told_before_the_energy_in_the_same_line()
     assert rolling().check(ROLLING.format(**RIGHT | {"T": line.format("1/2", "1/2")}), hint=0).right
     words = told(rolling(), wrong)
     assert words == "Line 1 is not right: the moment of inertia of rigid body 'wheel' is M*R^2/2, not M*R^2.", words
+
+
+def test_the_deflection_in_a_stated_energy_is_told_where_it_was_taken_twice_as_far() -> None:
+    line = "V_rope = 1/2 k ({} (z - x))^2\n"
+    assert rolling().check(line.format("") + ROLLING.format(**RIGHT), hint=0).right
+    wrong = ROLLING.format(**RIGHT).replace("k (", "4 k (")
+    words = told(rolling(), line.format("2") + wrong)
+    assert "the deflection of spring 'rope' is -x + z, not -2*x + 2*z" in words.replace("2*(-x + z)", "-2*x + 2*z"), (
+        words
+    )
+    words = told(rolling(), "V_rope = k (z - x)^2\n" + ROLLING.format(**RIGHT).replace("k (", "2 k ("))
+    assert "½" in words and "not 2" not in words, words
+
+
+@cache
+def sleeve() -> lg.Derivation:
+    """A sleeve at r on a rod θ, which a motor turns, with a brake; what stands in front of θ̈ is no constant."""
+    s = lg.System("sleeve")
+    r, theta = s.coordinates("r theta")
+    J, m, b, d = s.parameters("J m b d")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(theta, name="rod"), name="bar")
+    s.particle(m, at=s.point("P", (r, 0), frame=s.frame(theta, name="turned")), name="mass")
+    s.damper(b, deflection=theta, name="brake")
+    s.damper(d, deflection=r, name="oil")
+    s.torque(s.input("tau"), on=theta)
+    return s.derive()
+
+
+SOLVED = "r'' = r theta'^2 - d r'/m\ntheta'' = (tau - b theta' - 2 m r r' theta')/({})"
+
+
+@pytest.mark.parametrize(
+    ("below", "said"),
+    [
+        (
+            "J + m r",
+            "In the denominator's term m*r^2 of the equation of theta, r stands once, and belongs there squared.",
+        ),
+        ("J", "The denominator's term m*r^2 of the equation of theta is missing."),
+        ("J - m r^2", "The denominator's term m*r^2 of the equation of theta has the wrong sign."),
+    ],
+)
+def test_a_wrong_denominator_is_told_by_its_own_term(below: str, said: str) -> None:
+    assert sleeve().check(SOLVED.format("J + m r^2"), hint=0).right
+    words = told(sleeve(), SOLVED.format(below))
+    assert words.startswith(said) and "bar" not in words, words
+
+
+def test_a_wrong_numerator_is_not_in_the_denominator() -> None:
+    words = told(sleeve(), SOLVED.format("J + m r^2").replace("2 m", "m"))
+    assert "denominator" not in words, words

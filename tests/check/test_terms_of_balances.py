@@ -159,3 +159,17 @@ def test_an_odd_factor_is_no_reason() -> None:
     row = "m l^2/3 phi'' + m l/2 x'' cos(phi) + m g l/2 sin(phi) = 0"
     told = said(crank(), f"(M + m) x'' + m l/2 phi'' cos(phi) + 9/16 m l phi'^2 sin(phi) = 0\n{row}")
     assert told and "phi'^2" in told[0] and " times" not in told[0], told
+
+
+def test_the_acceleration_of_the_axis_is_missing_in_a_sum_of_moments() -> None:
+    row = "(M + m) x'' + m l phi'' cos(phi) - m l phi'^2 sin(phi) = F"
+    right = "(J + m l^2) phi'' = -m g l sin(phi) - m l x'' cos(phi)"
+    lines = (*CART[:2], right, row)
+    assert pendulum().check("\n".join(lines), hint=0).right
+    verdict = pendulum().check("\n".join(lines).replace(" - m l x'' cos(phi)", ""))
+    assert not verdict.right and len(verdict.mistakes) == 1
+    [mistake] = verdict.mistakes
+    assert " ".join(str(mistake.what).split()) == (
+        "In line 3, on the right-hand side, the term -l*m*cos(phi)*x'' is missing."
+    )
+    assert "What carries the body" in str(mistake.why) and "∂" not in str(mistake.why)

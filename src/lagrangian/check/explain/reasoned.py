@@ -16,6 +16,7 @@ from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
 from lagrangian.check.explain.search import singles
 from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.spoken import in_words
+from lagrangian.check.explain.taken_as import taken_in
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.verdict import Finding, Mistake, Status
@@ -25,6 +26,8 @@ from lagrangian.page.formula import text
 KINETIC = "kinetic_of_body"
 REASONED = (KINETIC, "speed_of_body", "potential_of_body", "potential_said")
 """What is wrong in the quantities of which it is said why they may have come out so."""
+STORED = "potential"
+"""The kind of quantities in which a deflection is squared."""
 SHOWN = ("component", "along", "velocity")
 """Quantities whose formulas show at once what is wrong."""
 PLACES = ("position", "height", "apart", "place", "component", "along", "velocity")
@@ -67,7 +70,8 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
     own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
     if not own:
-        return mistake
+        taken = taken_in(pool.truth, said) if said.words.of.kind == STORED and not said.words.apart else None
+        return mistake if taken is None else taken.mistake
     cost, first = own[0]
     others = distinct([x for other, x in own[1:] if other <= cost + ALIKE and x.why != first.why], [first])
     either = text(*first.what.parts, " Or: ", *others[0].what.parts) if others else first.what

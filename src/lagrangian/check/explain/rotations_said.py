@@ -24,8 +24,9 @@ def of_rotation(model: Model, site: Site) -> Words:
     term = site.words[1] if site.single and site.rows else None
     if not isinstance(term, sp.Expr):
         return ()
+    above = sp.fraction(term)[0]  # of what is divided by J, no term is J's
     turning = [b for b in model.bodies if isinstance(b, RigidBody)]
-    found = [b for b in turning if any(x.is_Symbol and term.has(x) for x in b.inertia)]
+    found = [b for b in turning if any(x.is_Symbol and above.has(x) for x in b.inertia)]
     return (f" It belongs to the rotation of {found[0].title}.",) if len(found) == 1 else ()
 
 

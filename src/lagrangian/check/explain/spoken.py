@@ -10,6 +10,7 @@ import numpy as np
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.explain.denominators_said import as_it_stands
 from lagrangian.check.explain.given_said import OF_LETTERS, of_given
 from lagrangian.check.explain.search import Explanation, Told
 from lagrangian.check.reference import Reference
@@ -38,11 +39,10 @@ def in_words(truth: Reference, told: Told, under: Alignment | None) -> Mistake:
     if possible.wrong is not None:
         return possible.wrong.mistake(truth)
     assert possible.change is not None
-    row = possible.change.site.coordinate
-    factor = under.factor(truth, row) if under is not None and row is not None else None
     change = possible.change
     if change.kind in OF_LETTERS:
         change = of_given(change, pool_of(truth).sites)
+    change, factor = as_it_stands(truth, change, under)
     return say.mistake(change, told.times, truth.model, factor)
 
 

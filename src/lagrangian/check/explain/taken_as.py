@@ -4,6 +4,7 @@ with φ̇, ½ m ṡ² where it moves with ½ ṡ."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from math import isqrt
 from typing import Any, cast
@@ -42,6 +43,16 @@ def taken_as(
         said = SaidWrongly(line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
         return [], [said.mistake]
     return found, own
+
+
+def taken_in(truth: Reference, said: SaidWrongly) -> SaidWrongly | None:
+    """What a definition of a potential energy takes the deflection of its spring as: 2 x of ½ k (2 x)²."""
+    line = replace(said.line, kind="V", expr=truth.expand(said.line.expr))
+    for q, sign, written in _found(truth, line, said.V):
+        if q.owner is said.words.of.owner:
+            effect = put(truth, q.adds(sign * written))
+            return SaidWrongly(said.line, effect, partial(in_words, quantities_of(truth).of, q, written, sign))
+    return None
 
 
 def _is_square_of_part(found: Explanation) -> bool:

@@ -20,6 +20,7 @@ from lagrangian.check.explain import say
 from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.changes.ring import scaled
+from lagrangian.check.explain.denominators_said import as_it_stands
 from lagrangian.check.explain.search import SMALL, Told, simple_number
 from lagrangian.check.verdict import DERIVED, Mistake
 from lagrangian.derive.sampling import Array
@@ -58,14 +59,18 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
         return _without_derivatives(told, mistake, kinds)
     term, times = found
     row = term.site.coordinate
-    factor = under.factor(pool.truth, row) if row is not None else None
+    term, factor = as_it_stands(pool.truth, term, under)
     plain = say.mistake(term, times, pool.truth.model, factor)
     if told.mistake.name == "plus_potential" and "L" not in kinds:
         return plain
     said = plain.what.parts
     if times not in (-1, -2):
         right = next(x for x in said if isinstance(x, sp.Expr))
-        where = ("The term ", (1 + sp.Rational(times.numerator, times.denominator)) * right, " of the equation of ")
+        where = (
+            f"T{str(term.site.words[0])[1:]}",
+            (1 + sp.Rational(times.numerator, times.denominator)) * right,
+            " of the equation of ",
+        )
         said = (*where, pool.truth.derivation.coordinates[row or 0], " should be ", right, ".")
     change = told.mistake.change
     if change is not None and change.kind in OF_A_SUM and change.site.rows:

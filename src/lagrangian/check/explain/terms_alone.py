@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import sympy as sp
+
 from lagrangian.check.explain.own_terms import LINES
 from lagrangian.check.terms.sides import differs, on_side
 from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
@@ -14,6 +16,10 @@ LEFT_OVER = (" differs in other ways as well.", " differ as well.")
 MOST_TOLD = 2
 """The most terms that are told in this way; more are a list of what differs."""
 WHY = text("Compare this term with its neighbours: its sign, its factors, its powers and its unit.")
+WHY_CARRIED = text(
+    "What carries the body is accelerated, too: m times this acceleration belongs in a sum of forces, and its moment "
+    "in a sum of moments about an axis that moves along."
+)
 
 
 def with_terms_alone(verdict: Verdict) -> Verdict:
@@ -26,6 +32,19 @@ def with_terms_alone(verdict: Verdict) -> Verdict:
     if verdict.mistakes or verdict.hint == 0 or not every or not 0 < len(differing) <= MOST_TOLD:
         return verdict
     return replace(verdict, mistakes=tuple(term_mistake(f, d) for f, d in differing), sure=True)
+
+
+def with_terms_of_a_balance(verdict: Verdict) -> Verdict:
+    """The same for a wrong balance of a body; where it lacks an acceleration, this is what carries the body."""
+    told = with_terms_alone(verdict)
+    lacking = [d for f in told.findings if f.status is Status.WRONG and not f.follows for d in f.differences]
+    if len(lacking) != 1 or lacking[0].written != 0 or not any(x.derivative_count > 1 for x in _rates(lacking[0])):
+        return told
+    return replace(told, mistakes=tuple(replace(m, why=WHY_CARRIED) for m in told.mistakes))
+
+
+def _rates(difference: TermDifference) -> list[sp.Derivative]:
+    return [x for x in difference.term.atoms(sp.Derivative) if isinstance(x, sp.Derivative)]
 
 
 def term_mistake(finding: Finding, difference: TermDifference) -> Mistake:

@@ -19,7 +19,7 @@ from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, with_wrong_law
-from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake
+from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
 from lagrangian.check.reference import Reference
@@ -168,7 +168,8 @@ def _without_invented(balances: Balances, verdict: Verdict) -> Verdict:
         what = text(f"Lines {listed}, which have ", *force.parts, ", do not agree: one of them is wrong.")
         brief = text(f"Lines {listed} do not agree: one of them is wrong.")
         told, others = (Mistake(NAME, what, WHY, 5, brief=brief),), ()
-    return replace(verdict, mistakes=told, alternatives=others)
+    verdict = replace(verdict, mistakes=told, alternatives=others)
+    return verdict if told or left_out else with_terms_of_a_balance(verdict)
 
 
 def _of_derivatives(mistake: Mistake) -> bool:
