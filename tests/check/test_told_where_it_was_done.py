@@ -139,3 +139,33 @@ def test_a_wrong_acceleration_is_told_before_what_follows_from_it() -> None:
     assert turned[0].startswith("Line 1 is not right")
     other = told(bridge(), BALANCES.format(FULL[0], ""))  # the acceleration is right: the equation has it wrong
     assert "Line 1" not in other[0]
+
+
+FROM_A_LENGTH = """s = 2 l sin({0}), s' = {1} theta'
+T = 1/2 J theta'^2 + 1/2 m ({1})^2 theta'^2
+V = 2 m g l sin({0})
+Q = {2}"""
+
+
+def test_a_force_on_a_body_follows_from_its_wrong_place() -> None:
+    force = "-c theta' - F ({})"
+    right = ("theta/2", "l cos(theta/2)")
+    assert bridge().check(FROM_A_LENGTH.format(*right, force.format(right[1]))).right
+    wrong = ("theta", "2 l cos(theta)")
+    first, *others = told(bridge(), FROM_A_LENGTH.format(*wrong, force.format(wrong[1])))
+    assert first.startswith("Line 1 is not right: the y coordinate") and not others
+    assert first.endswith("is 2*l*sin(theta/2), not 2*l*sin(theta).")
+
+
+@pytest.mark.parametrize("force", ["-c theta' - F l", "-c theta' + 2 F l cos(theta)", "-F l cos(theta/2)"])
+def test_what_is_said_first_comes_first_where_something_else_is_wrong_below(force: str) -> None:
+    first, second = told(bridge(), FROM_A_LENGTH.format("theta", "2 l cos(theta)", force))
+    assert first.startswith("Line 1 is not right: the y coordinate")
+    assert not second.startswith("Line 1 ")
+
+
+def test_a_place_is_counted_from_where_the_answer_counts_it() -> None:
+    wrong = FROM_A_LENGTH.format("theta", "2 l cos(theta)", "-c theta' - 2 F l cos(theta)")
+    above = wrong.replace("s = 2 l sin(theta)", "s = 2 l sin(theta) + 3 l")
+    first = told(bridge(), above)[0]
+    assert "2*l*sin(theta/2) + 3*l, not 2*l*sin(theta) + 3*l" in first

@@ -131,7 +131,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
             found, more = of_line(pool, line, lines, against)
             if said := bodies.of_line(line):
                 likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
-                found, more, blamed = _with_definitions(line, said, (found, likely, more), blamed)
+                found, more, blamed = _with_definitions(pool, line, said, (found, likely, more), blamed)
             found, more = (found, more) if said else taken_as(truth, line, found, more)
             more = more or (of_differences(line, findings) if not found else [])
             groups.append(unopposed(found, against) or found)  # a slip in one of two lines shows in that one
@@ -163,7 +163,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     told = (*prescribed.values(), *of_first, *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    told, others = of_equations(as_defined(pool, told, blamed), lines), of_equations(others, lines)
+    told, others = of_equations(as_defined(pool, told, blamed, wrong), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
@@ -173,18 +173,18 @@ def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine
 
 
 def _with_definitions(
+    pool: Pool,
     line: AnsweredLine,
     said: Sequence[SaidWrongly],
     explained: tuple[list[Explanation], list[Explanation], list[Mistake]],
     blamed: Blamed | None,
 ) -> tuple[list[Explanation], list[Mistake], Blamed | None]:
-    """The explanations of a line that follows from definitions, and those that are blamed, unless they are right for
-    another quantity: only the likely explanations agree with them."""
+    """What is told of a line that follows from definitions, and those that are blamed: they are told themselves unless
+    they are right for another quantity; then the likely explanations agree with them."""
     found, likely, more = explained
-    likely = likely if likely and likely[0].cost <= EXOTIC else []
     if any(p.elsewhere for p in said):
-        return likely or found, more, blamed
-    return likely, [] if likely else [p.mistake for p in said], blamed_also(blamed, said, line)
+        return (likely if likely and likely[0].cost <= EXOTIC else []) or found, more, blamed
+    return [], [reasoned(pool, p) for p in said], blamed_also(blamed, said, line)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
