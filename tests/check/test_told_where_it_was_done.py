@@ -19,13 +19,14 @@ from lagrangian.model import time
 
 
 @cache
-def swing() -> Derivation:
-    """A seat on a bar, on a crown that turns."""
+def swing(*, lifted: bool = False) -> Derivation:
+    """A seat on a bar, on a crown that turns and may be lifted."""
     sys = System("swing")
     theta = sys.coordinates("theta")
-    m, l, a, Omega, c, g = sys.parameters("m l a Omega c g")
+    m, l, a, Omega, c, g, A, w = sys.parameters("m l a Omega c g A w")
     crown = sys.frame(Omega * time, name="crown", axis=(0, 0, 1))
-    sys.particle(m, at=crown.point(a + l * sin(theta), 0, -l * cos(theta)), name="seat")
+    height = A * sin(w * time) if lifted else 0
+    sys.particle(m, at=crown.point(a + l * sin(theta), 0, height - l * cos(theta)), name="seat")
     sys.gravity((0, 0, -1), g)
     sys.damper(c, deflection=theta)
     return sys.derive()
@@ -169,3 +170,33 @@ def test_a_place_is_counted_from_where_the_answer_counts_it() -> None:
     above = wrong.replace("s = 2 l sin(theta)", "s = 2 l sin(theta) + 3 l")
     first = told(bridge(), above)[0]
     assert "2*l*sin(theta/2) + 3*l, not 2*l*sin(theta) + 3*l" in first
+
+
+PUT_TOGETHER = "m l^2 theta'' - m A w^2 l sin(theta) sin(w t) {} + m g l sin(theta) = -c theta'"
+
+
+@pytest.mark.parametrize(
+    ("term", "said", "squares"),
+    [
+        ("- 2 m Omega^2 (a + l sin(theta)) l cos(theta)", ": it counts twice.", True),
+        ("- m Omega^2 (a + l sin(theta)) l cos(theta)/2", ": it counts half.", False),
+        (
+            "- m Omega^2 (a + l sin(theta)) l sin(theta)",
+            "(a + l*sin(theta))*sin(theta), the factor sin(theta) stands in place of cos(theta).",
+            False,
+        ),
+    ],
+)
+def test_what_differs_in_a_product_is_told_of_its_term(term: str, said: str, squares: bool) -> None:
+    assert swing(lifted=True).check(PUT_TOGETHER.format("- m Omega^2 (a + l sin(theta)) l cos(theta)")).right
+    verdict = swing(lifted=True).check(PUT_TOGETHER.format(term))
+    assert not verdict.right
+    first = verdict.mistakes[0]
+    assert str(first.what).endswith(said), str(first.what)
+    assert ("derivative of a square" in str(first.why)) == squares
+
+
+def test_a_weight_that_counts_twice_is_derived_from_no_square() -> None:
+    answer = PUT_TOGETHER.format("- m Omega^2 (a + l sin(theta)) l cos(theta)").replace("m g", "2 m g")
+    verdict = swing(lifted=True).check(answer)
+    assert not verdict.right and "derivative of a square" not in str(verdict.mistakes[0].why)

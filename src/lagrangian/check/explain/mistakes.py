@@ -17,6 +17,7 @@ from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, bla
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
+from lagrangian.check.explain.functions_written import in_written_terms
 from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.known_beside import with_known
 from lagrangian.check.explain.line_mistakes import (
@@ -37,13 +38,7 @@ from lagrangian.check.explain.reasoned import as_defined, reasoned
 from lagrangian.check.explain.reduced import of_reduced
 from lagrangian.check.explain.right_bodies import against_bodies
 from lagrangian.check.explain.said_wrongly import SaidWrongly
-from lagrangian.check.explain.search import (
-    EXOTIC,
-    Explanation,
-    Told,
-    by_rows,
-    first_explained,
-)
+from lagrangian.check.explain.search import EXOTIC, Explanation, Told, by_rows, first_explained
 from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.explain.slips import below_right_equations, of_slip
@@ -160,7 +155,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
     of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
-    told = (*prescribed.values(), *of_first, *_once(own, named.told))
+    told = (*prescribed.values(), *in_written_terms(of_first, findings), *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
     told, others = of_equations(as_defined(pool, told, blamed, wrong), lines), of_equations(others, lines)
