@@ -85,12 +85,13 @@ def test_the_inner_derivative_of_a_deflection_is_told_without_a_sine() -> None:
     sys.particle(m, at=sys.point("P", (0, y)), name="cabin")
     sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(phi, name="drum"), name="drum")
     sys.spring(k, deflection=r * phi - y)
-    answer = "T = 1/2 m y'^2 + 1/2 J phi'^2\nV = 1/2 k (r phi - y)^2\ndV/dphi = {}\nJ phi'' + {} = 0"
+    answer = "T = 1/2 m y'^2 + 1/2 J phi'^2\nV = 1/2 k (r phi - y)^2\ndV/dphi = {}\nJ phi'' + {} = 0\n"
+    answer += "m y'' - k (r phi - y) = 0"
     lift = sys.derive()
     assert lift.check(answer.format("k r (r phi - y)", "k r (r phi - y)")).right
     verdict = lift.check(answer.format("k (r phi - y)", "k (r phi - y)"))
     assert not verdict.right
-    assert str(verdict.mistakes[0].why) == "The chain rule: phi*r - y has the inner derivative r."
+    assert str(verdict.mistakes[0].why) == "The chain rule: r*phi - y has the inner derivative r."
 
 
 def test_where_nothing_is_found_a_line_is_named() -> None:
