@@ -338,3 +338,57 @@ def test_rows_of_several_bodies_are_judged(program: str, old: str, new: str) -> 
     assert old in program
     assert right(program, "three-masses")
     assert not right(program.replace(old, new), "three-masses")
+
+
+IN_COMMENT = """% matrices of the cart, q = [x; theta], Mm*qdd + Cm*qd = f(t)
+syms M m J l b g F theta theta_dot real
+Mm = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2];
+Cm = [b, -m*l*sin(theta)*theta_dot; 0, 0];
+f = [F; m*g*l*sin(theta)];
+"""
+MULTIPLIER = """% bob, q = [x; y], z = [q; qdot]
+function dz = bob(t, z, m, g)
+  x = z(1); y = z(2); xd = z(3); yd = z(4);
+  A = [x, y];                      % A*qdot = 0
+  X = [m, 0, -x; 0, m, -y; x, y, 0] \\ [0; -m*g; -xd^2 - yd^2];
+  dz = [z(3:4); X(1:2)];
+end
+"""
+HALVES = """function qdd = acc(q, v, M, m, l, J, b, g, F)
+% q = [x theta], v = rates
+  th = q(2); w = v(2);
+  A = [M + m, m*l*cos(th); m*l*cos(th), J + m*l^2];
+  B = [b, -m*l*sin(th)*w; 0, 0];
+  qdd = A \\ ([F; m*g*l*sin(th)] - B*v(:));
+end
+"""
+
+
+@pytest.mark.parametrize(
+    ("example", "program", "old", "new"),
+    [
+        ("cart-pole", IN_COMMENT.replace("Mm*qdd + Cm*qd", "M*qdd + C*qd"), "[F; m*g", "[F; -m*g"),
+        ("cart-pole", IN_COMMENT, "Cm = [b", "Cm = [-b"),
+        ("rod-pendulum", MULTIPLIER, "-m*g", "m*g"),
+        ("cart-pole", HALVES, "B = [b", "B = [2*b"),
+    ],
+)
+def test_matrices_of_comments_parts_of_states_and_whole_rates(example: str, program: str, old: str, new: str) -> None:
+    assert old in program
+    assert derivation(example).check(program, hint=0).right
+    assert not derivation(example).check(program.replace(old, new), hint=0).right
+
+
+def test_words_in_front_of_the_statement_of_a_row_of_a_table_are_labels() -> None:
+    cart = "(M + m) x'' + m l theta'' cos(theta) - m l theta'^2 sin(theta) + b x' = F"
+    rows = f"| body | equation |\n|---|---|\n| cart x | {cart} |\n"
+    rows += "| pole, turn | (J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0 |"
+    assert derivation("cart-pole").check(rows, hint=0).right
+    assert not derivation("cart-pole").check(rows.replace("- m g l", "+ m g l"), hint=0).right
+
+
+def test_a_direction_is_no_value() -> None:
+    said = "$\\lambda$ is the force of the rod on the bob, positive in the direction of $x$.\n"
+    rows = "$$m\\ddot x = \\lambda x$$\n$$m\\ddot y = \\lambda y - m g$$\n$$x^2 + y^2 = l^2$$"
+    assert derivation("rod-pendulum").check(said + rows, hint=0).right
+    assert not derivation("rod-pendulum").check(said + rows.replace("- m g", "+ m g"), hint=0).right

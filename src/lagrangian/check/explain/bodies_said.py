@@ -195,7 +195,9 @@ class BodiesSaid:
                 chosen.sort(key=lambda c: any(self.parts[k].T != 0 for k in c))
             said = tuple(self.parts[k] for k in chosen[0])
             if count == 1:
-                firsts = {id(p.line): p for k in reversed(chosen) for p in [self.parts[k[0]]]}
+                firsts: dict[int, SaidWrongly] = {}  # of several on one line, in the order in which they stand there
+                for (k,) in chosen:
+                    firsts.setdefault(id(self.parts[k].line), self.parts[k])
                 first = _first_of(sorted(firsts.values(), key=lambda p: p.number))
                 same = [p for k in chosen for p in [self.parts[k[0]]] if p.line is first.line]
                 said = (of_its_body(self.truth, self.lines, same),)

@@ -18,6 +18,7 @@ from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
 from lagrangian.check.explain.functions_written import in_written_terms
+from lagrangian.check.explain.inertia_forms import as_form, cancelled
 from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.known_beside import with_known
 from lagrangian.check.explain.line_mistakes import (
@@ -199,7 +200,8 @@ def _tellable(pool: Pool, found: Sequence[Explanation], lines: Lines, quotable: 
 
 def _is_said(truth: Reference, explanation: Explanation, written: set[sp.Basic]) -> bool:
     """Whether the words of an explanation quote only what was written."""
-    return all(is_quotable(in_words(truth, t, explanation.under), written) for t in explanation.told)
+    told, under = explanation.told, explanation.under
+    return all(is_quotable(in_words(truth, t, under), written | cancelled(truth, t.mistake)) for t in told)
 
 
 def _without_partial(
@@ -367,7 +369,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(is_part(pool, t, of) for of, _ in chosen)]
     wide = joined(pool, chosen)
-    chosen = [(narrowed(pool, t, kinds), under) for t, under in wide]
+    chosen = [(narrowed(pool, as_form(pool, t), kinds), under) for t, under in wide]
     if chosen[0][0] is not wide[0][0]:
         others = [e for e in others if e.told[0].mistake.name != chosen[0][0].mistake.name]
     every = [with_term(pool, t, a, in_words(pool.truth, t, a), kinds) for t, a in chosen]

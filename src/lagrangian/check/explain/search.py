@@ -202,7 +202,9 @@ def _plain(pool: Pool) -> tuple[Array, Array, Array]:
 
 def _half_changed(one: Told, other: Told) -> bool:
     """Whether an element is counted twice, and changed in one of both: P s beside P R is one term P s too much, and so
-    is m g y beside M g y."""
+    is m g y beside M g y. A damper is not given two other velocities at once, either."""
+    if one.mistake.name == other.mistake.name == "damper_other_velocity":
+        return one.mistake.element is not None and one.mistake.element is other.mistake.element
     if "element_twice" not in (one.mistake.name, other.mistake.name):
         return False
     if one.mistake.element is not None and one.mistake.element == other.mistake.element:

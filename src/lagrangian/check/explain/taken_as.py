@@ -19,6 +19,7 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.stated import right_value
 from lagrangian.check.verdict import AnsweredLine, Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import Damper
 
 KINDS = ("turning", "deflection", "rate", "along", "component")
 """The kinds of quantities that are squared in an energy, those of which it is said first."""
@@ -63,6 +64,7 @@ def _found(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Iterator[tupl
     the one that is written."""
     s = quantities_of(truth).of
     every = sorted((q for q in quantities_of(truth).all if q.kind in KINDS), key=lambda q: KINDS.index(q.kind))
+    every = [q for q in every if isinstance(q.owner, Damper)] if line.kind == "D" else every
     bases = _bases(truth, line.expr)
     for q in every:
         nothing = SaidWrongly(line, put(truth, q.adds(sp.S.Zero)), partial(in_words, s, q, sp.S.Zero, 1))
@@ -78,7 +80,13 @@ def _found(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Iterator[tupl
             continue
         for x, ratio in zip(listed, ratios, strict=True):
             if (times := _root(ratio)) is not None and _is_alike(truth, q, written := times * x):
-                yield q, *_outwards(q, written, turned_to(truth, q.right, written))
+                yield q, *_outwards(q, written, _sense(truth, q, written))
+
+
+def _sense(truth: Reference, q: Sayable, written: sp.Expr) -> int:
+    """The sense in which what is written is counted; as it is written if no rate in it is that of the quantity."""
+    own, other = q.right.atoms(sp.Derivative), written.atoms(sp.Derivative)
+    return turned_to(truth, q.right, written) if own & other or not own else 1
 
 
 def _outwards(q: Sayable, written: sp.Expr, sign: int) -> tuple[int, sp.Expr]:
@@ -97,8 +105,8 @@ def _root(ratio: Array) -> sp.Rational | None:
 
 
 def _bases(truth: Reference, expr: sp.Expr) -> list[sp.Expr]:
-    """What is squared in an energy as it is written, alone and with the letters that are squared beside it: (ẋ − u̇)/r
-    of J (ẋ − u̇)²/(2 r²)."""
+    """What is squared in an energy as it is written, alone and with what is squared beside it: (ẋ − u̇)/r of
+    J (ẋ − u̇)²/(2 r²), r φ̇ of ½ d r² φ̇²."""
     s = quantities_of(truth).of
     found: list[sp.Expr] = []
     for product in sorted((expr, *expr.atoms(sp.Mul, sp.Pow)), key=sp.default_sort_key):
@@ -107,6 +115,7 @@ def _bases(truth: Reference, expr: sp.Expr) -> list[sp.Expr]:
         moving = [x.base for x in held if x.exp == 2 and (s.moves(x.base) or x.base.has(*s.v))]
         beside = sp.Mul(*[x.base ** (x.exp / 2) for x in held if x.base.is_Symbol])
         found += [x for w in moving for x in (w, w * beside)]
+        found += [sp.Mul(*[x.base ** (x.exp / 2) for x in held])] if len(moving) > 1 else []
     return list(dict.fromkeys(found))
 
 

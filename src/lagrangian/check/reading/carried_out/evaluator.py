@@ -372,7 +372,8 @@ class Evaluator:
         if isinstance(of, State):
             if isinstance(at, ast.Slice):
                 start = self._bound(at.lower, names, 0, first)
-                end = self._bound(at.upper, names, self.states, 0)
+                half = bool(of.entries) and max(of.entries) <= self.states // 2 and at.lower is None  # v(:), of rates
+                end = self._bound(at.upper, names, self.states // 2 if half else self.states, 0)
                 found = [of.entry(k + 1) for k in range(start, end)]
                 return sp.Matrix(found) if found else found
             return of.entry(number(self.value(at, names)) + 1 - first)

@@ -29,6 +29,12 @@ _COMMENT = re.compile(
 _WORD = re.compile(r"[^\W\d]\w*+")
 _TWICE = re.compile(r"(?<=[\w])(?:''|’’|″)")
 _ONCE = re.compile(rf"(?<!\w)({'|'.join(COLUMNS)})['’′]")
+_LISTED = re.compile(
+    r"(?<=[%#,;: \t])[^\W\d]\w{0,9}['’]?[ \t]*=[ \t]*[\[(][\w'’;, \t]{1,80}[\])][ \t]*,(?=[^\n=]{3,200}=)"
+)
+"""A state that a comment lists in front of an equation: q = [x; y], M q'' = f."""
+_LETTER = re.compile(r"(?<!\w)[A-Z](?!\w)")
+_OF_TIME = re.compile(r"(?<=\w)\(t\)")
 _QUOTIENT = re.compile(r"(?<![\w])d([a-z])[ ]?/[ ]?dt(?!\w)")
 _PRODUCT = re.compile(r"(?<=[\w)\]])[ ](?=[\w(\[])")
 MOST = 20
@@ -39,13 +45,17 @@ def equations_in_comments(
     run: Interpreter, names: dict[str, Value], reader: StateReader
 ) -> Iterator[tuple[int, list[sp.Expr]]]:
     """The entries of equations in columns that comments state, with their lines; each entry is 0."""
-    for match in islice(_COMMENT.finditer(reader.text), MOST):
+    bare = _LISTED.sub(lambda m: " " * len(m.group()), reader.text)
+    for match in islice(_COMMENT.finditer(bare), MOST):
         sides = [_ONCE.sub(r"\g<1>d", _TWICE.sub("dd", match[k])).strip().rstrip(".;,") for k in ("left", "right")]
+        sides[0] = sides[0].rsplit(", ", 1)[-1]
         sides = [_PRODUCT.sub("*", _QUOTIENT.sub(r"\g<1>d", x)) for x in sides]
-        known = _columns(" ".join(sides), names, reader) or _state(" ".join(sides), names, reader)
+        sides = [_OF_TIME.sub("", x) for x in sides]
+        own = names | _matrices(" ".join(sides), names)
+        known = _columns(" ".join(sides), own, reader) or _state(" ".join(sides), own, reader)
         if known is None:
             continue
-        left, right = (_value(run, side, names | known) for side in sides)
+        left, right = (_value(run, side, own | known) for side in sides)
         if isinstance(left, MatrixBase) and isinstance(right, MatrixBase) and left.shape == right.shape:
             yield reader.text.count("\n", 0, match.start()) + 1, [x for x in (left - right).flat() if x != 0]
 
@@ -55,6 +65,18 @@ def _value(run: Interpreter, side: str, names: dict[str, Value]) -> Value:
     written = ast.parse((in_python(side) if run.matlab else side).strip(), mode="eval").body
     value = run.value(written, names)
     return matrix(value) if isinstance(value, (list, MatrixBase)) else value
+
+
+def _matrices(said: str, names: dict[str, Value]) -> dict[str, Value]:
+    """The matrices that a comment calls M, C and K, and the program Mm, Cm and Km, or Mmat: letters are taken there."""
+    found: dict[str, Value] = {}
+    for letter in dict.fromkeys(_LETTER.findall(said)):
+        if isinstance(names.get(letter), (MatrixBase, list)):
+            continue
+        longer = (names.get(f"{letter}{x}") for x in ("m", "mat", "_mat", "M", letter))
+        value = next((x for x in longer if isinstance(x, MatrixBase)), None)
+        found |= {} if value is None else {letter: value}
+    return found
 
 
 def _columns(said: str, names: dict[str, Value], reader: StateReader) -> dict[str, Any] | None:

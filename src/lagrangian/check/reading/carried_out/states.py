@@ -214,7 +214,23 @@ class StateReader:
         return StateFunction(named[0][2], [(rate, one) for rate, one, _ in named], {})
 
     def in_comments(self, name: str) -> dict[int, str]:
-        """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi."""
+        """The names of the entries that a comment lists: % z = [phi; x; phi'; x'], or z(1) = phi; of parts that are
+        lists themselves, y = [q; qdot], those of these."""
+        said = self._in_comments(name)
+        entries: list[str] = []
+        for k in range(1, max(said, default=0) + 1):
+            part = said.get(k, "")
+            stem = next((x for _, x in spelled_rates(part)), None)
+            own = self._in_comments(part) if part else {}
+            rates = self._in_comments(stem) if stem and not own else {}
+            if stem != name and part != name and (own or rates):
+                entries += [*own.values(), *(f"{x}dot" for x in rates.values())]
+            else:
+                entries.append(part)
+        return {k: x for k, x in enumerate(entries, 1) if x}
+
+    def _in_comments(self, name: str) -> dict[int, str]:
+        """The names of the entries that a comment lists."""
         form = re.compile(
             rf"(?<![\w*]){re.escape(name)}['’]?\s*(?:=|:|is)\s*[\[(](?P<entries>[^\[\]\n]{{1,200}}?)[\])]"
         )

@@ -20,6 +20,9 @@ MOST, LONGEST = 40, 4_000
 
 _TABLE = re.compile(r"(?:^[ \t]*+\|[^\n]*\|[ \t]*+(?:\n|\Z))+", re.MULTILINE)
 _RULE = re.compile(r"[ \t]*\|(?:[ \t]*:?-{1,40}:?[ \t]*\|)+[ \t]*")
+_WORDS = re.compile(r"[^\W\d_]{4,}")
+_LABEL = re.compile(r"[\w \t.,:()/*'’-]{0,60}")
+"""What may stand in front of the statement of a row."""
 _NOTHING = frozenset(["", "-", "–", "—", "−", "/", "none", "keine"])
 _ENERGIES = {
     "T": ("T", "T*", "T^*", "kinetic", "kinetic energy", "Ekin", "E_kin", "kinetisch", "kinetische Energie"),
@@ -62,8 +65,11 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
         if not 2 < len(lines) <= MOST or _RULE.fullmatch(lines[1]) is None or max(map(len, lines)) > LONGEST:
             continue
         cells = [[_bare(x) for x in line.strip()[1:-1].split("|")] for line in lines]
+        if "=" in match.group():
+            edits += _without_labels(match.start(), lines)
+            continue
         made = _made([cells[0], *cells[2:]], moves, taken)
-        if made is None or "=" in match.group():
+        if made is None:
             continue
         at = match.start()
         for k, line in enumerate(lines):
@@ -72,6 +78,19 @@ def with_tables(written: TracedText, moves: Callable[[str], bool], taken: Callab
                 edits.append((at, at + len(line), "\n".join(said)))
             at += len(line) + 1
     return written.edited(edits)
+
+
+def _without_labels(at: int, lines: Sequence[str]) -> Iterator[Edit]:
+    """Blank the words in front of the one statement of a row, | roller, along x | m x'' = H |, and its marks."""
+    for line in lines:
+        cells = line.split("|")
+        stated = [k for k, cell in enumerate(cells) if "=" in cell]
+        others = [cell for k, cell in enumerate(cells) if k not in stated]
+        labels = any(_WORDS.search(x) for x in others) and all(_LABEL.fullmatch(x) for x in others)
+        if len(stated) == 1 and labels:
+            kept = [cell if k in stated else " " * len(cell) for k, cell in enumerate(cells)]
+            yield at, at + len(line), " ".join(kept)
+        at += len(line) + 1
 
 
 def _made(
