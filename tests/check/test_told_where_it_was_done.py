@@ -19,13 +19,14 @@ from lagrangian.model import time
 
 
 @cache
-def swing() -> Derivation:
-    """A seat on a bar, on a crown that turns."""
+def swing(*, lifted: bool = False) -> Derivation:
+    """A seat on a bar, on a crown that turns and may be lifted."""
     sys = System("swing")
     theta = sys.coordinates("theta")
-    m, l, a, Omega, c, g = sys.parameters("m l a Omega c g")
+    m, l, a, Omega, c, g, A, w = sys.parameters("m l a Omega c g A w")
     crown = sys.frame(Omega * time, name="crown", axis=(0, 0, 1))
-    sys.particle(m, at=crown.point(a + l * sin(theta), 0, -l * cos(theta)), name="seat")
+    height = A * sin(w * time) if lifted else 0
+    sys.particle(m, at=crown.point(a + l * sin(theta), 0, height - l * cos(theta)), name="seat")
     sys.gravity((0, 0, -1), g)
     sys.damper(c, deflection=theta)
     return sys.derive()
@@ -75,6 +76,22 @@ def test_the_inner_derivative_of_a_sum_is_told(slope: str, said: str) -> None:
     assert said in first and not others
     why = swing().check(DERIVED.format(slope, slope)).mistakes[0].why
     assert ("chain rule" in str(why)) == ("cos" in said)
+
+
+def test_the_inner_derivative_of_a_deflection_is_told_without_a_sine() -> None:
+    sys = System("lift")
+    y, phi = sys.coordinates("y phi")
+    m, J, r, k = sys.parameters("m J r k")
+    sys.particle(m, at=sys.point("P", (0, y)), name="cabin")
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(phi, name="drum"), name="drum")
+    sys.spring(k, deflection=r * phi - y)
+    answer = "T = 1/2 m y'^2 + 1/2 J phi'^2\nV = 1/2 k (r phi - y)^2\ndV/dphi = {}\nJ phi'' + {} = 0\n"
+    answer += "m y'' - k (r phi - y) = 0"
+    lift = sys.derive()
+    assert lift.check(answer.format("k r (r phi - y)", "k r (r phi - y)")).right
+    verdict = lift.check(answer.format("k (r phi - y)", "k (r phi - y)"))
+    assert not verdict.right
+    assert str(verdict.mistakes[0].why) == "The chain rule: r*phi - y has the inner derivative r."
 
 
 def test_where_nothing_is_found_a_line_is_named() -> None:
@@ -139,3 +156,63 @@ def test_a_wrong_acceleration_is_told_before_what_follows_from_it() -> None:
     assert turned[0].startswith("Line 1 is not right")
     other = told(bridge(), BALANCES.format(FULL[0], ""))  # the acceleration is right: the equation has it wrong
     assert "Line 1" not in other[0]
+
+
+FROM_A_LENGTH = """s = 2 l sin({0}), s' = {1} theta'
+T = 1/2 J theta'^2 + 1/2 m ({1})^2 theta'^2
+V = 2 m g l sin({0})
+Q = {2}"""
+
+
+def test_a_force_on_a_body_follows_from_its_wrong_place() -> None:
+    force = "-c theta' - F ({})"
+    right = ("theta/2", "l cos(theta/2)")
+    assert bridge().check(FROM_A_LENGTH.format(*right, force.format(right[1]))).right
+    wrong = ("theta", "2 l cos(theta)")
+    first, *others = told(bridge(), FROM_A_LENGTH.format(*wrong, force.format(wrong[1])))
+    assert first.startswith("Line 1 is not right: the y coordinate") and not others
+    assert first.endswith("is 2*l*sin(theta/2), not 2*l*sin(theta).")
+
+
+@pytest.mark.parametrize("force", ["-c theta' - F l", "-c theta' + 2 F l cos(theta)", "-F l cos(theta/2)"])
+def test_what_is_said_first_comes_first_where_something_else_is_wrong_below(force: str) -> None:
+    first, second = told(bridge(), FROM_A_LENGTH.format("theta", "2 l cos(theta)", force))
+    assert first.startswith("Line 1 is not right: the y coordinate")
+    assert not second.startswith("Line 1 ")
+
+
+def test_a_place_is_counted_from_where_the_answer_counts_it() -> None:
+    wrong = FROM_A_LENGTH.format("theta", "2 l cos(theta)", "-c theta' - 2 F l cos(theta)")
+    above = wrong.replace("s = 2 l sin(theta)", "s = 2 l sin(theta) + 3 l")
+    first = told(bridge(), above)[0]
+    assert "2*l*sin(theta/2) + 3*l, not 2*l*sin(theta) + 3*l" in first
+
+
+PUT_TOGETHER = "m l^2 theta'' - m A w^2 l sin(theta) sin(w t) {} + m g l sin(theta) = -c theta'"
+
+
+@pytest.mark.parametrize(
+    ("term", "said", "squares"),
+    [
+        ("- 2 m Omega^2 (a + l sin(theta)) l cos(theta)", ": it counts twice.", True),
+        ("- m Omega^2 (a + l sin(theta)) l cos(theta)/2", ": it counts half.", False),
+        (
+            "- m Omega^2 (a + l sin(theta)) l sin(theta)",
+            "(a + l*sin(theta))*sin(theta), the factor sin(theta) stands in place of cos(theta).",
+            False,
+        ),
+    ],
+)
+def test_what_differs_in_a_product_is_told_of_its_term(term: str, said: str, squares: bool) -> None:
+    assert swing(lifted=True).check(PUT_TOGETHER.format("- m Omega^2 (a + l sin(theta)) l cos(theta)")).right
+    verdict = swing(lifted=True).check(PUT_TOGETHER.format(term))
+    assert not verdict.right
+    first = verdict.mistakes[0]
+    assert str(first.what).endswith(said), str(first.what)
+    assert ("derivative of a square" in str(first.why)) == squares
+
+
+def test_a_weight_that_counts_twice_is_derived_from_no_square() -> None:
+    answer = PUT_TOGETHER.format("- m Omega^2 (a + l sin(theta)) l cos(theta)").replace("m g", "2 m g")
+    verdict = swing(lifted=True).check(answer)
+    assert not verdict.right and "derivative of a square" not in str(verdict.mistakes[0].why)

@@ -159,11 +159,13 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
 def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
     """Why a term of a derivative is wrong: an inner derivative by the time that is missing, or a sine's wrong sign."""
     functions = right.atoms(sp.sin, sp.cos)
-    if right == 0 or written == 0 or not functions:
+    if right == 0 or written == 0:
         return WHY
     quotient = bounded.cancel(right / written)
     if (inside := _inside(title, written, quotient)) is not None:
         return text("The chain rule: ", inside, " has the inner derivative ", quotient, ".")
+    if not functions:
+        return WHY
     rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
     if quotient == -1 and (not isinstance(title, Total) or any(x != 0 and right.has(x) for x in rates.values())):
         return WHY_FUNCTION

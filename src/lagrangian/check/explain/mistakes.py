@@ -17,6 +17,7 @@ from lagrangian.check.explain.bodies_said import Blamed, BodiesSaid, agrees, bla
 from lagrangian.check.explain.changes.pool import Pool, pool_of
 from lagrangian.check.explain.derivative_lines import against_derivatives, of_derivative_of, of_differences
 from lagrangian.check.explain.energy_theorem import is_energy_theorem, of_energy_theorem
+from lagrangian.check.explain.functions_written import in_written_terms
 from lagrangian.check.explain.inertia_forms import as_form, cancelled
 from lagrangian.check.explain.joined import is_part, joined
 from lagrangian.check.explain.known_beside import with_known
@@ -126,7 +127,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
             found, more = of_line(pool, line, lines, against)
             if said := bodies.of_line(line):
                 likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
-                found, more, blamed = _with_definitions(line, said, (found, likely, more), blamed)
+                found, more, blamed = _with_definitions(pool, line, said, (found, likely, more), blamed)
             found, more = (found, more) if said else taken_as(truth, line, found, more)
             more = more or (of_differences(line, findings) if not found else [])
             groups.append(unopposed(found, against) or found)  # a slip in one of two lines shows in that one
@@ -155,10 +156,10 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     named = _named(pool, groups, {line.kind for line in lines}) if groups else NamedMistakes()
     lead = next((line for line in wrong if line not in prescribed), wrong[0])
     of_first, others = of_derivative_of(truth, lead, lines, findings, named.told, named.others)
-    told = (*prescribed.values(), *of_first, *_once(own, named.told))
+    told = (*prescribed.values(), *in_written_terms(of_first, findings), *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    told, others = of_equations(as_defined(pool, told, blamed), lines), of_equations(others, lines)
+    told, others = of_equations(as_defined(pool, told, blamed, wrong), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
@@ -168,18 +169,18 @@ def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine
 
 
 def _with_definitions(
+    pool: Pool,
     line: AnsweredLine,
     said: Sequence[SaidWrongly],
     explained: tuple[list[Explanation], list[Explanation], list[Mistake]],
     blamed: Blamed | None,
 ) -> tuple[list[Explanation], list[Mistake], Blamed | None]:
-    """The explanations of a line that follows from definitions, and those that are blamed, unless they are right for
-    another quantity: only the likely explanations agree with them."""
+    """What is told of a line that follows from definitions, and those that are blamed: they are told themselves unless
+    they are right for another quantity; then the likely explanations agree with them."""
     found, likely, more = explained
-    likely = likely if likely and likely[0].cost <= EXOTIC else []
     if any(p.elsewhere for p in said):
-        return likely or found, more, blamed
-    return likely, [] if likely else [p.mistake for p in said], blamed_also(blamed, said, line)
+        return (likely if likely and likely[0].cost <= EXOTIC else []) or found, more, blamed
+    return [], [reasoned(pool, p) for p in said], blamed_also(blamed, said, line)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:

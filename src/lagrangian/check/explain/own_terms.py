@@ -24,7 +24,7 @@ from lagrangian.check.explain.search import SMALL, simple_number
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import Element
+from lagrangian.model import Element, Gravity
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -33,6 +33,7 @@ MOST_OWN_TERMS = 250
 SUM = 0.8
 """What it costs more to take a whole sum for another."""
 WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
+WHY_SQUARE = text("The derivative of a square is twice what is squared, and the ½ in front of it cancels this 2.")
 WHY_IDLE = text(
     "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
 )
@@ -84,6 +85,7 @@ class OwnTerm:
         where = ("the equation of ", truth.derivation.coordinates[self.row]) if self.row is not None else ("this line",)
         kind, what = self._said()
         brief, why = text("A term of ", *where, " is not right."), WHY if self.row is not None else WHY_ENERGY
+        why = WHY_SQUARE if self._is_of_a_square(truth) else why
         step, element = self.step, None
         if self.instead is not None:
             step, element = self.instead[1].step, self.instead[1].element
@@ -117,7 +119,16 @@ class OwnTerm:
                 why = (f": {self.effort.element.title} feels ", self.effort.rate, " alone")
             return "term_too_much", text("The term ", t, " does not belong there", *why, ".")
         number = 1 - sp.Rational(self.times.numerator, self.times.denominator)
-        return "factor_of_a_term", text("The term ", t, " should be ", number * t, ".")
+        counts = {sp.Rational(1, 2): ": it counts twice", sp.Integer(2): ": it counts half"}.get(number, "")
+        return "factor_of_a_term", text("The term ", t, " should be ", number * t, counts, ".")
+
+    def _is_of_a_square(self, truth: Reference) -> bool:
+        """Whether a term of an equation counts twice that is derived from a square, ½ m v² or ½ k δ²: one without the
+        letter of a weight, and with no product of two rates."""
+        weights = [sp.sympify(e.g).free_symbols for e in truth.model.elements if isinstance(e, Gravity)]
+        if self.row is None or self.times != Fraction(1, 2) or truth.values or not all(weights):
+            return False
+        return len(self.term.atoms(sp.Derivative)) < 2 and not self.term.free_symbols & set().union(*weights)
 
 
 def term_replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:

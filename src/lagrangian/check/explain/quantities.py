@@ -23,7 +23,7 @@ from lagrangian.check.explain.turned_axes import turned_places, turned_velocitie
 from lagrangian.check.explain.twins import twins
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import Body, Damper, Gravity, RigidBody
+from lagrangian.model import Body, Damper, Force, Gravity, RigidBody
 from lagrangian.page.formula import Left
 from lagrangian.records import dataclass
 
@@ -205,7 +205,7 @@ def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
     for c, x in enumerate(s.position(b)):
         if s.rate(x) == 0:
             continue
-        weight = weight_along(s, b, c)
+        weight, push = weight_along(s, b, c), _push_along(s, b, c)
 
         def place(said: sp.Expr, x: sp.Expr = x, v: sp.Expr = v[c], weight: sp.Expr = weight) -> Effect:
             return Effect(T=m * (s.rate(said) ** 2 - v**2) / 2, V=-weight * (said - x))
@@ -213,10 +213,21 @@ def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
         def height(said: sp.Expr, x: sp.Expr = x, weight: sp.Expr = weight) -> Effect:
             return Effect(V=-weight * (said - x))
 
+        def pushed(said: sp.Expr, x: sp.Expr = x, push: sp.Expr = push, place: Adds = place) -> Effect:
+            return replace(place(said), Xi=tuple(push * bounded.diff(sp.Add(said, -x), q) for q in s.q))
+
         words = (f"{'xyz'[c]} coordinate of {b.title}",)
         yield Sayable("position", b, words, x, place)
+        if push != 0:
+            yield Sayable("position", b, words, x, pushed)
         if weight != 0:
             yield Sayable("height", b, words, x, height)
+
+
+def _push_along(s: Ingredients, b: Any, axis: int) -> sp.Expr:
+    """The forces at the centre of a body along a fixed axis."""
+    acting = [e for e in s.acting if isinstance(e, Force) and e.at is not None and e.at == b.at]
+    return sp.Add(*[s.expand(e.components(s.model)[axis]) for e in acting])
 
 
 def weight_along(s: Ingredients, b: Any, axis: int) -> sp.Expr:

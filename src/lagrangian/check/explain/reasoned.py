@@ -19,7 +19,7 @@ from lagrangian.check.explain.spoken import in_words
 from lagrangian.check.explain.taken_as import taken_in
 from lagrangian.check.explain.term_said import with_reason
 from lagrangian.check.reference import Reference, without_time
-from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import text
 
@@ -78,9 +78,19 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
     return replace(mistake, what=with_reason(mistake.what, replace(first, what=either)).what, why=first.why)
 
 
-def as_defined(pool: Pool, told: Sequence[Mistake], blamed: Blamed | None) -> tuple[Mistake, ...]:
+def as_defined(
+    pool: Pool, told: Sequence[Mistake], blamed: Blamed | None, wrong: Sequence[AnsweredLine]
+) -> tuple[Mistake, ...]:
     """The mistakes in the place or the speed of a body in the words of the definition that has it wrong, from which the
-    line with this mistake follows: several pieces may have the same effect, and the definition shows which it is."""
+    line with this mistake follows: several pieces may have the same effect, and the definition shows which it is.
+
+    Definitions above the first of the ``wrong`` lines that does not follow from them are told first.
+    """
+    if blamed is not None:
+        because = {id(x) for x in blamed.because}
+        other = min((x.number for x in wrong if id(x) not in because), default=None)
+        above = {str(reasoned(pool, p).what) for p in blamed.said if other is None or p.number <= other}
+        told = sorted(told, key=lambda m: str(m.what) not in above)
     said = [p for p in blamed.said if not p.elsewhere and p.words.of.kind in PLACES] if blamed is not None else []
     own = {p.mistake.element: p for p in said}
     return tuple(reasoned(pool, own[m.element]) if m.element in own and m.name in OF_A_WAY else m for m in told)

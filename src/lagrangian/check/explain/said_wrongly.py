@@ -275,6 +275,7 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
         )
     of, right, own = _narrowed(q, q.right if sign > 0 else turned(q.right), written, sign)
     right = moving_part(s, right, own) if q.kind in ("speed", "kinetic", "translation") else right
+    right = _from_its_place(s, right, own) if q.kind in ("position", "height") else right
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()
     carried = carried_apart(right, own) if q.kind in ("component", "along") and not apart else ()
@@ -282,6 +283,12 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
     why = WHY_RELATIVE if carried else None
     return replace(told(of, [right], [own], (right,), (own,)), apart=apart or carried, why=why)
+
+
+def _from_its_place(s: Ingredients, right: sp.Expr, own: sp.Expr) -> sp.Expr:
+    """A coordinate of a body, counted from the place from which the answer counts it: no constant in it is wrong."""
+    level, counted = ([x for x in sp.Add.make_args(e) if not s.moves(x) and not x.has(time)] for e in (right, own))
+    return right if level == counted else sp.Add(right, *(-x for x in level), *counted)
 
 
 def told(
