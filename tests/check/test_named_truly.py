@@ -225,7 +225,7 @@ def test_one_factor_of_an_arm_is_not_the_whole_arm() -> None:
 def test_a_rate_is_quoted_as_it_was_written_and_as_it_belongs_there() -> None:
     name, words = only(carts(), "M*x'' = 0\n3*m*z'' + k*z = 0")
     assert "x' + z'" not in words and "z' + x'" not in words
-    assert (name, words) == ("rate", "In T*, z' stands in place of x' - z'.")
+    assert (name, words) == ("rate", "In the terms of the kinetic energy, z' stands in place of x' - z'.")
 
 
 @pytest.mark.slow
