@@ -16,6 +16,7 @@ from typing import cast
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.reference import Reference
 from lagrangian.derive.reasons.loads import PassedOn, applied_loads, on_body
 from lagrangian.derive.reasons.motion import Moving, moving
@@ -85,7 +86,11 @@ class FreeBodies:
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
         self.accelerations = [c.acceleration for c in truth.model.coordinates]
-        self.balances = list(_Balancing(truth).all())
+        self.balances: list[Balance]
+        try:
+            self.balances = list(_Balancing(truth).all())
+        except bounded.TooLarge:  # then nothing is told of balances
+            self.balances = []
 
     def matches(self, line: sp.Expr, known: Mapping[sp.Basic, Array]) -> list[Match]:
         """The balances of which a line, with forces of its own that are ``known``, is a multiple in its inertia."""
