@@ -38,6 +38,7 @@ from lagrangian.check.reading.carried_out.values import (
     added,
     bind,
     called_name,
+    checked,
     constant,
     counted,
     entry_of,
@@ -126,7 +127,7 @@ class Evaluator:
             sign = sp.Integer(-1 if isinstance(node.op, ast.USub) else 1)
             return self.operated(ast.Mult(), sign, self.value(node.operand, names))
         if isinstance(node, (ast.List, ast.Tuple)):
-            return [y for x in node.elts for y in self._unpacked(x, names)]
+            return checked([y for x in node.elts for y in self._unpacked(x, names)])
         if isinstance(node, ast.Dict):
             pairs = zip(node.keys, node.values, strict=True)
             return {self.value(k, names): self.value(v, names) for k, v in pairs if k}
@@ -183,7 +184,7 @@ class Evaluator:
         if isinstance(a, Mechanical) or isinstance(b, Mechanical):
             return combined(op, a, b)
         if isinstance(op, ast.Add) and is_list(a) and is_list(b) and not self.matlab:
-            return [*a, *b]
+            return checked([*a, *b])
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
@@ -344,7 +345,8 @@ class Evaluator:
         if name in ("LUsolve", "solve", "gauss_jordan_solve", "LDLsolve", "cholesky_solve") and given:
             return self._solution(matrix(value), matrix(given[0]))
         if name in ("append", "extend") and isinstance(value, list):
-            value.append(given[0]) if name == "append" else value.extend(listed(given[0]))
+            value.append(given[0]) if name == "append" else value.extend(checked(listed(given[0])))
+            checked(value)
             return UNKNOWN
         if name == "reshape" or (name == "applyfunc" and not isinstance(given[0], OwnFunction)):
             return value

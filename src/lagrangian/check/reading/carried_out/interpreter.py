@@ -71,7 +71,10 @@ class Interpreter(Evaluator):
         """Carry out a whole program, with names that are ``given``; return its names."""
         names = dict(given)
         self.outer = names
-        self.carry_out(tree.body, names)
+        try:
+            self.carry_out(tree.body, names)
+        except ReturnedError:  # outside of all functions
+            raise AbandonedError from None
         return names
 
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
@@ -160,6 +163,7 @@ class Interpreter(Evaluator):
         changed = changed_by(s)
         for name, own in changed.items():
             names[name] = sp.Symbol(name) if self.known(name) and not own else UNKNOWN
+            self.functions.pop(name, None)
             self.stated.append(Shown(s.lineno, name, UNKNOWN))
         if changed:
             self.left_out.append((s.lineno, s.end_lineno or s.lineno))
