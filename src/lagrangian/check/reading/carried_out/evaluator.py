@@ -44,7 +44,6 @@ from lagrangian.check.reading.carried_out.values import (
     entry_of,
     equated,
     has_unknown,
-    is_list,
     is_scalar,
     is_square,
     joined,
@@ -183,8 +182,6 @@ class Evaluator:
             return UNKNOWN
         if isinstance(a, Mechanical) or isinstance(b, Mechanical):
             return combined(op, a, b)
-        if isinstance(op, ast.Add) and is_list(a) and is_list(b) and not self.matlab:
-            return checked([*a, *b])
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):

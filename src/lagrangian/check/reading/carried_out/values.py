@@ -179,9 +179,7 @@ def checked(value: Value) -> Value:
         factor: Any = value.as_coeff_Mul()[0]
         if bounded.size(value) > LARGEST or (factor.is_Rational and max(abs(factor.p), factor.q) > LARGEST_NUMBER):
             raise AbandonedError
-    elif isinstance(value, (list, tuple)) and len(value) > MOST_ENTRIES:
-        raise AbandonedError
-    elif isinstance(value, str) and len(value) > LARGEST:
+    elif isinstance(value, (list, tuple, str)) and len(value) > (LARGEST if isinstance(value, str) else MOST_ENTRIES):
         raise AbandonedError
     return value
 
