@@ -48,3 +48,53 @@ def test_two_strokes_in_julia_divide() -> None:
     assert right(JULIA.replace("b/(m", "b//(m"))
     assert not right(JULIA.replace("b/(m", "b//(2*m"))
     assert not right(JULIA.replace("*omega\n", "*omega // 2\n"))
+
+
+def placed(head: str, inside: str) -> str:
+    """The program with lines in front, and in its function."""
+    lines = "".join(f"    {x}\n" for x in inside.split("\n") if x)
+    return head + RHS.replace("    return", f"{lines}    return")
+
+
+@pytest.mark.parametrize(
+    ("head", "inside", "good"),
+    [
+        ("", "q = {}\ng = q if on else q", ("2*g", "9.81")),
+        ("q = {}\ng = q if on else q\n", "", ("2*g", "9.81")),
+        ("def h():\n    return {}\ng = h() if on else h()\n", "", ("2*g", "9.81")),
+        ("", "if True: g = {}", ("L + m", "1.62")),
+        ("q = 2*g\nif True:\n    r = q\n    g = {}\n", "", ("r", "1.62")),
+        ("for k in range(1000): b = {}\n", "", ("L*k", "0.5")),
+        ("g = load({})\n", "", ("2*g", "'g'")),
+        ("p = load({})\ng = p.g\n", "", ("2*g", "'g'")),
+        ("g = load(g={}).h\n", "", ("2*g", "1.62")),
+        ("p = load()\np.g = {}\ng = p.g\n", "", ("2*g", "1.62")),
+        ("class P:\n    g = {}\ng = P.g\n", "", ("2*g", "9.81")),
+        ("class P:\n    q = {}\ng = P.q\n", "", ("2*g", "9.81")),
+        ("class P:\n    def __init__(self, g):\n        self.g = {}\np = P(9.81)\ng = p.g\n", "", ("2*g", "g")),
+    ],
+)
+def test_what_is_not_known_is_no_given_value_if_the_system_is_in_it(
+    head: str, inside: str, good: tuple[str, str]
+) -> None:
+    bad, given = good
+    assert not right(placed(head.replace("{}", bad), inside.replace("{}", bad)))
+    if "h\n" not in head[-2:]:
+        assert right(placed(head.replace("{}", given), inside.replace("{}", given)))
+
+
+@pytest.mark.parametrize(
+    ("line", "bad", "good"),
+    [
+        ("if z(1) > 1, b = {}; end", "5*L", "5"),
+        ("switch q\n  case 1\n    b = {};\n  end", "5*L", "5"),
+        ("[g, w] = deal({}, q{1});", "2*g", "9.81"),
+        ("g = q{1}{};", "*g", ""),
+        ("a = {2*g}; g = {}{1};", "a", "q"),
+        ("g = {}{1};", "z", "q"),
+    ],
+)
+def test_statements_of_matlab_that_cannot_be_read_hold_the_system(line: str, bad: str, good: str) -> None:
+    program = "function dz = f(t, z)\n  @\n  dz = [z(2); -g/L*sin(z(1)) - b/(m*L^2)*z(2)];\nend\n"
+    assert right(program.replace("@", line.replace("{}", good)))
+    assert not right(program.replace("@", line.replace("{}", bad)))

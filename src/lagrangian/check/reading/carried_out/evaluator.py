@@ -16,6 +16,7 @@ from lagrangian.check.reading.carried_out.methods import MechanicsMethod, method
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
 from lagrangian.check.reading.carried_out.values import (
     LIBRARY,
+    LOST,
     MODULES,
     MOST_COLUMNS,
     MOST_ENTRIES,
@@ -179,7 +180,7 @@ class Evaluator:
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
         if isinstance(a, Outside) or isinstance(b, Outside):
-            return UNKNOWN
+            return LOST if a is LOST or b is LOST else UNKNOWN
         if isinstance(a, Mechanical) or isinstance(b, Mechanical):
             return combined(op, a, b)
         if isinstance(op, (ast.Add, ast.Sub)):
@@ -216,7 +217,7 @@ class Evaluator:
             return TIME  # dynamicsymbols._t
         of = self.value(node.value, names)
         if isinstance(of, Outside) and of is not LIBRARY:
-            return sp.Symbol(node.attr) if self.known(node.attr) else UNKNOWN  # p.m of p = Parameters()
+            return sp.Symbol(node.attr) if self.known(node.attr) and of is not LOST else of  # p.m of p = Parameters()
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
         if isinstance(of, Mechanical):
@@ -286,7 +287,7 @@ class Evaluator:
             return applied(of, given)
         if isinstance(of, Routine):
             return self._routine(of.name, given, options, node)
-        return UNKNOWN
+        return of if of is LOST else UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
         if any(map(has_unknown, given)):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
+from dataclasses import replace
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -13,6 +14,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.made_of import MadeOf, given_in
+from lagrangian.check.reading.carried_out.matlab import UNREAD
 from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
@@ -32,6 +35,7 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     called_name,
     equated,
+    has_unknown,
     is_list,
     is_number,
     is_scalar,
@@ -110,17 +114,18 @@ class Interpreter(Evaluator):
         elif isinstance(s, ast.Assign):
             before = set(self.used)
             self.several = []
-            value = self._value_of(s.value, names)
+            value = self._value_of(s.value, names, called_name(s.targets[0]))
             if isinstance(s.targets[0], (ast.Tuple, ast.List)) and len(self.several) == len(s.targets[0].elts):
                 value = self.several  # [M, h] = matrices(q)
             self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
             for target in s.targets:
                 self._assign(target, value, names, s.lineno)
         elif isinstance(s, ast.AnnAssign) and s.value is not None:
-            self._assign(s.target, self.value(s.value, names), names, s.lineno)
+            self._assign(s.target, self._value_of(s.value, names, called_name(s.target)), names, s.lineno)
         elif isinstance(s, ast.AugAssign):
             before = self._value_of(s.target, names)
-            self._assign(s.target, self.operated(s.op, before, self.value(s.value, names)), names, s.lineno)
+            value = self.operated(s.op, before, self.value(s.value, names))
+            self._assign(s.target, LOST if isinstance(value, Outside) else value, names, s.lineno)
         elif isinstance(s, ast.Expr):
             with suppress(*TROUBLES):
                 self._shown(s, names)
@@ -133,17 +138,22 @@ class Interpreter(Evaluator):
         elif isinstance(s, (ast.If, ast.While, ast.Try)):
             self._leave_out(s, names)
         elif isinstance(s, ast.ClassDef):
-            self._class(s)
+            self._class(s, names)
         elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise, ast.Delete)):
             raise AbandonedError
 
-    def _value_of(self, node: ast.expr, names: dict[str, Value]) -> Value:
+    def _value_of(self, node: ast.expr, names: dict[str, Value], target: str = "") -> Value:
         """The value that a name gets; of one that has no meaning on symbols, nothing is known."""
+        made = MadeOf(names, self.functions, self.known)
         try:
-            return self.value(node, names)
+            value = self.value(node, names)
         except TROUBLES:
-            used = {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
-            return LOST if any(map(self.known, used)) else UNKNOWN
+            return LOST if made.expression(node, target) else UNKNOWN
+        if has_unknown(value) and isinstance(node, (ast.Tuple, ast.List)):
+            return [self._value_of(x, names) for x in node.elts if not isinstance(x, ast.Starred)]
+        unread = isinstance(node, ast.Call) and called_name(node.func) == UNREAD
+        lost = value is UNKNOWN and replace(made, states=unread).expression(node, target)
+        return LOST if lost else value
 
     def _loop(self, s: ast.For, names: dict[str, Value]) -> None:
         """Carry out a loop; of what one over too much changes, such as the steps of a solver, nothing is known."""
@@ -161,8 +171,9 @@ class Interpreter(Evaluator):
     def _leave_out(self, s: ast.stmt, names: dict[str, Value]) -> None:
         """Nothing is known of what a statement with conditions changes, but that a parameter, or an input, is given."""
         changed = changed_by(s)
+        lost = {x for x in changed if self.known(x) and not given_in(s, x, MadeOf(names, self.functions, self.known))}
         for name, own in changed.items():
-            names[name] = sp.Symbol(name) if self.known(name) and not own else UNKNOWN
+            names[name] = LOST if name in lost else sp.Symbol(name) if self.known(name) and not own else UNKNOWN
             self.functions.pop(name, None)
             self.stated.append(Shown(s.lineno, name, UNKNOWN))
         if changed:
@@ -170,9 +181,12 @@ class Interpreter(Evaluator):
         if returns(s):
             raise ReturnedError(UNKNOWN)
 
-    def _class(self, s: ast.ClassDef) -> None:
-        """The methods of a class are functions; its object has the fields that its first method sets."""
-        fields = Fields()
+    def _class(self, s: ast.ClassDef, names: dict[str, Value]) -> None:
+        """The methods of a class are functions; its object has the fields that its first method sets. Of one whose
+        parameters are something else than given values, nothing is known."""
+        of = MadeOf(names, self.functions, self.known)
+        held = [x for x in s.body if isinstance(x, (ast.Assign, ast.AnnAssign)) and x.value and of.expression(x.value)]
+        fields = Fields({name: LOST for x in held for name in changed_by(x)})
         self.outer["self"] = fields
         first = None
         for method in s.body:
@@ -186,6 +200,10 @@ class Interpreter(Evaluator):
                 fields.values[method.name] = self.functions[method.name] = made
         if first is not None:
             Evaluator.function(self, first, [sp.Symbol(x) for x in first.arguments])
+        own = [x for x in s.body if isinstance(x, ast.FunctionDef) and x.decorator_list and self.known(x.name)]
+        lost = [x for name, x in fields.values.items() if x is LOST or (self.known(name) and of.value(x, name))]
+        if own or lost or any(map(of.expression, s.bases)):
+            names[s.name] = LOST
 
     def _shown(self, s: ast.Expr, names: dict[str, Value]) -> None:
         """A statement that is a value alone, or that prints some."""
@@ -233,7 +251,7 @@ class Interpreter(Evaluator):
             if isinstance(value, State):
                 value = [value.entry(k + 1) for k in range(len(target.elts))]
             elif isinstance(value, Outside):
-                value = [UNKNOWN] * len(target.elts)
+                value = [value] * len(target.elts)
             parts = listed(value)
             if len(parts) != len(target.elts):
                 raise AbandonedError
@@ -264,6 +282,10 @@ class Interpreter(Evaluator):
             of.potential = scalar(value)
         elif isinstance(of, Fields):
             self._assign(ast.Name(target.attr), value, of.values, line)
+        elif of is not LIBRARY and MadeOf(names, self.functions, self.known).value(value, target.attr):
+            if not isinstance(target.value, ast.Name):
+                raise AbandonedError
+            names[target.value.id] = LOST
 
     def _table(self, value: Value, line: int) -> Value:
         """A table of numbers is one of parameters, dict(m=1, l=2): those of the system are their symbols."""
