@@ -98,3 +98,54 @@ def test_statements_of_matlab_that_cannot_be_read_hold_the_system(line: str, bad
     program = "function dz = f(t, z)\n  @\n  dz = [z(2); -g/L*sin(z(1)) - b/(m*L^2)*z(2)];\nend\n"
     assert right(program.replace("@", line.replace("{}", good)))
     assert not right(program.replace("@", line.replace("{}", bad)))
+
+
+CHANGED = """def double(x):
+    x[1] = 2*x[1]
+def rhs(t, z):
+    theta, omega = z
+    r = [omega, -g/L*np.sin(theta) - b/(m*L**2)*omega]
+    @
+    return r
+"""
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "r.reverse()",
+        "r.__setitem__(1, 2*g)",
+        "r.sort()",
+        "r.remove(omega)",
+        "w = r.pop()",
+        "np.copyto(r, 2*r)",
+        "np.multiply(r, 2, out=r)",
+        "change(r)",
+        "w = change(r)",
+        "double(r)",
+        "(r := [1, 2])",
+        "del r[1]",
+        "w = r\n    w[1] = 2*g",
+        "w = r\n    w.reverse()",
+    ],
+)
+def test_a_call_that_may_change_a_list_is_not_left_out(line: str) -> None:
+    assert not right(CHANGED.replace("@", line))
+
+
+@pytest.mark.parametrize(
+    "line", ["print(r)", "w = r.copy()\n    w[1] = 2*g", "plt.plot(t, r)", "w = len(r)", "np.max(r)"]
+)
+def test_a_call_that_leaves_a_list_as_it_is_does_no_harm(line: str) -> None:
+    assert right(CHANGED.replace("@", line))
+
+
+def test_a_table_that_is_changed_and_a_function_that_is_imported_are_not_known() -> None:
+    head = "p = dict(g=9.81, L=1.0)\n@\n"
+    program = placed(head, "g, L = p['g'], p['L']")
+    assert right(program.replace("@", "print(p)"))
+    assert not right(program.replace("@", "p.update(g=2*p['g'])"))
+    assert not right(program.replace("@", "change(p)"))
+    acc = "def acc(theta, omega):\n    return -g/L*np.sin(theta) - b/(m*L**2)*omega\n"
+    assert right(f"from lib import acc\n{acc}")
+    assert not right(f"{acc}from lib import acc\n")

@@ -12,6 +12,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.carried_out.altered import altered_by, is_doubtful, mutable
 from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.made_of import MadeOf, given_in
@@ -68,6 +69,8 @@ class Interpreter(Evaluator):
     """Whether there are such names, and parameters that the program does not name."""
     left_out: list[tuple[int, int]] = field(default_factory=list)
     """The first and the last lines of statements that depend on conditions, which were not carried out."""
+    altered: list[Value] = field(default_factory=list)
+    """The lists and tables that a call that is not carried out may have changed."""
     drives: str | None = None
     """The function of the program that is this input."""
 
@@ -75,6 +78,8 @@ class Interpreter(Evaluator):
         """Carry out a whole program, with names that are ``given``; return its names."""
         names = dict(given)
         self.outer = names
+        if any(isinstance(x, ast.NamedExpr) for x in ast.walk(tree)):
+            raise AbandonedError
         try:
             self.carry_out(tree.body, names)
         except ReturnedError:  # outside of all functions
@@ -95,6 +100,24 @@ class Interpreter(Evaluator):
         self.drives = name
         return sp.Symbol(self.driven)
 
+    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+        """The value of a call; of what it may change, nothing is known from there on."""
+        own = None if not isinstance(node.func, ast.Name) else names.get(node.func.id, self.functions.get(node.func.id))
+        of = own if isinstance(own, OwnFunction) else None
+        try:
+            value = Evaluator._call(self, node, names)
+        except TROUBLES:
+            self.altered += altered_by(node, names, failed=True, of=of) if not self.matlab else ()
+            raise
+        if not self.matlab and (of is not None or is_doubtful(value, node)):
+            self.altered += altered_by(node, names, failed=False, of=of)
+        return value
+
+    def _named(self, name: str, names: dict[str, Value]) -> Value:
+        """The value of a name; nothing is known of one that a call may have changed."""
+        value = Evaluator._named(self, name, names)
+        return LOST if any(value is x for x in self.altered) else value
+
     # -- statements --------------------------------------------------------------------------------------------------
 
     def carry_out(self, body: Iterable[ast.stmt], names: dict[str, Value]) -> None:
@@ -105,8 +128,11 @@ class Interpreter(Evaluator):
 
     def _statement(self, s: ast.stmt, names: dict[str, Value]) -> None:
         if isinstance(s, (ast.Import, ast.ImportFrom)):
-            for alias in s.names if isinstance(s, ast.Import) else ():
-                names[alias.asname or alias.name.partition(".")[0]] = LIBRARY
+            for alias in s.names:
+                name = alias.asname or alias.name.partition(".")[0]
+                own = self.functions.pop(name, None)
+                if isinstance(s, ast.Import) or own is not None:
+                    names[name] = LOST if own is not None else LIBRARY
         elif isinstance(s, ast.FunctionDef):
             out = s.returns.value if isinstance(s.returns, ast.Constant) else None
             made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
@@ -125,6 +151,7 @@ class Interpreter(Evaluator):
         elif isinstance(s, ast.AugAssign):
             before = self._value_of(s.target, names)
             value = self.operated(s.op, before, self.value(s.value, names))
+            self.altered += () if self.matlab else mutable(before)
             self._assign(s.target, LOST if isinstance(value, Outside) else value, names, s.lineno)
         elif isinstance(s, ast.Expr):
             with suppress(*TROUBLES):
@@ -139,7 +166,10 @@ class Interpreter(Evaluator):
             self._leave_out(s, names)
         elif isinstance(s, ast.ClassDef):
             self._class(s, names)
-        elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise, ast.Delete)):
+        elif isinstance(s, ast.Delete):
+            held = [x.value for x in s.targets if isinstance(x, (ast.Subscript, ast.Attribute))]
+            self.altered += [y for x in held for y in mutable(self.value(x, names))]
+        elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise)):
             raise AbandonedError
 
     def _value_of(self, node: ast.expr, names: dict[str, Value], target: str = "") -> Value:
@@ -324,6 +354,14 @@ class Interpreter(Evaluator):
         if not all(0 <= k < MOST_ENTRIES for k in at):
             raise AbandonedError
         before = names.get(held.id)
+        if before is LOST or any(before is x for x in self.altered):
+            raise AbandonedError
+        shared = (
+            []
+            if self.matlab
+            else [k for k, x in names.items() if k != held.id and any(x is y for y in mutable(before))]
+        )
+        names |= dict.fromkeys(shared, LOST)  # other names of the same list
         if not self.matlab and before is not None and is_list(before) and len(at) == 1 and at[0] < len(before):
             names[held.id] = [value if k == at[0] else x for k, x in enumerate(before)]
             self.stated.append(Shown(held.lineno, held.id, names[held.id]))
