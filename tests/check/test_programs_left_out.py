@@ -149,3 +149,16 @@ def test_a_table_that_is_changed_and_a_function_that_is_imported_are_not_known()
     acc = "def acc(theta, omega):\n    return -g/L*np.sin(theta) - b/(m*L**2)*omega\n"
     assert right(f"from lib import acc\n{acc}")
     assert not right(f"{acc}from lib import acc\n")
+
+
+@pytest.mark.parametrize(
+    "wrong", ["2*{} if on else 1", "q[1:3:4]*{}", "weird({})", "np.clip(2*{}, -1, 1)", "{} @ {}", "load()*{}"]
+)
+def test_what_an_unread_function_makes_of_another_is_not_known(wrong: str) -> None:
+    acc = "def acc(theta, omega):\n    return -g/L*np.sin(theta) - b/(m*L**2)*omega\n"
+    outer = f"{acc}def rhs(t, z):\n    return [z[1], @]\n"
+    assert right(outer.replace("@", "acc(z[0], z[1])"))
+    assert not right(outer.replace("@", wrong.replace("{}", "acc(z[0], z[1])")))
+    assert not right(f"{acc}def model(t, z):\n    a = acc(z[0], z[1])\n    return weird(2*a)\n")
+    assert right(f"{acc}def simulate(z):\n    return weird(acc(z[0], z[1]))\n")
+    assert right(f"{acc}def draw(z):\n    plt.plot(acc(z[0], z[1]))\n")
