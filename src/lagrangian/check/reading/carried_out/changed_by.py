@@ -22,14 +22,19 @@ def changed_by(statement: ast.stmt) -> dict[str, bool]:
                     found[name] = found.get(name, False) or name in used
         elif isinstance(node, ast.For):
             found |= dict.fromkeys(_targets(node.target), False)
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            found[node.name] = True
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in _FILLING:
             found |= dict.fromkeys(_targets(node.func.value), True)
     return found
 
 
-def returns(statement: ast.stmt) -> bool:
-    """Whether a function may end within a statement."""
-    return any(isinstance(x, ast.Return) for x in ast.walk(statement))
+def returns(statement: ast.AST) -> bool:
+    """Whether a function may end within a statement; functions in it end for themselves."""
+    if isinstance(statement, (ast.FunctionDef, ast.ClassDef)):
+        return False
+    inner = (x for x in ast.iter_child_nodes(statement) if not isinstance(x, ast.expr))
+    return isinstance(statement, ast.Return) or any(map(returns, inner))
 
 
 def _targets(node: ast.expr) -> Iterator[str]:

@@ -16,6 +16,7 @@ from lagrangian.check.reading.carried_out.methods import MechanicsMethod, method
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
 from lagrangian.check.reading.carried_out.values import (
     LIBRARY,
+    LOST,
     MODULES,
     MOST_COLUMNS,
     MOST_ENTRIES,
@@ -38,12 +39,12 @@ from lagrangian.check.reading.carried_out.values import (
     added,
     bind,
     called_name,
+    checked,
     constant,
     counted,
     entry_of,
     equated,
     has_unknown,
-    is_list,
     is_scalar,
     is_square,
     joined,
@@ -126,7 +127,7 @@ class Evaluator:
             sign = sp.Integer(-1 if isinstance(node.op, ast.USub) else 1)
             return self.operated(ast.Mult(), sign, self.value(node.operand, names))
         if isinstance(node, (ast.List, ast.Tuple)):
-            return [y for x in node.elts for y in self._unpacked(x, names)]
+            return checked([y for x in node.elts for y in self._unpacked(x, names)])
         if isinstance(node, ast.Dict):
             pairs = zip(node.keys, node.values, strict=True)
             return {self.value(k, names): self.value(v, names) for k, v in pairs if k}
@@ -179,11 +180,9 @@ class Evaluator:
     def operated(self, op: ast.operator, a: Value, b: Value) -> Value:
         """The value of a sum, product, quotient or power; of what is unknown, nothing is known."""
         if isinstance(a, Outside) or isinstance(b, Outside):
-            return UNKNOWN
+            return LOST if a is LOST or b is LOST else UNKNOWN
         if isinstance(a, Mechanical) or isinstance(b, Mechanical):
             return combined(op, a, b)
-        if isinstance(op, ast.Add) and is_list(a) and is_list(b) and not self.matlab:
-            return [*a, *b]
         if isinstance(op, (ast.Add, ast.Sub)):
             return added(a, b, 1 if isinstance(op, ast.Add) else -1)
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
@@ -218,7 +217,7 @@ class Evaluator:
             return TIME  # dynamicsymbols._t
         of = self.value(node.value, names)
         if isinstance(of, Outside) and of is not LIBRARY:
-            return sp.Symbol(node.attr) if self.known(node.attr) else UNKNOWN  # p.m of p = Parameters()
+            return sp.Symbol(node.attr) if self.known(node.attr) and of is not LOST else of  # p.m of p = Parameters()
         if isinstance(of, Outside):
             return sp.pi if node.attr == "pi" else Routine(node.attr)
         if isinstance(of, Mechanical):
@@ -288,7 +287,7 @@ class Evaluator:
             return applied(of, given)
         if isinstance(of, Routine):
             return self._routine(of.name, given, options, node)
-        return UNKNOWN
+        return of if of is LOST else UNKNOWN
 
     def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
         if any(map(has_unknown, given)):
@@ -344,7 +343,8 @@ class Evaluator:
         if name in ("LUsolve", "solve", "gauss_jordan_solve", "LDLsolve", "cholesky_solve") and given:
             return self._solution(matrix(value), matrix(given[0]))
         if name in ("append", "extend") and isinstance(value, list):
-            value.append(given[0]) if name == "append" else value.extend(listed(given[0]))
+            value.append(given[0]) if name == "append" else value.extend(checked(listed(given[0])))
+            checked(value)
             return UNKNOWN
         if name == "reshape" or (name == "applyfunc" and not isinstance(given[0], OwnFunction)):
             return value

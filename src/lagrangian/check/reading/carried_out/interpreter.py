@@ -5,14 +5,18 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
+from dataclasses import replace
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
+from lagrangian.check.reading.carried_out.altered import altered_by, is_doubtful, mutable
 from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
+from lagrangian.check.reading.carried_out.made_of import MadeOf, given_in
+from lagrangian.check.reading.carried_out.matlab import UNREAD
 from lagrangian.check.reading.carried_out.mechanics import Mass
 from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING
 from lagrangian.check.reading.carried_out.values import (
@@ -32,6 +36,7 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     called_name,
     equated,
+    has_unknown,
     is_list,
     is_number,
     is_scalar,
@@ -64,6 +69,8 @@ class Interpreter(Evaluator):
     """Whether there are such names, and parameters that the program does not name."""
     left_out: list[tuple[int, int]] = field(default_factory=list)
     """The first and the last lines of statements that depend on conditions, which were not carried out."""
+    altered: list[Value] = field(default_factory=list)
+    """The lists and tables that a call that is not carried out may have changed."""
     drives: str | None = None
     """The function of the program that is this input."""
 
@@ -71,7 +78,12 @@ class Interpreter(Evaluator):
         """Carry out a whole program, with names that are ``given``; return its names."""
         names = dict(given)
         self.outer = names
-        self.carry_out(tree.body, names)
+        if any(isinstance(x, ast.NamedExpr) for x in ast.walk(tree)):
+            raise AbandonedError
+        try:
+            self.carry_out(tree.body, names)
+        except ReturnedError:  # outside of all functions
+            raise AbandonedError from None
         return names
 
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
@@ -88,6 +100,24 @@ class Interpreter(Evaluator):
         self.drives = name
         return sp.Symbol(self.driven)
 
+    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+        """The value of a call; of what it may change, nothing is known from there on."""
+        own = None if not isinstance(node.func, ast.Name) else names.get(node.func.id, self.functions.get(node.func.id))
+        of = own if isinstance(own, OwnFunction) else None
+        try:
+            value = Evaluator._call(self, node, names)
+        except TROUBLES:
+            self.altered += altered_by(node, names, failed=True, of=of) if not self.matlab else ()
+            raise
+        if not self.matlab and (of is not None or is_doubtful(value, node)):
+            self.altered += altered_by(node, names, failed=False, of=of)
+        return value
+
+    def _named(self, name: str, names: dict[str, Value]) -> Value:
+        """The value of a name; nothing is known of one that a call may have changed."""
+        value = Evaluator._named(self, name, names)
+        return LOST if any(value is x for x in self.altered) else value
+
     # -- statements --------------------------------------------------------------------------------------------------
 
     def carry_out(self, body: Iterable[ast.stmt], names: dict[str, Value]) -> None:
@@ -98,8 +128,11 @@ class Interpreter(Evaluator):
 
     def _statement(self, s: ast.stmt, names: dict[str, Value]) -> None:
         if isinstance(s, (ast.Import, ast.ImportFrom)):
-            for alias in s.names if isinstance(s, ast.Import) else ():
-                names[alias.asname or alias.name.partition(".")[0]] = LIBRARY
+            for alias in s.names:
+                name = alias.asname or alias.name.partition(".")[0]
+                own = self.functions.pop(name, None)
+                if isinstance(s, ast.Import) or own is not None:
+                    names[name] = LOST if own is not None else LIBRARY
         elif isinstance(s, ast.FunctionDef):
             out = s.returns.value if isinstance(s.returns, ast.Constant) else None
             made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
@@ -107,17 +140,19 @@ class Interpreter(Evaluator):
         elif isinstance(s, ast.Assign):
             before = set(self.used)
             self.several = []
-            value = self._value_of(s.value, names)
+            value = self._value_of(s.value, names, called_name(s.targets[0]))
             if isinstance(s.targets[0], (ast.Tuple, ast.List)) and len(self.several) == len(s.targets[0].elts):
                 value = self.several  # [M, h] = matrices(q)
             self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
             for target in s.targets:
                 self._assign(target, value, names, s.lineno)
         elif isinstance(s, ast.AnnAssign) and s.value is not None:
-            self._assign(s.target, self.value(s.value, names), names, s.lineno)
+            self._assign(s.target, self._value_of(s.value, names, called_name(s.target)), names, s.lineno)
         elif isinstance(s, ast.AugAssign):
             before = self._value_of(s.target, names)
-            self._assign(s.target, self.operated(s.op, before, self.value(s.value, names)), names, s.lineno)
+            value = self.operated(s.op, before, self.value(s.value, names))
+            self.altered += () if self.matlab else mutable(before)
+            self._assign(s.target, LOST if isinstance(value, Outside) else value, names, s.lineno)
         elif isinstance(s, ast.Expr):
             with suppress(*TROUBLES):
                 self._shown(s, names)
@@ -130,17 +165,25 @@ class Interpreter(Evaluator):
         elif isinstance(s, (ast.If, ast.While, ast.Try)):
             self._leave_out(s, names)
         elif isinstance(s, ast.ClassDef):
-            self._class(s)
-        elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise, ast.Delete)):
+            self._class(s, names)
+        elif isinstance(s, ast.Delete):
+            held = [x.value for x in s.targets if isinstance(x, (ast.Subscript, ast.Attribute))]
+            self.altered += [y for x in held for y in mutable(self.value(x, names))]
+        elif not isinstance(s, (ast.Pass, ast.Global, ast.Nonlocal, ast.Assert, ast.Raise)):
             raise AbandonedError
 
-    def _value_of(self, node: ast.expr, names: dict[str, Value]) -> Value:
+    def _value_of(self, node: ast.expr, names: dict[str, Value], target: str = "") -> Value:
         """The value that a name gets; of one that has no meaning on symbols, nothing is known."""
+        made = MadeOf(names, self.functions, self.known)
         try:
-            return self.value(node, names)
+            value = self.value(node, names)
         except TROUBLES:
-            used = {x.id for x in ast.walk(node) if isinstance(x, ast.Name)}
-            return LOST if any(map(self.known, used)) else UNKNOWN
+            return LOST if made.expression(node, target) else UNKNOWN
+        if has_unknown(value) and isinstance(node, (ast.Tuple, ast.List)):
+            return [self._value_of(x, names) for x in node.elts if not isinstance(x, ast.Starred)]
+        unread = isinstance(node, ast.Call) and called_name(node.func) == UNREAD
+        lost = value is UNKNOWN and replace(made, states=unread).expression(node, target)
+        return LOST if lost else value
 
     def _loop(self, s: ast.For, names: dict[str, Value]) -> None:
         """Carry out a loop; of what one over too much changes, such as the steps of a solver, nothing is known."""
@@ -158,17 +201,22 @@ class Interpreter(Evaluator):
     def _leave_out(self, s: ast.stmt, names: dict[str, Value]) -> None:
         """Nothing is known of what a statement with conditions changes, but that a parameter, or an input, is given."""
         changed = changed_by(s)
+        lost = {x for x in changed if self.known(x) and not given_in(s, x, MadeOf(names, self.functions, self.known))}
         for name, own in changed.items():
-            names[name] = sp.Symbol(name) if self.known(name) and not own else UNKNOWN
+            names[name] = LOST if name in lost else sp.Symbol(name) if self.known(name) and not own else UNKNOWN
+            self.functions.pop(name, None)
             self.stated.append(Shown(s.lineno, name, UNKNOWN))
         if changed:
             self.left_out.append((s.lineno, s.end_lineno or s.lineno))
         if returns(s):
             raise ReturnedError(UNKNOWN)
 
-    def _class(self, s: ast.ClassDef) -> None:
-        """The methods of a class are functions; its object has the fields that its first method sets."""
-        fields = Fields()
+    def _class(self, s: ast.ClassDef, names: dict[str, Value]) -> None:
+        """The methods of a class are functions; its object has the fields that its first method sets. Of one whose
+        parameters are something else than given values, nothing is known."""
+        of = MadeOf(names, self.functions, self.known)
+        held = [x for x in s.body if isinstance(x, (ast.Assign, ast.AnnAssign)) and x.value and of.expression(x.value)]
+        fields = Fields({name: LOST for x in held for name in changed_by(x)})
         self.outer["self"] = fields
         first = None
         for method in s.body:
@@ -182,6 +230,10 @@ class Interpreter(Evaluator):
                 fields.values[method.name] = self.functions[method.name] = made
         if first is not None:
             Evaluator.function(self, first, [sp.Symbol(x) for x in first.arguments])
+        own = [x for x in s.body if isinstance(x, ast.FunctionDef) and x.decorator_list and self.known(x.name)]
+        lost = [x for name, x in fields.values.items() if x is LOST or (self.known(name) and of.value(x, name))]
+        if own or lost or any(map(of.expression, s.bases)):
+            names[s.name] = LOST
 
     def _shown(self, s: ast.Expr, names: dict[str, Value]) -> None:
         """A statement that is a value alone, or that prints some."""
@@ -229,7 +281,7 @@ class Interpreter(Evaluator):
             if isinstance(value, State):
                 value = [value.entry(k + 1) for k in range(len(target.elts))]
             elif isinstance(value, Outside):
-                value = [UNKNOWN] * len(target.elts)
+                value = [value] * len(target.elts)
             parts = listed(value)
             if len(parts) != len(target.elts):
                 raise AbandonedError
@@ -260,6 +312,10 @@ class Interpreter(Evaluator):
             of.potential = scalar(value)
         elif isinstance(of, Fields):
             self._assign(ast.Name(target.attr), value, of.values, line)
+        elif of is not LIBRARY and MadeOf(names, self.functions, self.known).value(value, target.attr):
+            if not isinstance(target.value, ast.Name):
+                raise AbandonedError
+            names[target.value.id] = LOST
 
     def _table(self, value: Value, line: int) -> Value:
         """A table of numbers is one of parameters, dict(m=1, l=2): those of the system are their symbols."""
@@ -298,6 +354,14 @@ class Interpreter(Evaluator):
         if not all(0 <= k < MOST_ENTRIES for k in at):
             raise AbandonedError
         before = names.get(held.id)
+        if before is LOST or any(before is x for x in self.altered):
+            raise AbandonedError
+        shared = (
+            []
+            if self.matlab
+            else [k for k, x in names.items() if k != held.id and any(x is y for y in mutable(before))]
+        )
+        names |= dict.fromkeys(shared, LOST)  # other names of the same list
         if not self.matlab and before is not None and is_list(before) and len(at) == 1 and at[0] < len(before):
             names[held.id] = [value if k == at[0] else x for k, x in enumerate(before)]
             self.stated.append(Shown(held.lineno, held.id, names[held.id]))

@@ -86,7 +86,8 @@ def _letters(text: str) -> str:
 def _commented(line: str) -> str:
     """A line whose comment, if it has one, begins as in MATLAB."""
     code, mark, said = line.partition("#")
-    return f"{code}%{said}" if mark else line
+    code = code.replace("//", "/")  # a rational number
+    return f"{code}%{said}" if mark else code
 
 
 def _without_structures(lines: list[str]) -> list[str]:

@@ -26,7 +26,12 @@ _END = re.compile(r"[\s,;]end(?:if|for|while|switch)?[ \t]*+[,;]?[ \t]*+\Z")
 _LOOP, _CONDITION = "while unread(): ", "if unread(): "
 UNREAD = "unread"
 """What gives a value of which nothing is known."""
-_GIVEN = re.compile(r"[ \t]*+(?P<name>[^\W\d]\w*+)[ \t]*+(?:\([^()=\n]{0,60}\)|\{[^{}=\n]{0,60}\})?[ \t]*+=(?!=)")
+_GIVEN = re.compile(
+    r"[ \t]*+(?:\[(?P<several>[\w,~ \t]{1,120}+)\]|(?P<name>[^\W\d]\w*+)"
+    r"(?:\.\w++|\([^()=\n]{0,60}\)|\{[^{}=\n]{0,60}\}){0,4}+)"
+    r"[ \t]*+=(?!=)"
+)
+_WORD = re.compile(r"(?<![\w.'])[^\W\d]\w*+")
 """A statement that gives a name, or a part of what it is, a value: Z(:, i) = z."""
 _DROPPED = re.compile(r"[ \t]*+(?:clear|close|clc|format|hold|figure|warning|pkg|addpath|digits|more)\b[^=]*+\Z")
 _SYMS = re.compile(r"[ \t]*+syms[ \t]++(?P<names>[\w() \t,]++);?[ \t]*+\Z")
@@ -110,8 +115,11 @@ def _read_statement(text: str, counted: Set[str] = frozenset()) -> str:
     try:
         return _statement(text, counted)
     except AbandonedError:
-        named = _GIVEN.match(text)
-        return f"{named['name']} = {UNREAD}()" if named is not None else "pass"
+        given = _GIVEN.match(text)
+        if given is None:
+            return "pass"
+        names = re.findall(r"[^\W\d]\w*+", given["several"] or given["name"])
+        return f"{', '.join(names)} = {UNREAD}({', '.join(_WORD.findall(text, given.end()))})"
 
 
 def _without_comment(line: str) -> str:

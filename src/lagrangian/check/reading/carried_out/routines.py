@@ -242,6 +242,8 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         return matrix(given[0])  # whose sums are no longer lists
     if name in ("list", "tuple") and given and isinstance(given[0], (list, tuple, MatrixBase)):
         return listed(given[0])
+    if name in ("copy", "deepcopy") and given and isinstance(given[0], (list, dict, MatrixBase)):
+        return given[0].copy()
     if name in SAME:
         return given[0] if given else UNKNOWN
     if name in ("symbols", "Symbol", "sym", "var"):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator, Mapping, Sequence, Set
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any, cast
 
@@ -16,6 +15,7 @@ from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.layouts import Layouts
 from lagrangian.check.reading.carried_out.loose import Loose
 from lagrangian.check.reading.carried_out.named_arguments import NamedArguments
+from lagrangian.check.reading.carried_out.reached import reached
 from lagrangian.check.reading.carried_out.routines import PLAIN
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -26,6 +26,7 @@ from lagrangian.check.reading.carried_out.values import (
     OwnFunction,
     State,
     Value,
+    has_unknown,
     listed,
 )
 from lagrangian.check.reading.implied_rates import implied_rates
@@ -66,21 +67,29 @@ class StateReader:
         matrices = {name for name, x in names.items() if isinstance(x, MatrixBase) or _is_matrix(x)}
         own = self.run.functions | {name: x for name, x in names.items() if isinstance(x, OwnFunction)}
         functions = {id(f): f for f in made}.values()
-        found = [(f, self._tried(f, matrices, own)) for f in functions if f not in self.run.called]
-        said = [x for f, x in found if x is not None and f not in self.run.called]
-        others = (f for f in functions if f in self.run.called and _ACCELERATION.search(f.name))
-        yield from said or filter(None, (self._tried(f, matrices, own) for f in others))
+        failed: list[OwnFunction] = []
+        found = [(f, self._tried(f, matrices, own, failed)) for f in functions if f not in self.run.called]
+        inner = reached(failed, own)
+        said = [x for f, x in found if x is not None and f not in self.run.called | inner]
+        others = (f for f in functions if f in self.run.called - inner and _ACCELERATION.search(f.name))
+        yield from said or filter(None, (self._tried(f, matrices, own, failed) for f in others))
 
-    def _tried(self, f: OwnFunction, matrices: Set[str], own: Mapping[str, OwnFunction]) -> StateFunction | None:
-        """What one function says; None for one that has no meaning on symbols."""
-        with suppress(*TROUBLES):
+    def _tried(
+        self, f: OwnFunction, matrices: Set[str], own: Mapping[str, OwnFunction], failed: list[OwnFunction]
+    ) -> StateFunction | None:
+        """What one function says; None for one that has no meaning on symbols, which has ``failed``."""
+        try:
             return self._said_by(f, matrices, own)
+        except TROUBLES:
+            failed.append(f)
         return None
 
     def _said_by(self, f: OwnFunction, matrices: Set[str], own: Mapping[str, OwnFunction]) -> StateFunction | None:
         """What one function says of the motion; None if it says nothing."""
         given = {name: _argument(f, name, matrices, own, self.run.matlab) for name in f.arguments}
         value = self.run.function(f, list(given.values()))
+        if has_unknown(value):
+            raise AbandonedError
         several = self.run.several if isinstance(value, sp.Expr) and len(self.run.several) > 1 else value
         rates = _rates(several, alone=len(self.model.coordinates) == 1)
         states = [x for x in given.values() if isinstance(x, State)]

@@ -179,6 +179,8 @@ def checked(value: Value) -> Value:
         factor: Any = value.as_coeff_Mul()[0]
         if bounded.size(value) > LARGEST or (factor.is_Rational and max(abs(factor.p), factor.q) > LARGEST_NUMBER):
             raise AbandonedError
+    elif isinstance(value, (list, tuple, str)) and len(value) > (LARGEST if isinstance(value, str) else MOST_ENTRIES):
+        raise AbandonedError
     return value
 
 
@@ -245,7 +247,7 @@ def is_list(value: Value) -> bool:
 
 def joined(parts: Sequence[Value]) -> str:
     """Return a string of its parts; an empty one if these are no names and numbers."""
-    return "".join(map(str, parts)) if all(isinstance(x, (str, sp.Integer)) for x in parts) else ""
+    return checked("".join(map(str, parts))) if all(isinstance(x, (str, sp.Integer)) for x in parts) else ""
 
 
 def is_scalar(value: Value) -> bool:
@@ -256,7 +258,7 @@ def is_scalar(value: Value) -> bool:
 def added(a: Value, b: Value, sign: int = 1) -> Value:
     """a + b or a − b; lists are joined, and a number is added to every entry of a column."""
     if isinstance(a, (list, tuple)) and isinstance(b, (list, tuple)) and sign > 0:
-        return [*a, *b]
+        return checked([*a, *b])
     if is_scalar(a) and is_scalar(b):
         return checked(scalar(a) + sign * scalar(b))
     a, b = (x if is_scalar(x) else matrix(x) for x in (a, b))
