@@ -24,9 +24,8 @@ class Choices:
     after numbers as units, sums of angles without brackets as arguments, names that words call velocities or
     accelerations as the rates of coordinates, whether remarks beside the equations are left out (``bare``), whether
     ``comments`` with equations of motion are read, whether coordinates that are given in others are ``put`` into
-    energies before these are differentiated, whether names with values of time alone are inputs (``driven``), whether
-    names with numbers as values are ``kept`` as names, and which rows, at the places in ``marks``, are without what may
-    be no part of them, in the reading of this number."""
+    energies before these are differentiated, whether names with values of time alone are inputs (``driven``), and
+    which rows, at the places in ``marks``, are without what may be no part of them, in the reading of this number."""
 
     flipped: bool = False
     listed: bool | None = None
@@ -37,7 +36,6 @@ class Choices:
     comments: bool = False
     put: bool | None = None
     driven: bool = False
-    kept: bool = False
     marks: tuple[tuple[int, int], ...] = ()
 
     def puts(self, text: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import sympy as sp
@@ -11,6 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.model import Model
 from lagrangian.model.names import time
+from lagrangian.model.symbols import Parameter
 
 _DRIVES = re.compile(
     r"force|torque|thrust|motor|driv|input|push|pull|actuat|control|excit|kraft|antrieb|eingang|moteur|couple|entrada"
@@ -36,6 +37,29 @@ def told(written: str, name: str) -> str:
     return f"'{written}' was read as {name}, with the value that you give it."
 
 
+NEAR = 1e-9
+"""The relative difference of a value that is rounding."""
+_WORDS = re.compile(r"[^\W\d_]{4,}+")
+
+
+def of_value(value: sp.Expr, parameters: Iterable[Parameter]) -> Parameter | None:
+    """The one of the parameters that has a value: slope = pi/12 for α = 15°.
+
+    A whole number may count something, and ½ is one.
+    """
+    if not value.is_real or (2 * value).is_Integer:
+        return None
+    size = float(value.evalf())
+    same = [p for p in parameters if p.value is not None and abs(size - float(p.value)) <= NEAR * abs(float(p.value))]
+    return same[0] if len(same) == 1 else None
+
+
+def says_else(said: str, parameter: Parameter) -> bool:
+    """Whether what a comment says is something else than a parameter."""
+    words, known = ({x.lower() for x in _WORDS.findall(y)} for y in (said, f"{parameter.name} {parameter.description}"))
+    return bool(words) and bool(parameter.description) and not words & known
+
+
 class OwnInputs:
     """Reads such a name as the input of the system that the answer does not name, if it is the only one."""
 
@@ -44,17 +68,10 @@ class OwnInputs:
         """Whether such names are read so."""
         self.asked = False
         """Whether there is one."""
-        self.kept = False
-        """Whether names with numbers as their values stay names, which may be those of parameters: l = 1 for L."""
-        self.numbered = False
-        """Whether there is such a name, and a parameter that the answer does not name."""
-        self._inputs, self._parameters = model.inputs, model.parameters
+        self._inputs = model.inputs
 
     def meant(self, written: str, value: Any, occurs: Callable[[str], int], notes: dict[str, None]) -> Any:
-        """The value of a name, or the input that it is, or the name alone."""
-        if isinstance(value, sp.Expr) and value.is_number and value != 0:
-            self.numbered = self.numbered or not all(occurs(p.name) for p in self._parameters)
-            return sp.Symbol(str(written)) if self.kept else value
+        """The value of a name, or the input that it is."""
         if not isinstance(value, sp.Expr) or bounded.letters(value) != {time}:
             return value
         free = [u for u in self._inputs if not occurs(u.name)]

@@ -106,7 +106,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     if program is None:
         return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
 
-    by_steps = partial(read_steps, program, partial(_declared, model=model, place=place), text, model)
+    by_steps = partial(read_steps, program, partial(_declared, model=model, place=place))
     typed: Answer | ParseError
     try:
         typed = _declared(text, model, place)
@@ -285,11 +285,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
     """Set how words and relations of coordinates are read."""
     words.flipped, words.units, words.summed = reading.flipped, reading.units, reading.summed
-    lines.names.relations.put, lines.names.inputs.put, lines.names.inputs.kept = (
-        reading.puts(text),
-        reading.driven,
-        reading.kept,
-    )
+    lines.names.relations.put, lines.names.inputs.put = reading.puts(text), reading.driven
 
 
 def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> Iterator[Choices]:
@@ -299,8 +295,6 @@ def _seen_when_read(lines: Lines, marked: Callable[[], Sequence[MarkedRow]]) -> 
         yield Choices(put=not lines.names.relations.put)
     if lines.names.inputs.asked:
         yield Choices(driven=True)
-    if lines.names.inputs.numbered:
-        yield Choices(kept=True)
 
 
 def _with_comments(plain: TracedText, reading: Choices) -> tuple[TracedText, list[str]]:

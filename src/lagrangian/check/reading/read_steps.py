@@ -6,20 +6,16 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lagrangian.check.reading.answer import Answer
-from lagrangian.check.reading.carried_out.stated import CarriedOut, carried_out
+from lagrangian.check.reading.carried_out.stated import CarriedOut
 from lagrangian.errors import ParseError
-from lagrangian.model import Model
 
 CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
 """The note on a program whose lines are not read as they stand."""
 COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 
 
-def read_steps(program: CarriedOut, read: Callable[[str], Answer], text: str, model: Model) -> Answer:
-    """Return what ``read`` makes of a program; `ParseError` if that cannot be read.
-
-    Names of the program's own with numbers as values may be those of parameters that it does not name: l = 1 for L.
-    """
+def read_steps(program: CarriedOut, read: Callable[[str], Answer]) -> Answer:
+    """Return what ``read`` makes of a program; `ParseError` if that cannot be read."""
     notes: tuple[str, ...] = (CARRIED_OUT,)
     try:
         found = read(program.text)
@@ -31,12 +27,4 @@ def read_steps(program: CarriedOut, read: Callable[[str], Answer], text: str, mo
     if found is None or (unread and program.bare != program.text):
         found, notes = read(program.bare), (CARRIED_OUT, COMMENTS_LEFT_OUT)
     told = tuple(x for x in found.notes if "nothing else uses " not in x)  # nor does a program that is carried out
-
-    def with_names() -> Answer:
-        kept = carried_out(text, model, kept=True)
-        if kept is None:
-            raise ParseError("the names of the program cannot be kept")
-        return read_steps(replace(kept, numbered=False), read, text, model)
-
-    others = (*found.others, with_names) if program.numbered else found.others
-    return replace(found, notes=(*notes, *program.notes, *told), others=others, program=True)
+    return replace(found, notes=(*notes, *program.notes, *told), program=True)

@@ -46,27 +46,25 @@ from lagrangian.check.reading.carried_out.values import (
     number,
     scalar,
 )
-from lagrangian.check.reading.own_inputs import may_drive
+from lagrangian.check.reading.own_inputs import may_drive, of_value, says_else
+from lagrangian.model.symbols import Parameter
 from lagrangian.records import dataclass, field
-
-NEAR = 1e-6
-"""The relative difference of a value that is rounding."""
 
 
 @dataclass(eq=False)
 class Interpreter(Evaluator):
     """Carries out a program, statement by statement."""
 
-    valued: Mapping[str, float] = field(default_factory=dict)
-    """The values of the parameters of the system that a program does not name."""
+    valued: Sequence[Parameter] = ()
+    """The parameters of the system that a program does not name."""
     driven: str | None = None
     """The one input of the system that a program does not name."""
     said: Set[str] = frozenset()
     """The names of parameters of the system in the program, as its comments say: Mc = M."""
-    kept: bool = False
-    """Whether names of its own that get numbers stay names."""
-    numbered: bool = False
-    """Whether there are such names, and parameters that the program does not name."""
+    behind: Mapping[int, str] = field(default_factory=dict)
+    """The comments behind statements, by their lines."""
+    read_as: dict[str, str] = field(default_factory=dict)
+    """The parameters that names of the program are by their values."""
     left_out: list[tuple[int, int]] = field(default_factory=list)
     """The first and the last lines of statements that depend on conditions, which were not carried out."""
     altered: list[Value] = field(default_factory=list)
@@ -297,7 +295,7 @@ class Interpreter(Evaluator):
             if isinstance(value, sp.Expr) and given and (self.known(target.id) or target.id in self.said):
                 value = sp.Symbol(target.id)
             elif isinstance(value, sp.Expr) and value.is_number and not self.known(target.id):
-                value = self._of_value(value, target.id)
+                value = self._of_value(value, target.id, line)
             names[target.id] = value = self._table(value, line)
             if isinstance(value, sp.Symbol) and "[" in value.name:
                 self.aliases.setdefault(value, target.id)
@@ -328,17 +326,14 @@ class Interpreter(Evaluator):
             self._assign(ast.Name(name), x, fields.values, line)
         return fields
 
-    def _of_value(self, value: sp.Expr, name: str) -> sp.Expr:
-        """A number that a program gives to a name of its own; the one parameter that it does not name, of this value:
-        slope = pi/12 for α = 15°. A whole number may count something, and ½ is one."""
-        self.numbered = self.numbered or (bool(self.valued) and value != 0)
-        if self.kept and value != 0:
-            return sp.Symbol(name)
-        if not self.valued or (2 * value).is_Integer or not value.is_real:
-            return value
-        size = value.evalf()
-        same = [name for name, x in self.valued.items() if abs(size - x) <= NEAR * abs(x)]
-        return sp.Symbol(same[0]) if len(same) == 1 else value
+    def _of_value(self, value: sp.Expr, name: str, line: int) -> Value:
+        """A number that a program gives to a name of its own, or the one parameter of this value that it does not name;
+        nothing is known where the comment behind says something else."""
+        same = of_value(value, self.valued)
+        if same is not None and says_else(self.behind.get(line, ""), same):
+            return LOST
+        self.read_as |= {} if same is None else {name: same.name}
+        return value if same is None else same.symbol
 
     def _put(self, target: ast.Subscript | ast.Call, value: Value, names: dict[str, Value]) -> None:
         """An entry of a list or a column gets a value; in MATLAB a column grows."""

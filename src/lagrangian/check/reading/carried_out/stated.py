@@ -92,12 +92,10 @@ class CarriedOut:
     """With the comments that hold accelerations, as they are."""
     bare: str
     notes: tuple[str, ...] = ()
-    numbered: bool = False
-    """Whether names of its own have numbers as values, and parameters of the system are not named."""
 
 
-def carried_out(text: str, model: Model, *, kept: bool = False) -> CarriedOut | None:
-    """Return what a program in Python, MATLAB or Julia states; names with numbers as values may be ``kept`` as names.
+def carried_out(text: str, model: Model) -> CarriedOut | None:
+    """Return what a program in Python, MATLAB or Julia states.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
     carried out on symbols.
@@ -119,14 +117,15 @@ def carried_out(text: str, model: Model, *, kept: bool = False) -> CarriedOut | 
             tree = ast.parse(in_python(bare) if matlab else bare)
         known = partial(_is_constant, scope, model=model)
         named = _named(tree, scope)
-        valued = {p.name: float(p.value) for p in model.parameters if p.name not in named and p.value is not None}
+        valued = [p for p in model.parameters if p.name not in named]
         free = [u.name for u in model.inputs if u.name not in named]
         driven = free[0] if len(free) == 1 else None
         states = 2 * len(model.coordinates)
         said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
         given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
         run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
-        run.kept = kept
+        behind = ((k, _COMMENTED.search(x)) for k, x in enumerate(text.split("\n"), 1))
+        run.behind = {k: m.group() for k, m in behind if m is not None}
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
         found = list(_statements(run, MovingNames(model, scope), _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
@@ -148,8 +147,9 @@ def carried_out(text: str, model: Model, *, kept: bool = False) -> CarriedOut | 
     said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
     comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
+    notes += tuple(told(name, of) for name, of in run.read_as.items())
     notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
-    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes, run.numbered)
+    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
 
 
 def _left_out(first: int, last: int) -> str:
