@@ -22,10 +22,10 @@ end
 """
 
 
-def right(text: str) -> bool:
+def right(text: str, example: str = "pendulum") -> bool:
     """Whether a program is accepted; one that cannot be read is not."""
     try:
-        return derivation("pendulum").check(text, hint=0).right
+        return derivation(example).check(text, hint=0).right
     except ParseError:
         return False
 
@@ -162,3 +162,14 @@ def test_what_an_unread_function_makes_of_another_is_not_known(wrong: str) -> No
     assert not right(f"{acc}def model(t, z):\n    a = acc(z[0], z[1])\n    return weird(2*a)\n")
     assert right(f"{acc}def simulate(z):\n    return weird(acc(z[0], z[1]))\n")
     assert right(f"{acc}def draw(z):\n    plt.plot(acc(z[0], z[1]))\n")
+
+
+def test_rates_that_a_comment_lists_in_another_order_than_their_places_are_not_read() -> None:
+    program = """A = [0 0 1 0; 0 0 0 1; -k_s/m_s, k_s/m_s, -b_s/m_s, b_s/m_s; ...
+    k_s/m_u, -(k_s+k_t)/m_u, b_s/m_u, -b_s/m_u];
+B = [0 0; 0 0; 0 1/m_s; k_t/m_u -1/m_u];
+% x = [z_s; z_u; v_s; v_u], u = [z_r; F]
+% xdot = A*x + B*u
+"""
+    assert right(program, "quarter-car")
+    assert not right(program.replace("v_s; v_u", "v_u; v_s"), "quarter-car")

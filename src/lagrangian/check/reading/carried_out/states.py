@@ -37,6 +37,8 @@ from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
 _LIST_BEHIND = re.compile(r"[%#]++[ \t]*+(?:=[ \t]*+)?\[(?P<entries>[^\[\]\n]{1,200}+)\][ \t]*+(?:\^T|['’])?[ \t]*+\Z")
+_END = re.compile(r"(?:(?<=[a-zA-Z])\d++|(?<=_)[^\W_]++|)\Z")
+"""What tells names of one kind apart: x1, v_u."""
 _RATE = re.compile(r"(?<=\w)['’′]\Z")
 _ACCELERATION = re.compile(r"acc|ddot|dd\b|_tt\b", re.IGNORECASE)
 """Names of functions that return accelerations, and nothing from which these are found."""
@@ -197,6 +199,8 @@ class StateReader:
             moving = [(x, 1) if y else (self.rated(x) or "", 2) for x, y in zip(said, own, strict=True)]
             if all(own[: len(coordinates)]) and not any(self.scope.meanings(x)[0] for x in said[len(coordinates) :]):
                 listed = said[: len(coordinates)]  # x = [x1; x2; v1; v2]
+                if not _in_order(listed, said[len(coordinates) :]):
+                    continue
                 moving = [(x, order) for order in (1, 2) for x in listed] if len(said) == 2 * len(listed) else moving
             if len(said) == count and all(x for x, _ in moving):
                 return [sp.Function(x)(TIME).diff(TIME, order) for x, order in moving]
@@ -276,6 +280,12 @@ def _rates(value: Value, *, alone: bool = False) -> list[sp.Expr] | None:
     for x in listed(value):
         found += listed(x) if isinstance(x, (list, tuple, MatrixBase)) else [x]
     return found if all(isinstance(x, sp.Expr) for x in found) else None
+
+
+def _in_order(places: Sequence[str], rates: Sequence[str]) -> bool:
+    """Whether rates stand in the order of their places, as far as their endings say: x1, x2 and v1, v2, not v2, v1."""
+    ends = [[_END.search(x).group() for x in names] for names in (places, rates)]  # type: ignore[union-attr]  # or ""
+    return all(a == b or b not in ends[0] or not b for a, b in zip(*ends, strict=False))
 
 
 def _argument(
