@@ -350,6 +350,13 @@ Mm = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2];
 Cm = [b, -m*l*sin(theta)*theta_dot; 0, 0];
 f = [F; m*g*l*sin(theta)];
 """
+DESCRIPTOR = """% two carts, descriptor form E*z' = A*z + B*F, z = [q; q'], q = [x1; x2]
+M = [m1 + m2, m2; m2, m2];
+K = [0, 0; 0, k];
+E = blkdiag(eye(2), M);
+A = [zeros(2), eye(2); -K, zeros(2)];
+B = [0; 0; 0; 1];
+"""
 MULTIPLIER = """% bob, q = [x; y], z = [q; qdot]
 function dz = bob(t, z, m, g)
   x = z(1); y = z(2); xd = z(3); yd = z(4);
@@ -373,6 +380,7 @@ end
     [
         ("cart-pole", IN_COMMENT.replace("Mm*qdd + Cm*qd", "M*qdd + C*qd"), "[F; m*g", "[F; -m*g"),
         ("cart-pole", IN_COMMENT, "Cm = [b", "Cm = [-b"),
+        ("two-carts", DESCRIPTOR, "-K", "K"),
         ("rod-pendulum", MULTIPLIER, "-m*g", "m*g"),
         ("cart-pole", HALVES, "B = [b", "B = [2*b"),
     ],

@@ -33,6 +33,8 @@ _LISTED = re.compile(
     r"(?<=[%#,;: \t])[^\W\d]\w{0,9}['’]?[ \t]*=[ \t]*[\[(][\w'’;, \t]{1,80}[\])][ \t]*,(?=[^\n=]{3,200}=)"
 )
 """A state that a comment lists in front of an equation: q = [x; y], M q'' = f."""
+_SAID = re.compile(r"\A(?:[^\W\d_]{3,24}[ ]+)+(?=[A-Z])")
+"""Words in front of an equation: descriptor form E z' = A z + B u."""
 _LETTER = re.compile(r"(?<!\w)[A-Z](?!\w)")
 _OF_TIME = re.compile(r"(?<=\w)\(t\)")
 _QUOTIENT = re.compile(r"(?<![\w])d([a-z])[ ]?/[ ]?dt(?!\w)")
@@ -48,7 +50,7 @@ def equations_in_comments(
     bare = _LISTED.sub(lambda m: " " * len(m.group()), reader.text)
     for match in islice(_COMMENT.finditer(bare), MOST):
         sides = [_ONCE.sub(r"\g<1>d", _TWICE.sub("dd", match[k])).strip().rstrip(".;,") for k in ("left", "right")]
-        sides[0] = sides[0].rsplit(", ", 1)[-1]
+        sides[0] = _SAID.sub("", sides[0].rsplit(", ", 1)[-1])
         sides = [_PRODUCT.sub("*", _QUOTIENT.sub(r"\g<1>d", x)) for x in sides]
         sides = [_OF_TIME.sub("", x) for x in sides]
         own = names | _matrices(" ".join(sides), names)
