@@ -10,7 +10,7 @@ from itertools import islice
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.reference import Reference
+from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import ratio
 from lagrangian.check.terms.alike import entries
 from lagrangian.check.terms.groupings import groupings
@@ -25,6 +25,8 @@ MAX_DIFFERENCES = 12
 """The largest number of differences that are reported; an answer with more of them is a different answer."""
 NEAR = 0.5
 """The fraction of terms of an equation that must agree with one that another line already states."""
+MOST_ALIKE = 20_000
+"""The most terms of a line, multiplied out, whose functions are compared in any form."""
 LONGEST_FACTOR = 40
 """Terms times a factor with more operations, such as the inverse of a long determinant, can no longer be compared."""
 
@@ -120,8 +122,8 @@ def _in_own_terms(
 ) -> list[Pair] | None:
     """The differences in the terms of the answer, against the grouping of the right terms in which they are fewest."""
     best: list[Pair] | None = None
-    for terms in groupings(truth, right, index):
-        found = pairs(truth, expr, terms, factor)
+    for listed in groupings(truth, right, index):
+        found = pairs(truth, expr, listed, factor)
         if found is None or len(found) < 2:
             return found
         best = found if best is None or len(found) < len(best) else best
@@ -140,9 +142,12 @@ def _as_written(truth: Reference, told: Sequence[Pair], index: int | None) -> It
 def _in_any_form(
     truth: Reference, mine: Form, right: Form, factor: sp.Expr, index: int | None, name: str | None
 ) -> tuple[TermDifference, ...]:
-    """The same for functions that have several forms, 1 + tan² θ and 1/cos² θ."""
+    """The same for functions that have several forms, 1 + tan² θ and 1/cos² θ; none of lines that are very long."""
     found: list[TermDifference] = []
-    for kind, term, written, whole in islice(entries(truth, right.expr(), mine.expr()), MAX_DIFFERENCES):
+    belongs, written_so = right.expr(), mine.expr()
+    if max(map(terms, (belongs, written_so))) > MOST_ALIKE:
+        return ()
+    for kind, term, written, whole in islice(entries(truth, belongs, written_so), MAX_DIFFERENCES):
         own = truth.form(whole) if kind != "extra" else None
         scaled = [x if abs(factor) == 1 else bounded.expand(factor * x) for x in (term, written)]
         found.append(
