@@ -6,11 +6,18 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
+from lagrangian.model import Gravity
 
 
 def whole_force(truth: Reference, i: int) -> sp.Expr:
     """Ξ_i − ∂V/∂ξ_i: all forces on a coordinate."""
     return truth.Xi[i] - bounded.diff(truth.V, truth.model.coordinates[i].symbol)
+
+
+def letters_of_gravity(truth: Reference) -> set[sp.Basic]:
+    """The letters of the accelerations of gravity, as they are given and written out."""
+    given = [sp.sympify(e.g) for e in truth.model.elements if isinstance(e, Gravity)]
+    return set[sp.Basic]().union(*(bounded.letters(x) for g in given for x in (g, truth.expand(g))))
 
 
 def holds_potential(truth: Reference, i: int, force: sp.Expr) -> bool:

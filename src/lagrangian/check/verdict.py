@@ -67,6 +67,11 @@ class AnsweredLine(Brief):
             what = f"{letter} of {self.name}"
         return f"line {self.number}" + (f" ({what})" if what else "")
 
+    @property
+    def opening(self) -> str:
+        """The line in words at the beginning of a sentence."""
+        return f"{self.title[:1].upper()}{self.title[1:]}"
+
 
 def keys_of(lines: Sequence[AnsweredLine]) -> list[tuple[int, str, int]]:
     """What identifies each line: its number, its text, and which it is of those that stand in the same text."""

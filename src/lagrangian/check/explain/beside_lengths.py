@@ -9,17 +9,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.misconceptions.gravity_arm import HALF
 from lagrangian.check.explain.search import Explanation
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
-from lagrangian.model import Gravity
 from lagrangian.read.letters import key
 
 SEEN = 0.7
@@ -51,7 +50,7 @@ def _shows(pool: Pool, explanation: Explanation, lines: Sequence[AnsweredLine]) 
         return False
     half = f"taken {HALF} as far" in str(wrong.variant.what)
     arms = _lengths(pool.truth, wrong.variant.V)
-    weights = _of_gravity(pool.truth)
+    weights = letters_of_gravity(pool.truth)
     for line in lines:
         if not line.expr.has(*weights) or not arms:
             continue
@@ -60,14 +59,9 @@ def _shows(pool: Pool, explanation: Explanation, lines: Sequence[AnsweredLine]) 
     return False
 
 
-def _of_gravity(truth: Reference) -> set[Any]:
-    """The letters of the accelerations of gravity."""
-    return {x for e in truth.model.elements if isinstance(e, Gravity) for x in bounded.letters(e.g)}
-
-
 def _lengths(truth: Reference, energy: sp.Expr) -> set[str]:
     """The keys of the lengths of a weight that stand in V without a number; a number beside others may be right."""
-    others = _of_gravity(truth)
+    others = letters_of_gravity(truth)
     others |= {x for b in truth.model.bodies for x in bounded.letters(sp.sympify(b.mass))}
     own = {p.symbol for p in truth.model.parameters} & bounded.letters(energy) - others
     terms = sp.Add.make_args(bounded.expand(truth.V))

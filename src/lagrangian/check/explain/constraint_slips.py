@@ -98,14 +98,14 @@ def wrong_constraints(truth: Reference, findings: Sequence[Finding]) -> tuple[Wr
 def _slope(truth: Reference, line: AnsweredLine) -> Mistake:
     """A line that says wrongly how a constraint changes with one coordinate."""
     element = _only(truth)
-    what = text(_begin(line), f" is not right: it is no derivative of {element or 'a constraint'} by a coordinate.")
+    what = text(line.opening, f" is not right: it is no derivative of {element or 'a constraint'} by a coordinate.")
     return Mistake("constraint_slope_wrong", what, WHY_SLOPE, 6, element, None, what)
 
 
 def _elsewhere(truth: Reference, line: AnsweredLine) -> Mistake:
     """A line of positions alone that resembles no constraint."""
     element = _only(truth)
-    what = text(_begin(line), f" does not hold for the positions that {element or 'the constraints'} allows.")
+    what = text(line.opening, f" does not hold for the positions that {element or 'the constraints'} allows.")
     return Mistake(NAMES[0][0], what, WHY[0], 1, element, None, what)
 
 
@@ -113,10 +113,6 @@ def _only(truth: Reference) -> str | None:
     """The element that all constraints are of; None if there are several."""
     elements = {m.element.title for m in truth.derivation.multipliers.values()}
     return elements.pop() if len(elements) == 1 else None
-
-
-def _begin(line: AnsweredLine) -> str:
-    return f"{line.title[:1].upper()}{line.title[1:]}"
 
 
 def _derived(of: sp.Expr, expr: sp.Expr) -> bool:
@@ -167,8 +163,8 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
     else:
         which = "" if best.row.position is None else of[1]  # of a constraint on velocities, the first one
         is_not = f" is not {title}" if best.order == 0 else f" is not the {which}derivative of {title}"
-    what = text(_begin(line), f"{is_not}: ", *said)
-    brief = text(_begin(line), f"{is_not}.")
+    what = text(line.opening, f"{is_not}: ", *said)
+    brief = text(line.opening, f"{is_not}.")
     why = WHY_SENSE if opposed else WHY[best.order]
     return Mistake(of[0], what, why, 1, title, None, brief), best.order
 

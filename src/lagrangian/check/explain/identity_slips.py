@@ -30,7 +30,7 @@ def identity_slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] |
         return None
     if not expr.has(sp.sin, sp.cos, sp.tan):
         return None
-    title = f"{line.title[:1].upper()}{line.title[1:]}"
+    title = line.opening
     what, parts = text(f"{title} is no identity."), [cast("sp.Expr", x) for x in sp.Add.make_args(expr)]
     if len(parts) == 2:
         one, other = sorted(parts, key=lambda x: -len(x.atoms(sp.sin, sp.cos, sp.tan)))

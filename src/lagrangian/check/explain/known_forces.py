@@ -13,13 +13,14 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, own_terms_of, stands_in
 from lagrangian.check.explain.free_bodies import Match, free_bodies
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
-from lagrangian.model import Damper, Element, Force, Gravity, Spring, Torque, time
+from lagrangian.model import Damper, Element, Force, Spring, Torque, time
 from lagrangian.page.formula import Text, text
 from lagrangian.records import dataclass
 
@@ -32,11 +33,7 @@ NEAR = 1e-8
 """The relative size of what is rounding."""
 NUMBERS = tuple(sign * sp.Rational(p, q) for p in range(1, 9) for q in range(1, 9) for sign in (1, -1))
 """The numbers by which a line may be multiplied, or a force be wrong."""
-SAID: dict[sp.Expr, str] = {
-    sp.S.NegativeOne: "the wrong sign",
-    sp.Integer(2): "twice",
-    sp.S.Half: "half",
-}
+TIMES: dict[sp.Expr, str] = {sp.Integer(2): "twice", sp.S.Half: "half"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,10 +137,9 @@ def weighs(truth: Reference, line: AnsweredLine) -> bool:
     """Whether a definition has masses, weights, inputs, or unknown names: a_x = l θ″ and F = k (y − s) have none."""
     model = truth.model
     inert = {p.symbol for p in model.parameters if is_mass(truth, p.symbol)}
-    weights = {x for e in model.elements if isinstance(e, Gravity) for x in truth.expand(e.g).free_symbols}
     known = {x.symbol for x in (*model.parameters, *model.coordinates)}
     letters = bounded.letters(line.expr)
-    return bool(letters & (inert | weights) or letters - known - {time})
+    return bool(letters & (inert | letters_of_gravity(truth)) or letters - known - {time})
 
 
 def with_wrong_law(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
@@ -153,10 +149,8 @@ def with_wrong_law(truth: Reference, lines: Sequence[AnsweredLine], verdict: Ver
     if not found or verdict.mistakes:
         return verdict if found else None
     line, (titles, effort) = found[0]
-    what = text(
-        f"{line.title[:1].upper()}{line.title[1:]} is not right: {titles} is ", effort, ", not ", line.expr, "."
-    )
-    brief = text(f"{line.title[:1].upper()}{line.title[1:]}, the force of an element, is not right.")
+    what = text(f"{line.opening} is not right: {titles} is ", effort, ", not ", line.expr, ".")
+    brief = text(f"{line.opening}, the force of an element, is not right.")
     blamed = Finding(line, Status.WRONG)
     kept = tuple(f for f in verdict.findings if (f.line.number, f.line.text) != (line.number, line.text))
     mistake = Mistake("wrong_law", what, WHY, 6, brief=brief)
@@ -215,8 +209,8 @@ def _wrong_by(times: sp.Expr, *, several: bool) -> list[str | sp.Expr]:
     have, count, lack = ("have", "count", "lack") if several else ("has", "counts", "lacks")
     if times == -1:
         return [f"{have} the wrong sign"]
-    if times in SAID:
-        return [f"{count} {SAID[times]}"]
+    if times in TIMES:
+        return [f"{count} {TIMES[times]}"]
     above, below = times.as_numer_denom()
     if times.is_number:
         return [f"{count} ", times, " times"]

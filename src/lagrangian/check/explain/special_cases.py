@@ -110,7 +110,7 @@ def _own(parameters: Sequence[Any], element: Element) -> list[Any]:
 
 def _mistake(case: _Case, lines: Sequence[AnsweredLine]) -> Mistake:
     many = len(lines) > 1
-    begin = "The equations hold " if many else f"{lines[0].title[:1].upper()}{lines[0].title[1:]} holds "
+    begin = "The equations hold " if many else f"{lines[0].opening} holds "
     what = text(begin, *case.when, ": what differs ", *case.terms, ".")
     title = case.element.title if case.element is not None else None
     brief = text("A special case shows in which terms there is something wrong.")
