@@ -75,9 +75,9 @@ class Match:
         return np.repeat(values, self.balance.inertia.size // SETS)
 
     @property
-    def omitted(self) -> frozenset[Element]:
-        """The forces that the line does not have under their own letters."""
-        return frozenset(e for e, x in self.counts.items() if _all(x, 0))
+    def omitted(self) -> tuple[Element, ...]:
+        """The forces that the line does not have under their own letters, in the order of the system."""
+        return tuple(e for e, x in self.counts.items() if _all(x, 0))
 
 
 class FreeBodies:

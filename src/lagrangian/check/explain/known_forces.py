@@ -95,7 +95,7 @@ def _part(
     if missing:
         return _said(line, match, missing, _missing(missing))
     if match.omitted and own:
-        return replace(_said(line, match, list(match.omitted), _missing(match.omitted)), tentative=True)
+        return replace(_said(line, match, match.omitted, _missing(match.omitted)), tentative=True)
     return KnownPart(not match.omitted, moment, acting=frozenset(match.counts))
 
 
