@@ -37,8 +37,14 @@ _CASES = (
     "static statics statisch statische statischer steady stationär stationäre "
     "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
 )
+_FREQUENCIES = (
+    "frequency frequencies eigenfrequency eigenfrequencies eigenfrequenz eigenfrequenzen eigenkreisfrequenz "
+    "eigenkreisfrequenzen eigenvalue eigenvalues eigenwert eigenwerte fréquence fréquences pulsation pulsations"
+)
 CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
 """Words with which a check or a remark begins, and those of a case that is not every motion."""
+FREQUENCIES = frozenset(_FREQUENCIES.split())
+"""Words of what is found from equations of motion; a line with an acceleration may be one."""
 
 _REST = re.compile(
     r"\b(?:at rest|hover|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
@@ -58,7 +64,7 @@ _LONGEST_TITLE = 8
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
 _LAST = re.compile(r"(?<![^\W_])[^\W\d_]{2,24}\Z")
-_NAME = r"[^\W\d]\w{0,23}+['’′]{0,2}"
+_NAME = r"[^\W\d][\w\u0307\u0308]{0,23}+['’′]{0,2}"
 _SIMPLE = rf"(?:[-−]?\d(?:[\d./,]{{0,8}}\d)?|{_NAME}|∞)"
 _RELATION = re.compile(
     rf"(?<![\w^*/+)'’′-])(?P<left>{_NAME})(?P<chain>(?:[ \t]*=[ \t]*{_NAME}){{0,3}})"
@@ -250,7 +256,9 @@ def _kind(line: str) -> str | None:
     """Whether a line begins as a check or a case."""
     head = line.split("=", 1)[0] if ":" not in line else line.split(":", 1)[0].split("=", 1)[0]
     words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
-    return "case" if CASES & set(words) else "check" if CHECKS & set(words) else None
+    if CASES & set(words):
+        return "case"
+    return "check" if CHECKS & set(words) or (FREQUENCIES & set(words) and not accelerates_in(line)) else None
 
 
 def _is_title(lines: Sequence[str], k: int) -> bool:

@@ -51,9 +51,11 @@ _TOLD_BEHIND = re.compile(
 )
 """The same without a colon: a_x, a_y acceleration of the table."""
 _MULTIPLIER = re.compile(
-    r"(?<=[\w)²³])[ \t]{3,60}+[(\[]?(?:\|[ \t]?)?(?:λ|μ|lambda|lam|mu)[_ ]?(?:\d|[₁₂₃])?[)\]]?[ \t]*$", re.MULTILINE
+    r"(?<=[\w)²³\u0307])(?:[ \t]{3,60}+|,[ \t]{1,3}+(?:(?:with[ ])?multiplier[ ])?)"
+    r"[(\[]?(?:\|[ \t]?)?(?:λ|μ|lambda|lam|mu)[_ ]?(?:\d|[₁₂₃])?[)\]]?[ \t]*$",
+    re.MULTILINE,
 )
-"""The multiplier of a constraint, behind a gap at the end of its line."""
+"""The multiplier of a constraint, behind a gap or a comma at the end of its line."""
 _CONSTANT = re.compile(
     r"\$\\?[A-Za-z]{1,12}[ \t]*=[ \t]*\$[ \t]*(?:const|constant|konst|konstant|cst|cte|constante?)\b\.?"
     r"(?=[ \t]*(?:[,;)]|$|[ \t](?:is|are|and|as|for|ist|und|est|et)\b))",

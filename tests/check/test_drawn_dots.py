@@ -1,0 +1,5 @@
+"""Dots of rates on the line above the letters."""
+
+import pytest
+
+from lagrangian import built_in
