@@ -64,9 +64,7 @@ _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
 _QUANTITY = rf"(?:[∂d][²2]?\s?/\s?(?:[∂d]\w{{1,12}}[²2]?|\([∂d]\w{{1,12}}\))|{_NAMED})"
 _SLOPE = rf"(?:d\s?/\s?dt\s?)?\(?[∂d]\s?[TVULD]\s?/\s?[∂d]\s?{_NAMED}\)?"
 _SIDE = rf"(?:{_SLOPE}|d\s?/\s?dt\s?\(?{_NAMED}\)?)"
-_OF_QUANTITY = re.compile(
-    rf"\s*+[(\[]?(?:{_QUANTITY}|{_SIDE}(?:[ \t]?[-+−–][ \t]?{_SIDE}){{0,3}})[)\]]?\s*+:(?!=)"
-)
+_OF_QUANTITY = re.compile(rf"\s*+[(\[]?(?:{_QUANTITY}|{_SIDE}(?:[ \t]?[-+−–][ \t]?{_SIDE}){{0,3}})[)\]]?\s*+:(?!=)")
 """A quantity alone, or a side of the law: T*: …, θ'': …, ∂/∂x: …, d/dt ∂T/∂φ': …, d/dt p - ∂T/∂θ + ∂V/∂θ: …"""
 _OF_VALUE = re.compile(
     r"\s*+(?:\w{1,3}[).]\s++)?[(\[]?(?:[^\W\d_]{2,12}[ \t]++){0,2}"

@@ -1,7 +1,7 @@
 """Dots of rates that stand on the line above the letters, as they are typed in a mail.
 
-       ..     .2
-    m  x + k θ   = F         m x'' + k θ'^2 = F
+   ..     .2
+m  x + k θ   = F         m x'' + k θ'^2 = F
 """
 
 from __future__ import annotations
