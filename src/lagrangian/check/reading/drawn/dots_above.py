@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 from lagrangian.check.reading.traced_text import Edit, TracedText
 
@@ -28,7 +29,7 @@ def with_dots_above(written: TracedText, moves: Callable[[str], bool]) -> Traced
 def _edits(text: str, moves: Callable[[str], bool]) -> Iterator[Edit]:
     lines = text.split("\n")
     at = 0
-    for above, line in zip(lines, lines[1:], strict=False):
+    for above, line in pairwise(lines):
         below = at + len(above) + 1
         bare = above.rstrip()
         if "." in bare and len(line) <= _LONGEST >= len(bare) and "=" in line and _DOTS.fullmatch(bare):
