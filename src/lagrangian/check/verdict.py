@@ -44,7 +44,7 @@ class AnsweredLine(Brief):
     """One line of an answer: what kind it is and what it states. ``expr`` is the energy, the force, or left minus
     right.
 
-    ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
+    ``beside``: what the words around it say that it is, "rest", "check", "case" or "aside"; see `reading.side_remarks`.
     ``names``: the keys of the names in it as it is written. ``senses``: what words say of forces in it; see
     `reading.said.senses`.
     """

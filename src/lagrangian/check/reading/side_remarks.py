@@ -109,6 +109,11 @@ _LACKS = re.compile(
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
+_BRACKETED = re.compile(
+    r"[^\W\d_]{3,}[,.:]?[ ](?:[^\W\d_]{1,20}[ ]){0,12}?\((?:[^\W\d_]{2,20}[ ,:]{1,2}){0,8}"
+    r"\$?[^()=\n]{1,40}=[^()=\n]{1,60}\)[.,;]?[ \t]*$"
+)
+"""A relation in brackets at the end of a sentence: its determinant is zero (rigid body motion: y = R φ)."""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -184,6 +189,8 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
+        if "(" in line and not accelerates_in(line) and _BRACKETED.search(line):
+            said[k + 1] = said.get(k + 1, frozenset()) | {"aside"}
     return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)
 
 
