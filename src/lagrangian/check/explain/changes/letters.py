@@ -50,7 +50,7 @@ class LetterChanges:
                 if q not in self.alike(p):  # type: ignore[arg-type]
                     continue
                 effect = site.changed(lambda s, a=a, b=b: {_exchanged(m, a, b): c for m, c in s.items()})
-                if not effect.empty:
+                if _is_of_whole(site, effect):
                     yield LocalChange(
                         kind="exchanged", cost=1.9 + site.surcharge, site=site, effect=effect, right=p, written=q
                     )
@@ -108,7 +108,7 @@ class LetterChanges:
 
     def _of(self, site: Site, change: object, kind: str, cost: float, atom: int) -> Iterator[LocalChange]:
         effect = site.changed(change)  # type: ignore[arg-type]
-        if not effect.empty:
+        if _is_of_whole(site, effect):
             yield LocalChange(
                 kind=kind, cost=cost + site.surcharge, site=site, effect=effect, right=self.ring.atoms[atom]
             )
@@ -140,7 +140,7 @@ class LetterChanges:
             effect = site.gaining(gained)
         except TooLong:
             return None
-        return None if effect.empty else effect
+        return effect if _is_of_whole(site, effect) else None
 
     # -- what may stand instead --------------------------------------------------------------------------------------
 
@@ -337,6 +337,12 @@ class LetterChanges:
                 kind = "foreign_factor" if e < 0 else "factor_missing"
                 written = self.ring.atoms[a] ** -abs(e)
                 yield LocalChange(kind=kind, cost=1.8 + site.surcharge, site=site, effect=effect, written=written)
+
+
+def _is_of_whole(site: Site, effect: Site) -> bool:
+    """Whether a change does something in each energy that a site names: not in the weight alone of "the kinetic energy
+    and the weight", of which a narrower site has it."""
+    return not effect.empty and bool(effect.T and effect.V) == bool(site.T and site.V)
 
 
 def _exchanged(m: tuple[tuple[int, int], ...], a: int, b: int) -> tuple[tuple[int, int], ...]:

@@ -15,6 +15,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.terms.pieces import partner as partner
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
@@ -33,7 +34,8 @@ class Variant:
     ``T`` and ``V`` are added to the energies, in the equations ``only`` (all unless given). ``Xi`` is added to the
     generalized forces and ``rows`` to the left-hand sides, by the index of the coordinate. ``stated`` are the kinds of
     lines in which it is visible besides the equations. If two variants explain an answer, the one with less ``doubt``
-    is reported. ``step`` is where it was made, if that is not the step of the misconception.
+    is reported. ``step`` is where it was made, if that is not the step of the misconception, and ``why`` why it is
+    wrong, if that is not what holds for its other variants.
     """
 
     what: Text
@@ -47,6 +49,7 @@ class Variant:
     stated: frozenset[str] = ENERGIES
     doubt: int = 0
     step: int | None = None
+    why: Text | None = None
 
 
 class Misconception(Protocol):
@@ -266,11 +269,6 @@ def _slopes(vector: sp.Matrix, by: sp.Expr) -> sp.Matrix:
 def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
     """Return an expression in which symbols are replaced by others, all at once."""
     return cast("sp.Expr", expr.xreplace(dict(table)))
-
-
-def partner(f: sp.Expr) -> sp.Expr:
-    """The cosine of the same angle for a sine, and the other way round."""
-    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
 
 
 def letters(expr: sp.Expr) -> list[Any]:

@@ -1,0 +1,104 @@
+"""What is advised, and what is offered beside it, fits what is wrong in this answer.
+
+Oracle: equations by hand of a tractor with a trailer, and of a hoist with a bell.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+
+TRAIN_T = "T = M/2 (s' + e')^2 + m/2 s'^2"
+TRAIN = f"""{TRAIN_T}
+V = k e^2/2
+Q_s = F
+Q_e = F - b e'
+(M + m) s'' + M e'' = F
+M (s'' + e'') + b e' + k e = F
+"""
+
+
+@cache
+def train() -> lg.Derivation:
+    """A tractor at s + e pulls a trailer at s by a drawbar that is a spring."""
+    s = lg.System("train")
+    q, e = s.coordinates("s e")
+    M, m, k, b = s.parameters("M m k b")
+    tractor = s.point("tractor", (q + e, 0))
+    s.particle(M, at=tractor, name="tractor")
+    s.particle(m, at=s.point("trailer", (q, 0)), name="trailer")
+    s.spring(k, deflection=e, name="drawbar")
+    s.damper(b, deflection=e, name="drawbar damper")
+    s.force((s.input("F"), 0), at=tractor, name="drive")
+    return s.derive()
+
+
+@cache
+def bell() -> lg.Derivation:
+    """A drum on a fixed axis lets down a carrier, on which a bell swings."""
+    s = lg.System("bell")
+    y, theta, phi = s.coordinates("y theta phi")
+    m, J, h, k, c, d, g, r = s.parameters("m J h k c d g r")
+    s.rigid_body(mass=m, inertia=J, at=s.point("drum", (0, 0)), frame=s.frame(phi, name="drum"), name="drum")
+    s.particle(m, at=s.point("bell", (h * sp.sin(theta), -y - h * sp.cos(theta))), name="bell")
+    s.gravity((0, -1), g=g)
+    s.spring(k, deflection=y - r * phi, name="rope")
+    s.damper(c, deflection=y, name="guide")
+    s.damper(d, deflection=theta, name="hinge")
+    return s.derive()
+
+
+def words(derivation: lg.Derivation, answer: str) -> str:
+    """The whole page on a wrong answer, in one line."""
+    verdict = derivation.check(answer)
+    assert not verdict.right
+    return " ".join(verdict.to_text().split())
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("Q_s = F\nQ_e = F - b e'\n(M + m) s'' + M e'' = F", "Q_s = 0\nQ_e = F - b e'\n(M + m) s'' + M e'' = 0"),
+        ("Q_e = F - b e'", "Q_e = -b e'"),
+    ],
+)
+def test_what_is_missing_in_one_equation_need_not_be_counted_once(right: str, wrong: str) -> None:
+    assert train().check(TRAIN).right
+    said = words(train(), TRAIN.replace(right, wrong))
+    assert "Force 'drive' is missing in the equation of" in said
+    assert "count each once" not in said and "belongs in the equation of every coordinate that moves" in said
+    assert "instead of what it adds there" not in said
+
+
+def test_what_stands_nowhere_is_counted_once() -> None:
+    said = words(train(), TRAIN.replace(" - b e'", "").replace(" + b e'", ""))
+    assert "Damper 'drawbar damper' is missing." in said and "count each once" in said
+
+
+BELL_T = "T = m/2 (y'^2 + h^2 theta'^2 - 2 h y' theta' sin(theta)) + J/2 phi'^2"
+BELL = f"""{BELL_T}
+V = k/2 (y - r phi)^2 - m g (y + h cos(theta))
+Q_y = -c y'
+Q_theta = -d theta'
+Q_phi = 0
+m y'' - m h theta'' sin(theta) - m h theta'^2 cos(theta) + k (y - r phi) - m g = -c y'
+m h^2 theta'' - m h y'' sin(theta) + m g h sin(theta) = -d theta'
+J phi'' - r k (y - r phi) = 0
+"""
+
+
+def test_a_wrong_height_is_not_offered_as_a_wrong_kinetic_energy() -> None:
+    assert bell().check(BELL).right
+    wrong = BELL.replace("y + h cos(theta)", "y + h sin(theta)").replace("+ m g h sin(theta)", "- m g h cos(theta)")
+    said = words(bell(), wrong)
+    assert "Sine and cosine are exchanged in the weight" in said and "kinetic energy and the weight" not in said
+
+
+def test_a_body_at_rest_lends_no_damper_its_velocity() -> None:
+    verdict = bell().check(BELL.replace("Q_y = -c y'", "Q_y = 0").replace("m g = -c y'", "m g = 0"))
+    assert [m.name for m in verdict.mistakes] == ["element_forgotten"]
+    assert not any("whole velocity" in str(m.what) for m in verdict.alternatives)
