@@ -143,6 +143,7 @@ def mast() -> lg.Derivation:
 BOOM = "(m a^2 + n b^2) theta'' + (m a (e + a cos(theta)) + n b (e + b cos(theta))) sin(theta) psi'^2"
 MAST = "(J + m (e + a cos(theta))^2 + n (e + b cos(theta))^2) psi''"
 MAST += " - 2 (m a (e + a cos(theta)) + n b (e + b cos(theta))) sin(theta) psi' theta' = 0"
+SUM = "(m a (e + a cos θ) + b n (e + b cos θ))"
 ACROSS = " + d a^2 cos(theta)^2 theta' = 0"
 
 
@@ -150,16 +151,16 @@ ACROSS = " + d a^2 cos(theta)^2 theta' = 0"
 @pytest.mark.parametrize(
     ("right", "wrong", "said"),
     [
-        ("+ (m a (", "- (m a (", "−(m a (e + a cos θ) + b n (e + b cos θ)) ψ̇² sin θ has the wrong sign"),
+        ("+ (m a (", "- (m a (", f"−{SUM} ψ̇² sin θ has the wrong sign"),
         (
             "sin(theta) psi'^2",
             "cos(theta) psi'^2",
-            "ψ̇² cos θ should be (m a (e + a cos θ) + b n (e + b cos θ)) ψ̇² sin θ",
+            f"ψ̇² cos θ should be {SUM} ψ̇² sin θ",
         ),
         (
             "sin(theta) psi'^2",
             "sin(theta) psi'^2/2",
-            "ψ̇² sin θ should be (m a (e + a cos θ) + b n (e + b cos θ)) ψ̇² sin θ",
+            f"½ {SUM} ψ̇² sin θ should be {SUM} ψ̇² sin θ",
         ),
         ("cos(theta)^2 theta'", "theta'", "a² d θ̇ should be a² d θ̇ cos²θ"),
     ],
