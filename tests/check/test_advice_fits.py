@@ -1,6 +1,6 @@
 """What is advised, and what is offered beside it, fits what is wrong in this answer.
 
-Oracle: equations by hand of a tractor with a trailer, and of a hoist with a bell.
+Oracle: equations by hand of a tractor with a trailer, of a hoist with a bell, and of a jib with a counterweight.
 """
 
 from __future__ import annotations
@@ -102,3 +102,63 @@ def test_a_body_at_rest_lends_no_damper_its_velocity() -> None:
     verdict = bell().check(BELL.replace("Q_y = -c y'", "Q_y = 0").replace("m g = -c y'", "m g = 0"))
     assert [m.name for m in verdict.mistakes] == ["element_forgotten"]
     assert not any("whole velocity" in str(m.what) for m in verdict.alternatives)
+
+
+@cache
+def jib() -> lg.Derivation:
+    """A trolley at s on a jib that turns, and a counterweight that a rope pulls out by half of that."""
+    s = lg.System("jib")
+    phi, q = s.coordinates("phi s")
+    J, m, n, p, c = s.parameters("J m n p c")
+    s.rigid_body(mass=m, inertia=J, at=s.point("axis", (0, 0)), frame=s.frame(phi, name="jib"), name="jib")
+    for mass, r, name in ((m, q, "trolley"), (n, p + q / 2, "counterweight")):
+        s.particle(mass, at=s.point(name, (r * sp.cos(phi), r * sp.sin(phi))), name=name)
+    s.damper(c, deflection=phi, name="bearing")
+    s.force(s.input("F"), deflection=q, name="winch")
+    return s.derive()
+
+
+JIB_T = "T = J/2 phi'^2 + m/2 (s'^2 + s^2 phi'^2) + n/2 (s'^2/4 + (p + s/2)^2 phi'^2)\n"
+JIB_RATE = "d/dt dT/dphi' = (J + m s^2 + n (p + s/2)^2) phi'' + (2 m s + n (p + s/2)) s' phi'\n"
+JIB_SLOPE = "dT/ds = (m s + n/2 (p + s/2)) phi'^2\n"
+JIB = """(J + m s^2 + n (p + s/2)^2) phi'' + (2 m s + n (p + s/2)) s' phi' = -c phi'
+(m + n/4) s'' - (m s + n/2 (p + s/2)) phi'^2 = F
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "advice"),
+    [
+        ("+ n (p + s/2)) s'", "+ 2 n (p + s/2)) s'", "the factor 2 too much", "p + ½ s has the inner derivative ½"),
+        ("n/2 (p + s/2)) phi'^2", "n (p + s/2)) phi'^2", "n (p + ½ s) φ̇²", "p + ½ s has the inner derivative ½"),
+        ("(2 m s + n (p + s/2)) s' phi'", "n (p + s/2) s' phi'", "2 m s φ̇ ṡ is missing", "product rule"),
+    ],
+)
+def test_the_rule_that_was_not_followed_in_a_derivative_is_named(
+    right: str, wrong: str, said: str, advice: str
+) -> None:
+    whole = JIB_T + JIB_RATE + JIB_SLOPE + JIB
+    assert jib().check(whole).right
+    told = words(jib(), whole.replace(right, wrong))
+    assert said in told and advice in told and "mind the signs" not in told and "A possible reason" not in told
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "advice"),
+    [
+        ("(2 m s + n", "(m s + n", "In the term m s φ̇ ṡ, the factor 2 is missing", "derivative of the square"),
+        ("- (m s + n/2 (p + s/2))", "+ (m s + n/2 (p + s/2))", "+ m s) φ̇² has the wrong sign", "in a circle"),
+        ("J + m s^2", "J + m s^2/3", "should be m s² φ̈", "m a² for a mass at the distance a"),
+        (" = -c phi'", " = 0", "Damper 'bearing' is missing.", "which springs, dampers, weights and forces act"),
+    ],
+)
+def test_equations_alone_are_told_without_energies(right: str, wrong: str, said: str, advice: str) -> None:
+    assert jib().check(JIB).right
+    told = words(jib(), JIB.replace(right, wrong))
+    assert said in told and advice in told, told
+    assert not any(x in told for x in ("∂", "T*", "kinetic energy", "count each once", "A possible reason"))
+
+
+def test_beside_energies_a_derivative_is_a_possible_reason() -> None:
+    told = words(jib(), JIB_T + JIB.replace("- (m s + n/2 (p + s/2))", "+ (m s + n/2 (p + s/2))"))
+    assert "φ̇² has the wrong sign. A possible reason: ∂L/∂s has the wrong sign." in told, told
