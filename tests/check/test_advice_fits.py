@@ -1,6 +1,7 @@
 """What is advised, and what is offered beside it, fits what is wrong in this answer.
 
-Oracle: equations by hand of a tractor with a trailer, of a hoist with a bell, and of a jib with a counterweight.
+Oracle: equations by hand of a tractor with a trailer, of a hoist with a bell, of a jib with a
+counterweight, and of a roller on a belt.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from lagrangian.model import time
 
 TRAIN_T = "T = M/2 (s' + e')^2 + m/2 s'^2"
 TRAIN = f"""{TRAIN_T}
@@ -162,3 +164,47 @@ def test_equations_alone_are_told_without_energies(right: str, wrong: str, said:
 def test_beside_energies_a_derivative_is_a_possible_reason() -> None:
     told = words(jib(), JIB_T + JIB.replace("- (m s + n/2 (p + s/2))", "+ (m s + n/2 (p + s/2))"))
     assert "φ̇² has the wrong sign. A possible reason: ∂L/∂s has the wrong sign." in told, told
+
+
+@cache
+def belt() -> lg.Derivation:
+    """A motor turns a roller through a gear; it rolls on a belt that is driven faster and faster, and it carries a
+    damped wheel that is counted in the other sense."""
+    s = lg.System("belt")
+    x, phi, theta = s.coordinates("x phi theta")
+    M, J, R, a, c, A = s.parameters("M J R a c A")
+    n = s.parameter("n", unit="1")
+    s.kinetic(M * x.diff() ** 2 / 2 + J * phi.diff() ** 2 / 2 + A * theta.diff() ** 2 / 2)
+    s.velocity_constraint(x.diff() - R * phi.diff() - a * time, name="belt")
+    s.damper(c, deflection=phi + theta, name="bearing")
+    s.force(s.input("tau"), deflection=n * theta, name="motor")
+    return s.derive()
+
+
+BELT = """x' - R phi' = a t
+M x'' = lambda
+J phi'' + c (phi' + theta') = -R lambda
+A theta'' + c (phi' + theta') = n tau
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "advice"),
+    [
+        ("x' - R phi' = a t", "x' + R phi' = a t", "R φ̇ has the wrong sign", "Let one coordinate grow a little"),
+        ("x' - R phi' = a t", "x' - R phi' = 0", "−a t is missing", "What is given in time counts as well"),
+        ("= -R lambda", "= -lambda", "stands with the factor −1", "to fit the others, −R belongs there"),
+        (
+            "(phi' + theta')",
+            "(phi' - theta')",
+            "φ̇ − θ̇ in place of φ̇ + θ̇",
+            "the sum of those that are counted in opposite",
+        ),
+        ("n tau", "tau", "the factor n is missing", "through a gear or a lever, with the ratio"),
+    ],
+)
+def test_advice_on_what_rolls_and_turns(right: str, wrong: str, said: str, advice: str) -> None:
+    assert belt().check(BELT).right
+    told = words(belt(), BELT.replace(right, wrong))
+    assert said in told and advice in told, told
+    assert "without its arm" not in told and "Differentiate by time" not in told

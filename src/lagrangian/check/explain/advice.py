@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrangian.check.explain.misconceptions import product_rule, reaction_forgotten
 from lagrangian.check.explain.misconceptions.base import put
+from lagrangian.check.explain.own_terms import WHY_FORCE
 from lagrangian.check.explain.say import ANGLES, LETTERS, WHY_PART
 from lagrangian.check.explain.without_energies import WHY_EQUATION, silent_energies
 from lagrangian.check.reference import Reference
@@ -86,9 +87,7 @@ BALANCES: Mapping[str, Text] = {
     "spring_half_forgotten": _SPRING,
     "spring_square_forgotten": _SPRING,
     "rest_forgotten": text("The force of a spring is its stiffness times its deflection from its neutral point."),
-    "rotation_forgotten": text(
-        "A body that turns has J times its angular acceleration, besides m times the other one."
-    ),
+    "rotation_forgotten": text("What turns a body faster counts as well: J times its angular acceleration."),
     "translation_forgotten": _INERTIA,
     "inertia_about_pivot": _INERTIA,
     "half_forgotten": OF_INERTIA,
@@ -98,9 +97,10 @@ BALANCES: Mapping[str, Text] = {
 """Why something is wrong in a balance of forces or moments."""
 OF_STEPS: Mapping[str, Text] = {
     WHY_PART[2]: text("Which rates move this body, and how do they stand in its velocity and its angular velocity?"),
+    str(WHY_FORCE): text("A force acts with its part along the motion; its moment is the force times its arm."),
     WHY_PART[3]: text("A spring pulls by its stiffness times its deflection, a weight pulls downwards."),
 }
-"""The same for what is said of every mistake in a kinetic or a potential energy."""
+"""The same for what is said of every mistake in an energy, or in a force."""
 _LAGRANGE = re.compile(r"T\*|∂|ℒ|Ξ|L |[Ee]nerg|\bV\b|square")
 """The words of Lagrange's equations."""
 _OF_ENERGIES = re.compile(r"kinetic energy|energy of|∂|d/dt")
@@ -135,7 +135,7 @@ def _fitting(truth: Reference, mistake: Mistake, balances: bool) -> Text:
         return BALANCES[mistake.name]
     if balances and why in OF_STEPS:
         return OF_STEPS[why]
-    return WHY_EQUATION if balances and "∂" in why else mistake.why
+    return mistake.why
 
 
 def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:

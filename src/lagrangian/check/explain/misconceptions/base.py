@@ -21,6 +21,7 @@ from lagrangian.derive.algebra import Algebra
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 from lagrangian.records import dataclass, field
+from lagrangian.values.dimensions import NONE, check_dimensions
 
 ENERGIES = frozenset({"T", "V", "L", "Xi", "D"})
 NO_D = ENERGIES - {"D"}
@@ -236,6 +237,21 @@ class Ingredients:
     def moves(self, expr: sp.Expr) -> bool:
         """Whether an expression contains a coordinate."""
         return expr.has(*self.q)
+
+    @cached_property
+    def dimensions(self) -> Any:
+        """What is known of the dimensions; None if they contradict each other."""
+        return check_dimensions(self.model)
+
+    @cached_property
+    def ratios(self) -> list[sp.Symbol]:
+        """The parameters without a unit that are no angles, such as the ratio of a gear."""
+        dims = self.dimensions
+        if dims is None:
+            return []
+        angles = {x for f in (self.T + self.V).atoms(sp.sin, sp.cos) for x in f.free_symbols}
+        pure = [p.symbol for p in self.model.parameters if (d := dims.of(p.symbol)) and not d.unknown and d == NONE]
+        return [p for p in pure if p not in angles]
 
     @cached_property
     def carried(self) -> list[sp.Expr]:
