@@ -161,6 +161,12 @@ def test_equations_alone_are_told_without_energies(right: str, wrong: str, said:
     assert not any(x in told for x in ("∂", "T*", "kinetic energy", "count each once", "A possible reason"))
 
 
+def test_a_formula_with_derivatives_of_energies_is_no_part_of_one() -> None:
+    general = "D = c phi'^2\nd/dt dL/dq' - dL/dq + dD/dq' = Q\n"
+    told = words(jib(), general + JIB.replace("c phi'", "2 c phi'"))
+    assert "The ½ of damper 'bearing' in D is missing" in told, told
+
+
 def test_beside_energies_a_derivative_is_a_possible_reason() -> None:
     told = words(jib(), JIB_T + JIB.replace("- (m s + n/2 (p + s/2))", "+ (m s + n/2 (p + s/2))"))
     assert "φ̇² has the wrong sign. A possible reason: ∂L/∂s has the wrong sign." in told, told

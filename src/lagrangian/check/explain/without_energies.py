@@ -12,9 +12,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
+from lagrangian.model import time
 from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
 WHY_EQUATION = text("Go through this equation once more, term by term, and mind the signs.")
@@ -50,7 +52,7 @@ def silent_energies(lines: Sequence[AnsweredLine]) -> set[str]:
 
 def _is_linear(expr: sp.Expr) -> bool:
     """Whether rates stand in an expression and none is multiplied by one: a force or a torque, T_c = k θ + c θ̇."""
-    rates = expr.atoms(sp.Derivative)
+    rates = {x for x in expr.atoms(sp.Derivative) if isinstance(x.expr, AppliedUndef) and x.variables == (time,)}
     slopes = [bounded.diff(expr, x) for x in rates]
     return bool(rates) and not any(x.has(*rates) for x in slopes)
 
