@@ -118,7 +118,7 @@ def test_the_constraint_that_an_answer_states_tells_which_factor_is_wrong(tramme
     verdict = trammel.check(f"{ALONG.replace('N*x', 'N*y')}\n{UP}\nx^2 + y^2 = d^2")
     assert [f.status.right for f in verdict.findings] == [False, True, True]
     (mistake,) = verdict.mistakes
-    assert mistake.coordinate == "x" and "factor 2*y in the equation of x; beside the others, 2*x" in str(mistake.what)
+    assert mistake.coordinate == "x" and "factor 2*y in the equation of x; to fit the others, 2*x" in str(mistake.what)
 
 
 def test_equations_with_a_multiplier_follow_from_a_wrong_energy(trammel: lg.Derivation) -> None:

@@ -50,7 +50,7 @@ def test_a_multiplier_takes_up_no_mistake_of_the_line_that_comes_first(bead: lg.
     told = [str(m.what) for m in verdict.mistakes]
     assert told[0] == "X'' is missing in the equation of x." and len(told) == 2
     assert told[1].startswith(
-        "The multiplier lambda stands with the factor 2*a in the equation of x; beside the others"
+        "The multiplier lambda stands with the factor -2*a in the equation of x; to fit the others"
     )
 
 

@@ -197,7 +197,7 @@ def test_an_equation_follows_from_a_wrong_derivative() -> None:
 def test_a_stated_constraint_says_which_factor_of_a_multiplier_is_wrong(factor: str) -> None:
     verdict = slot().check(f"J*theta'' = tau - lambda*{factor}\nm*x'' + k*x = F + lambda\nx = h*tan(theta)")
     assert [f.status is Status.WRONG for f in verdict.findings] == [True, False, False]
-    assert str(verdict.mistakes[0].what).endswith("beside the others, h/cos(theta)^2 belongs there.")
+    assert str(verdict.mistakes[0].what).endswith("to fit the others, -h/cos(theta)^2 belongs there.")
 
 
 @cache

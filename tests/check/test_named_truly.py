@@ -298,7 +298,7 @@ def test_a_change_of_alike_bodies_together_comes_before_seven_times_one_of_them(
     s.spring(k, deflection=a, name="torsion spring")
     verdict = s.derive().check("(2*J + 2*m*l^2)*a'' + k*a = 0\nM*x'' + k*x = 0")
     (mistake,) = verdict.mistakes
-    assert "½mv² of" in str(mistake.what) and "left" in str(mistake.what) and "count 4 times" in str(mistake.what)
+    assert "½mv² of" in str(mistake.what) and "left" in str(mistake.what) and "are 4 times what" in str(mistake.what)
 
 
 def test_an_exchanged_sine_and_the_sign_of_a_spring_are_two_mistakes() -> None:

@@ -130,7 +130,9 @@ def test_the_right_energy_of_a_body_speaks_against_a_mistake_in_every_energy() -
 def test_a_moment_of_inertia_has_no_sign_of_its_own() -> None:
     row = f"{INERTIA} + {CENTRIFUGAL} + C*Omega*cos(theta)*({ALONG}) + k*theta = 0"
     verdict = gyro().check(f"{row}\nC*(psi'' + Omega*cos(theta)*theta') = tau")
-    assert "what C contributes has the wrong sign" in str(verdict.mistakes[0].what)
+    assert "The term C*Omega*(" in str(verdict.mistakes[0].what) and "has the wrong sign" in str(
+        verdict.mistakes[0].what
+    )
 
 
 def test_an_index_may_be_that_of_a_mass() -> None:

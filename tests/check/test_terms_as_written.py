@@ -124,3 +124,49 @@ def test_the_equations_of_a_matrix_are_named() -> None:
         "2, the equation of φ: m (R − r)² φ̈ should be (3/2) m (R − r)² φ̈",
         "2, the equation of φ, on the right-hand side: m g (R − r) sin φ has the wrong sign",
     ]
+
+
+@cache
+def mast() -> lg.Derivation:
+    """Two balls on a boom that leans from a mast, and a damper across it."""
+    s = lg.System("mast")
+    psi, theta = s.coordinates("psi theta")
+    J, m, n, e, a, b, d = s.parameters("J m n e a b d")
+    for mass, arm in ((m, a), (n, b)):
+        out = e + arm * sp.cos(theta)
+        s.kinetic(mass * (arm**2 * theta.diff() ** 2 + out**2 * psi.diff() ** 2) / 2)
+    s.kinetic(J * psi.diff() ** 2 / 2)
+    s.damper(d, deflection=a * sp.sin(theta))
+    return s.derive()
+
+
+BOOM = "(m a^2 + n b^2) theta'' + (m a (e + a cos(theta)) + n b (e + b cos(theta))) sin(theta) psi'^2"
+MAST = "(J + m (e + a cos(theta))^2 + n (e + b cos(theta))^2) psi''"
+MAST += " - 2 (m a (e + a cos(theta)) + n b (e + b cos(theta))) sin(theta) psi' theta' = 0"
+SUM = "(m a (e + a cos θ) + b n (e + b cos θ))"
+ACROSS = " + d a^2 cos(theta)^2 theta' = 0"
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize(
+    ("right", "wrong", "said"),
+    [
+        ("+ (m a (", "- (m a (", f"−{SUM} ψ̇² sin θ has the wrong sign"),
+        (
+            "sin(theta) psi'^2",
+            "cos(theta) psi'^2",
+            f"ψ̇² cos θ should be {SUM} ψ̇² sin θ",
+        ),
+        (
+            "sin(theta) psi'^2",
+            "sin(theta) psi'^2/2",
+            f"½ {SUM} ψ̇² sin θ should be {SUM} ψ̇² sin θ",
+        ),
+        ("cos(theta)^2 theta'", "theta'", "a² d θ̇ should be a² d θ̇ cos²θ"),
+    ],
+)
+def test_what_belongs_there_has_the_form_of_what_was_written(right: str, wrong: str, said: str) -> None:
+    answer = f"{MAST}\n{BOOM}{ACROSS}"
+    assert mast().check(answer).right
+    (found,) = told(mast(), answer.replace(right, wrong))
+    assert found.startswith("2: ") and said in found, found

@@ -44,7 +44,7 @@ def test_a_rate_is_quoted_with_the_sign_that_was_written(gears: lg.Derivation) -
 
 def test_without_its_line_no_rate_is_said_to_be_written(gears: lg.Derivation) -> None:
     words = told(gears, ROWS.format("+", DAMPED))
-    assert "The products of different rates" in words and "The angular velocity" not in words, words
+    assert "The terms that couple the equations" in words and "The angular velocity" not in words, words
 
 
 def test_the_ratio_that_is_missing_in_the_work_of_a_damper_is_named(gears: lg.Derivation) -> None:

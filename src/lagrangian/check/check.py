@@ -21,8 +21,10 @@ from lagrangian.check.coordinates.chart import chart, region, system_coordinates
 from lagrangian.check.coordinates.relations import relations, without_relations
 from lagrangian.check.coordinates.renamed import OwnNames, names_only
 from lagrangian.check.coordinates.tried import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
+from lagrangian.check.explain.advice import with_fitting_advice
 from lagrangian.check.explain.candidates import too_long
 from lagrangian.check.explain.definitions import with_right_definitions, with_wrong_definitions
+from lagrangian.check.explain.derivatives_said import with_terms_of_equations
 from lagrangian.check.explain.in_own_names import in_own_names
 from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
@@ -104,7 +106,9 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
     if verdict.findings:
         verdict = replace(verdict, findings=with_right_definitions(truth, written, verdict.findings))
     if not verdict.right and hint:
-        verdict = with_sides(with_wrong_terms(truth, written, verdict)) if explain else verdict
+        if explain:
+            verdict = with_terms_of_equations(truth, said.lines, with_wrong_terms(truth, written, verdict))
+            verdict = with_fitting_advice(truth, said.lines, with_sides(verdict))
         verdict = in_own_names(truth, written, verdict)
     verdict = replace(verdict, notes=(*unjudged, *periods, *added, *sides, *parts, *verdict.notes, *general))
     if (assumed := said.told(truth)) is None:

@@ -14,6 +14,7 @@ from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import ratio
 from lagrangian.check.terms.alike import entries
 from lagrangian.check.terms.groupings import groupings
+from lagrangian.check.terms.own_form import in_own_form
 from lagrangian.check.terms.scales import scales
 from lagrangian.check.terms.told import Pair, pairs
 from lagrangian.check.verdict import TermDifference, TermOrigin
@@ -135,8 +136,9 @@ def _as_written(truth: Reference, told: Sequence[Pair], index: int | None) -> It
     for pair in told[:MAX_DIFFERENCES]:
         own = truth.form(pair.unscaled)
         origins = _origins(truth, own, index) if own is not None else ()
-        term = pair.right if pair.kind != "extra" else pair.written
-        yield TermDifference(pair.kind, term, pair.written, name, origins)
+        term = in_own_form(truth, pair.written, pair.right) if pair.kind != "extra" else pair.written
+        kind = "sign" if term == -pair.written else pair.kind
+        yield TermDifference(kind, term, pair.written, name, origins)
 
 
 def _in_any_form(

@@ -67,11 +67,10 @@ def of_multiplier(truth: Reference, i: int, s: Any, x: Any, written: sp.Expr, ri
         kind, what = "multiplier_missing", text("The multiplier ", s, " is missing in the equation of ", q, ".")
     elif zero_everywhere(truth, written + right):
         words = " has the wrong sign in the equation of "
-        kind, what = "multiplier_sign", text("The multiplier ", s, words, q, ", beside the other equations.")
+        kind, what = "multiplier_sign", text("The multiplier ", s, words, q, ": it does not fit the other equations.")
     else:
-        sign = -1 if written.could_extract_minus_sign() else 1
-        words = (" stands with the factor ", sign * written, " in the equation of ", q, "; beside the others, ")
+        words = (" stands with the factor ", written, " in the equation of ", q, "; to fit the others, ")
         short = put_together(right) if right.has(sp.tan) else right
-        kind, what = "multiplier_factor", text("The multiplier ", s, *words, sign * short, " belongs there.")
+        kind, what = "multiplier_factor", text("The multiplier ", s, *words, short, " belongs there.")
     brief = text("The multiplier does not stand in the equation of ", q, " as it should.")
     return Mistake(kind, what, WHY, 6, title, name, brief)

@@ -22,7 +22,8 @@ from lagrangian.check.constraints.multiplier_words import Pushing, of_multiplier
 from lagrangian.check.constraints.stated_senses import stated_signs
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
-from lagrangian.check.verdict import AnsweredLine, Mistake
+from lagrangian.check.terms.sides import on_side
+from lagrangian.check.verdict import AnsweredLine, Mistake, TermDifference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
@@ -280,7 +281,11 @@ def _read(
                 continue
             read[id(line)] = replace(read[id(line)], expr=read[id(line)].expr - rest * x)
             slips.append((places[id(line)], s))
-            mistakes.append(of_multiplier(truth, found.row, s, x, written, cast("sp.Expr", bounded.cancel(right / c))))
+            belongs = cast("sp.Expr", bounded.cancel(right / c))
+            _, said = on_side(line, TermDifference("", belongs * s, written * s, None))
+            sign = -1 if said.written == -written * s else 1  # as it stands in the line
+            told_so = cast("tuple[sp.Expr, sp.Expr]", (sign * written, sign * belongs))
+            mistakes.append(of_multiplier(truth, found.row, s, x, *told_so))
     sources = [j for j, line in enumerate(lines) if line.kind != "equation" or id(line) in read]
     kept = tuple(read.get(id(lines[j]), lines[j]) for j in sources)
     found = kept, tuple(told), tuple(mistakes), tuple(slips), tuple(sources), tuple(best), pushes

@@ -26,7 +26,7 @@ from lagrangian.check.terms.sides import on_side
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference
 from lagrangian.model import time
 from lagrangian.model.rows import Row, rows_of
-from lagrangian.page.formula import Variation, text
+from lagrangian.page.formula import Text, Variation, text
 from lagrangian.records import dataclass
 
 MOST_TERMS = 24
@@ -42,6 +42,8 @@ WHY_SLOPE = text(
     "Change one coordinate alone, hold the others, and mind the sign of the derivative of a sine or cosine."
 )
 WHY_SENSE = text("Let one coordinate grow a little, and see in the sketch whether the other one grows, too.")
+WHY_GIVEN = text("What is given in time counts as well, such as the speed of a belt, and is differentiated as well.")
+WHY_ALIKE = text("It says that two points move alike, as where a body rolls: count all that moves each of them.")
 SLOPE = -1
 """The order of a line ∂f/∂ξ = …"""
 
@@ -165,8 +167,19 @@ def _slip(truth: Reference, line: AnsweredLine) -> tuple[Mistake, int] | None:
         is_not = f" is not {title}" if best.order == 0 else f" is not the {which}derivative of {title}"
     what = text(line.opening, f"{is_not}: ", *said)
     brief = text(line.opening, f"{is_not}.")
-    why = WHY_SENSE if opposed else WHY[best.order]
+    why = WHY_SENSE if opposed else _why(truth, best, said)
     return Mistake(of[0], what, why, 1, title, None, brief), best.order
+
+
+def _why(truth: Reference, found: _Compared, said: Sequence[Any]) -> Text:
+    """What is advised: to look at the sense of a term with the wrong sign, at what is given in time, or at the rule."""
+    term = next((x for x in said if isinstance(x, sp.Expr)), sp.S.Zero)
+    if any("wrong sign" in x for x in said if isinstance(x, str)) and not term.has(sp.sin, sp.cos):
+        return WHY_SENSE
+    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    if found.order and term != 0 and not term.has(*moving):
+        return WHY_GIVEN
+    return WHY_ALIKE if found.order == 1 and found.row.position is None else WHY[found.order]
 
 
 def _of_displacements(truth: Reference, said: Sequence[Any]) -> tuple[Any, ...]:

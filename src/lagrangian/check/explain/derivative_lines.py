@@ -14,6 +14,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.changes.pool import Pool, Possible
+from lagrangian.check.explain.misconceptions import product_rule
 from lagrangian.check.explain.own_terms import WHY, term_replaced
 from lagrangian.check.explain.spoken import in_dissipation, in_lagrangian
 from lagrangian.check.explain.term_said import with_reason
@@ -24,12 +25,21 @@ from lagrangian.model import time
 from lagrangian.page.formula import Left, Minus, Name, Partial, Text, Total, text
 
 WHY_FUNCTION = text("The derivative of a sine is the cosine, that of a cosine is minus the sine.")
+WHY_COUPLED = text("d/dt turns each rate in ∂L/∂ξ̇ into an acceleration: count all of them.")
+WHY_SLOPE = text("Every term that contains this coordinate counts, and everything else is held.")
+WHY_POWER = text("The derivative of a square is twice what is squared, times the derivative of what is squared.")
+PLAIN = (WHY, WHY_FUNCTION, product_rule.WHY, WHY_COUPLED, WHY_SLOPE, WHY_POWER)
+"""What is advised where no inner derivative is known that is wrong."""
 RATES, SLOPES = ("p-rate", "T-rate"), ("slope", "T-slope")
 """The kinds of lines that give d/dt ∂L/∂ξ̇, and ∂L/∂ξ; of L or of the answer's own T*."""
+STEP = 5
+"""The step of the derivatives."""
 STEP_OF = {"T": 2, "V": 3}
 """The steps of the energies of which L is made."""
 RESTATED = ("left_out_of_a_sum", "lost_in_a_sum", "sign_in_a_sum", "gradient_forgotten")
 """What a missing or wrong term of a derivative would also be called."""
+OF_A_PART = ("left_out", "wrong_number", "wrong_sign")
+"""What is wrong in a part of a derivative; no reason for the term of which it is told."""
 MOST_TERMS_TOLD = 2
 """The largest number of terms of ∂L/∂ξ̇ that are told to be wrong."""
 MOST_ALIKE = 4
@@ -105,7 +115,9 @@ def of_derivative_of(
     if (slip := slip_in(truth, line, lines)) is None:
         return found, tuple(others)
     more = [_of_own_line(truth, m, lines, findings) for m in found[1:]]
-    return [_with_slip(found[0], slip), *more], tuple(m for m in others if m.name not in RESTATED)
+    return [_with_slip(found[0], slip), *more], tuple(
+        m for m in others if m.name not in RESTATED and not _restates(m) and not (m.step == STEP and _is_of_equation(m))
+    )
 
 
 def _of_own_line(
@@ -114,7 +126,8 @@ def _of_own_line(
     """A mistake in the equation of a coordinate, told in the wrong derivative of this coordinate if there is one."""
     wrong = (f.line for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind in DERIVED)
     own = [x for x in wrong if x.name == mistake.coordinate] if mistake.coordinate is not None else []
-    slip = slip_in(truth, own[0], lines) if len(own) == 1 and _is_of_equation(mistake) else None
+    here = _is_of_equation(mistake) or _restates(mistake)
+    slip = slip_in(truth, own[0], lines) if len(own) == 1 and here else None
     return mistake if slip is None else _with_slip(mistake, slip)
 
 
@@ -122,12 +135,22 @@ def _with_slip(mistake: Mistake, slip: Mistake) -> Mistake:
     """A mistake in a derivative, told by the term of it that is wrong; the cause is a possible one, if it is any."""
     if mistake.name in RESTATED:
         return slip
+    if _restates(mistake):
+        return replace(mistake, what=slip.what, why=slip.why, brief=slip.brief)
+    if mistake.name == "coriolis_half" and slip.name == "term_forgotten":  # none of it is there
+        return replace(slip, element=mistake.element)
     formulas = [x for x in slip.what.parts if isinstance(x, sp.Expr) and not x.is_Symbol]
     if any(x in (y, -y) for x in mistake.what.parts if isinstance(x, sp.Expr) for y in formulas):
         mistake = mistake if slip.why is WHY else replace(mistake, why=slip.why)
         return replace(mistake, what=slip.what, brief=slip.brief) if _is_of_equation(mistake) else mistake
-    inner = slip.why not in (WHY, WHY_FUNCTION)
+    inner = slip.why not in PLAIN
     return replace(slip, element=mistake.element) if inner else with_reason(slip.what, mistake)
+
+
+def _restates(mistake: Mistake) -> bool:
+    """Whether the words of a mistake say no more of a derivative than which rate's terms are wrong in it."""
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
+    return mistake.name in OF_A_PART and mistake.step == STEP and all(isinstance(x, sp.Derivative) for x in formulas)
 
 
 def _is_of_equation(mistake: Mistake) -> bool:
@@ -148,6 +171,9 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
     pair = _replaced(rest, right)
     if pair is None:
         return None
+    above = given(truth, [x for x in lines if x.number <= line.number])
+    sums = sorted((above.T if above.T is not None else truth.T).atoms(sp.Add), key=bounded.operations)
+    pair = _in_sums(pair[0], sums), _in_sums(pair[1], sums)
     name, said = term_replaced(*pair)
     first, *others = said.parts
     words = str(first)
@@ -159,17 +185,21 @@ def slip_in(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine])
 def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
     """Why a term of a derivative is wrong: an inner derivative by the time that is missing, or a sine's wrong sign."""
     functions = right.atoms(sp.sin, sp.cos)
-    if right == 0 or written == 0:
+    total = isinstance(title, Total)
+    if right == 0:
         return WHY
+    if written == 0:
+        moved = any(d.derivative_count > 1 for d in right.atoms(sp.Derivative))
+        return (WHY_COUPLED if moved else product_rule.WHY) if total else WHY_SLOPE
     quotient = bounded.cancel(right / written)
     if (inside := _inside(title, written, quotient)) is not None:
         return text("The chain rule: ", inside, " has the inner derivative ", quotient, ".")
     if not functions:
-        return WHY
+        return WHY_POWER if quotient.is_number and quotient != -1 else WHY
     rates = {f: bounded.diff(cast("sp.Expr", f.args[0]), time) for f in functions}
-    if quotient == -1 and (not isinstance(title, Total) or any(x != 0 and right.has(x) for x in rates.values())):
+    if quotient == -1 and (not total or any(x != 0 and right.has(x) for x in rates.values())):
         return WHY_FUNCTION
-    for f, inner in rates.items() if isinstance(title, Total) else ():
+    for f, inner in rates.items() if total else ():
         if inner not in (0, 1) and bounded.expand(quotient - inner) == 0:
             angle = cast("sp.Expr", f.args[0])
             return text("The chain rule: sine and cosine of ", angle, " have the inner derivative ", inner, ".")
@@ -177,15 +207,28 @@ def _why(title: Left, written: sp.Expr, right: sp.Expr) -> Text:
 
 
 def _inside(title: Left, written: sp.Expr, missing: sp.Expr) -> sp.Expr | None:
-    """The sum in a derivative by a coordinate whose own derivative is the factor that is missing: a + l sin θ."""
-    by = cast("sp.Expr", title.by) if isinstance(title, Partial) else None
+    """The sum in a derivative by a coordinate, or by time, whose own derivative is the factor that is missing:
+    a + l sin θ, or p + ½ s."""
+    by = [title.by] if isinstance(title, Partial) else [x.expr for x in written.atoms(sp.Derivative)]
     sums = [f.as_base_exp()[0] for f in sp.Mul.make_args(written)]
     found = [
         x
         for x in sums
-        if isinstance(x, sp.Add) and by is not None and bounded.expand(bounded.diff(x, by) - missing) == 0
+        if isinstance(x, sp.Add) and any(bounded.expand(bounded.diff(x, cast("sp.Expr", q)) - missing) == 0 for q in by)
     ]
-    return found[0] if found and not missing.is_number else None
+    return found[0] if found and missing not in (1, -1) else None
+
+
+def _in_sums(term: sp.Expr, sums: Sequence[sp.Expr]) -> sp.Expr:
+    """A product whose sums are those of an energy, p + ½ s and not 2 p + s."""
+    factors = [f.as_base_exp() for f in sp.Mul.make_args(term)]
+    held = [(x, n) for x, n in factors if isinstance(x, sp.Add)]
+    for x, n in held:
+        for own in sums:
+            if x != own and (number := bounded.cancel(x / own)).is_number:
+                rest = sp.Mul(*[b**k for b, k in factors if b != x])
+                return _in_sums(cast("sp.Expr", rest * number**n * own**n), [y for y in sums if y != own])
+    return term
 
 
 def of_differences(line: AnsweredLine, findings: Sequence[Finding]) -> list[Mistake]:

@@ -34,7 +34,7 @@ def rates_apart(right: sp.Expr, written: sp.Expr) -> tuple[str | Left, ...]:
         own, theirs = more / v, sp.S.Zero
     if bounded.expand(own + theirs) == 0:
         theirs = -own
-    elif own.could_extract_minus_sign() if own != 0 else theirs.could_extract_minus_sign():
+    elif own.could_extract_minus_sign():
         own, theirs = turned(own), turned(theirs)
     first, *others = term_replaced(cast("sp.Expr", own * v), cast("sp.Expr", theirs * v))[1].parts
     return (": " + str(first)[:1].lower() + str(first)[1:], *cast("list[str | Left]", others))

@@ -73,11 +73,7 @@ KINDS: Mapping[str, KindWords] = {
     ),
     "lost": KindWords("In {site}, the factor {right} is missing.", "A factor is missing in {brief}.", UNITS),
     "lost_in_a_sum": KindWords("In {site}, the factor {right} is missing.", "A factor is missing in {brief}.", UNITS),
-    "left_out_of_a_sum": KindWords(
-        "In {site}, {right} is left out.",
-        "Something is left out in {brief}.",
-        "Go along the way from the fixed point to the body: every piece of it counts.",
-    ),
+    "left_out_of_a_sum": KindWords("In {site}, {right} is left out.", "Something is left out in {brief}.", WAY),
     "sign_in_a_sum": KindWords(
         "In {site}, {right} has the wrong sign.",
         "There is a wrong sign in {brief}.",
@@ -161,7 +157,7 @@ KINDS: Mapping[str, KindWords] = {
         ANGLES,
     ),
     "segment_direction": KindWords(
-        "In {site}, what {right} contributes is at a right angle to where it points.",
+        "In {site}, what {right} contributes is turned by a right angle, as by a sine in place of a cosine.",
         "Something in {brief} points in another direction.",
         WAY,
     ),
@@ -318,7 +314,10 @@ def _part(change: LocalChange, site: Site, times: Fraction) -> tuple[str, Text, 
     if number in (2, Fraction(1, 2)):
         return name, _text(*whole, f" {count} {'twice' if number == 2 else 'half'}", *where, "."), hint
     said = sp.Rational(number.numerator, number.denominator)
-    return name, _text(*whole, f" {count} ", said, " times", *where, "."), hint
+    if site.single and isinstance(whole[1], sp.Expr):
+        return name, _text(whole[0], said * whole[1], *whole[2:], " should be ", whole[1], *where, "."), hint
+    right = f" times what {'they' if be == 'are' else 'it'} should be"
+    return name, _text(*whole, f" {be} ", said, right, *where, "."), hint
 
 
 def _as_written(words: Words, site: Site) -> Words:
@@ -364,6 +363,8 @@ def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Tex
     for key, value in (("right", change.right), ("written", change.written)):
         values[key] = value if isinstance(value, tuple) else (_short(value),) if value is not None else ()
     exprs = [x for x in (change.right, change.written) if isinstance(x, sp.Expr)]
+    if change.kind == "arm" and len(exprs) > 1 and all(x.could_extract_minus_sign() for x in exprs):
+        values["right"], values["written"] = ((-x,) for x in exprs)  # whichever side it stands on
     values["apart"] = (rates_apart(*exprs) if len(exprs) > 1 else ()) or (".",)
     parts: list[str | Left] = []
     for k, piece in enumerate(words.replace("}", "{").split("{")):

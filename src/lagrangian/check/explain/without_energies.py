@@ -11,8 +11,12 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from lagrangian.check.explain.say import WHY_PART
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
+from lagrangian.model import time
 from lagrangian.page.formula import Left, Name, Text, Verbatim, text
 
 WHY_EQUATION = text("Go through this equation once more, term by term, and mind the signs.")
@@ -23,6 +27,7 @@ _ENERGY = {"T*": ("T", "L", "p", *DERIVED), "V": ("V", "L", "slope", "left", "V-
 _PART = re.compile(r"[TVULE](?:_?\w{1,8})?\*?|[Ee]_?(?:kin|pot)\w{0,4}")
 """The names of energies, and of parts of them."""
 _IN = re.compile(r"(?P<link>,| in|^In) (?P<name>T\*|V)(?=[.:,; ]|$)")
+_PRODUCTS = re.compile(r"(?P<the>[Tt])he products of different rates in (?:the kinetic energy|½mv²) of ")
 _OF = re.compile(
     r"(?<![½\w])(?P<the>[Tt])he (?:energy|kinetic energy(?= of the (?:rotation|translation))) of "
     r"(?P<element>(?:the (?:rotation|translation) of )?(?:[a-z ]{3,30}'[^']{1,60}'|[a-z]{3,20} \w{1,20}))"
@@ -31,13 +36,25 @@ _OF = re.compile(
 
 def of_equations(mistakes: Sequence[Mistake], lines: Sequence[AnsweredLine]) -> tuple[Mistake, ...]:
     """The mistakes in the words of equations, as far as the ``lines`` of an answer do not speak of the energy."""
-    named = {line.name for line in lines if line.name is not None and line.kind in ("definition", "statement")}
-    parts = {x[0] for x in named if _PART.fullmatch(x)}
+    silent = silent_energies(lines)
+    return tuple(replace(m, what=_said(m, silent)) for m in mistakes) if silent else tuple(mistakes)
+
+
+def silent_energies(lines: Sequence[AnsweredLine]) -> set[str]:
+    """The energies of which no line of an answer speaks, neither as a whole nor in parts."""
+    named = [
+        x for x in lines if x.name is not None and x.kind in ("definition", "statement") and not _is_linear(x.expr)
+    ]
+    parts = {x.name[0] for x in named if x.name is not None and _PART.fullmatch(x.name)}
     kinds = {line.kind for line in lines}
-    silent = {e for e, own in _ENERGY.items() if kinds.isdisjoint(own) and parts.isdisjoint(set(own) | {"U", "E", "e"})}
-    found = [replace(m, what=_said(m, silent)) for m in mistakes] if silent else list(mistakes)
-    newton = len(silent) == len(_ENERGY) and not kinds & {"Xi", "D"}
-    return tuple(replace(m, why=WHY_EQUATION) if newton and str(m.why) == WHY_PART[5] else m for m in found)
+    return {e for e, own in _ENERGY.items() if kinds.isdisjoint(own) and parts.isdisjoint(set(own) | {"U", "E", "e"})}
+
+
+def _is_linear(expr: sp.Expr) -> bool:
+    """Whether rates stand in an expression and none is multiplied by one: a force or a torque, T_c = k θ + c θ̇."""
+    rates = {x for x in expr.atoms(sp.Derivative) if isinstance(x.expr, AppliedUndef) and x.variables == (time,)}
+    slopes = [bounded.diff(expr, x) for x in rates]
+    return bool(rates) and not any(x.has(*rates) for x in slopes)
 
 
 def _said(mistake: Mistake, silent: set[str]) -> Text:
@@ -55,6 +72,9 @@ def _said(mistake: Mistake, silent: set[str]) -> Text:
         return f"{'W' if match['the'] == 'T' else 'w'}hat {match['element']} adds to the equations"
 
     whole = len(silent) == len(_ENERGY)
+    if whole:
+        products = r"\g<the>he terms that couple the equations by the inertia of "
+        joined = [_PRODUCTS.sub(products, x) if isinstance(x, str) else x for x in joined]
     found = [
         _IN.sub(without, x).replace(" sign: lower is less, not more", " sign") if isinstance(x, str) else x
         for x in joined

@@ -37,6 +37,11 @@ class WrittenTerm:
     parts: tuple[WrittenTerm, ...] = ()
 
 
+def partner(f: sp.Expr) -> sp.Expr:
+    """The cosine of the same angle for a sine, and the other way round."""
+    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+
+
 def written_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     """The terms of a sum as they were written; those of a product in which the sum stands in brackets."""
     terms = [_signed(t) for t in sp.Add.make_args(expr) if t != 0]

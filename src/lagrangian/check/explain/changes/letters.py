@@ -17,7 +17,7 @@ from lagrangian.check.explain.changes.ring import Monomial, Sum, TooLong, expone
 from lagrangian.check.explain.changes.sites import Sites
 from lagrangian.check.explain.misconceptions.base import partner
 from lagrangian.model import Damper
-from lagrangian.values.dimensions import LENGTH, NONE, check_dimensions
+from lagrangian.values.dimensions import LENGTH
 
 MOST_ANGLES = 10
 """The largest number of angles that are tried in place of another."""
@@ -50,7 +50,7 @@ class LetterChanges:
                 if q not in self.alike(p):  # type: ignore[arg-type]
                     continue
                 effect = site.changed(lambda s, a=a, b=b: {_exchanged(m, a, b): c for m, c in s.items()})
-                if not effect.empty:
+                if _is_of_whole(site, effect):
                     yield LocalChange(
                         kind="exchanged", cost=1.9 + site.surcharge, site=site, effect=effect, right=p, written=q
                     )
@@ -108,7 +108,7 @@ class LetterChanges:
 
     def _of(self, site: Site, change: object, kind: str, cost: float, atom: int) -> Iterator[LocalChange]:
         effect = site.changed(change)  # type: ignore[arg-type]
-        if not effect.empty:
+        if _is_of_whole(site, effect):
             yield LocalChange(
                 kind=kind, cost=cost + site.surcharge, site=site, effect=effect, right=self.ring.atoms[atom]
             )
@@ -140,7 +140,7 @@ class LetterChanges:
             effect = site.gaining(gained)
         except TooLong:
             return None
-        return None if effect.empty else effect
+        return effect if _is_of_whole(site, effect) else None
 
     # -- what may stand instead --------------------------------------------------------------------------------------
 
@@ -241,14 +241,9 @@ class LetterChanges:
         return [p for p in symbols if any(a.coeff(p).is_number and a.coeff(p) != 0 for a in every)]
 
     @cached_property
-    def _dimensions(self) -> Any:
-        """What is known of the dimensions; None if they contradict each other."""
-        return check_dimensions(self.model)
-
-    @cached_property
     def _kinds(self) -> dict[sp.Symbol, object]:
         """What decides which parameters may be taken for each other: the unit if it is known, else the first letter."""
-        dims = self._dimensions
+        dims = self.sites.of.dimensions
         found: dict[sp.Symbol, object] = {}
         for p in self.model.parameters:
             dim = dims.of(p.symbol) if dims is not None else None
@@ -285,7 +280,7 @@ class LetterChanges:
     @cached_property
     def lengths(self) -> list[sp.Symbol]:
         """The parameters that are lengths, as far as the units are known."""
-        dims = self._dimensions
+        dims = self.sites.of.dimensions
         if dims is None:
             return [p.symbol for p in self.model.parameters if p.name[0].lower() in "lrdhabse"]
         found: list[sp.Symbol] = []
@@ -295,21 +290,11 @@ class LetterChanges:
                 found.append(p.symbol)
         return found
 
-    @cached_property
-    def ratios(self) -> list[sp.Symbol]:
-        """The parameters without a unit that are no angles, such as the ratio of a gear."""
-        dims = self._dimensions
-        if dims is None:
-            return []
-        angles = {x for f in (self.sites.of.T + self.sites.of.V).atoms(sp.sin, sp.cos) for x in f.free_symbols}
-        pure = [p.symbol for p in self.model.parameters if (d := dims.of(p.symbol)) and not d.unknown and d == NONE]
-        return [p for p in pure if p not in angles]
-
     def factors(self, places: Iterable[Site]) -> Iterator[LocalChange]:
         """A length too much or too little, once or squared, in every site; a cosine below a fraction line."""
         for site in places:
             yield from self._divisors(site)
-            for p in (*self.lengths, *self.ratios):
+            for p in (*self.lengths, *self.sites.of.ratios):
                 a = self.ring.atom(p)
                 powers = {exponent(m, a) for s in site.sums() for m in s}
                 held, most = min(powers, default=0), max(powers, default=0)
@@ -337,6 +322,12 @@ class LetterChanges:
                 kind = "foreign_factor" if e < 0 else "factor_missing"
                 written = self.ring.atoms[a] ** -abs(e)
                 yield LocalChange(kind=kind, cost=1.8 + site.surcharge, site=site, effect=effect, written=written)
+
+
+def _is_of_whole(site: Site, effect: Site) -> bool:
+    """Whether a change does something in each energy that a site names: not in the weight alone of "the kinetic energy
+    and the weight", of which a narrower site has it."""
+    return not effect.empty and bool(effect.T and effect.V) == bool(site.T and site.V)
 
 
 def _exchanged(m: tuple[tuple[int, int], ...], a: int, b: int) -> tuple[tuple[int, int], ...]:

@@ -232,7 +232,7 @@ def _every(sites: Sites) -> Iterator[LocalChange]:
     yield from deflections.changes()
     yield from TurningChanges(sites).changes()
     yield from SumChanges(sites, letters.lengths).changes()
-    yield from WorkChanges(sites, letters.lengths, letters.ratios).changes()
+    yield from WorkChanges(sites, letters.lengths, sites.of.ratios).changes()
 
 
 FORGOTTEN = (

@@ -15,11 +15,13 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.terms.pieces import partner as partner
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 from lagrangian.records import dataclass, field
+from lagrangian.values.dimensions import NONE, check_dimensions
 
 ENERGIES = frozenset({"T", "V", "L", "Xi", "D"})
 NO_D = ENERGIES - {"D"}
@@ -33,7 +35,8 @@ class Variant:
     ``T`` and ``V`` are added to the energies, in the equations ``only`` (all unless given). ``Xi`` is added to the
     generalized forces and ``rows`` to the left-hand sides, by the index of the coordinate. ``stated`` are the kinds of
     lines in which it is visible besides the equations. If two variants explain an answer, the one with less ``doubt``
-    is reported. ``step`` is where it was made, if that is not the step of the misconception.
+    is reported. ``step`` is where it was made, if that is not the step of the misconception, and ``why`` why it is
+    wrong, if that is not what holds for its other variants.
     """
 
     what: Text
@@ -47,6 +50,7 @@ class Variant:
     stated: frozenset[str] = ENERGIES
     doubt: int = 0
     step: int | None = None
+    why: Text | None = None
 
 
 class Misconception(Protocol):
@@ -235,6 +239,21 @@ class Ingredients:
         return expr.has(*self.q)
 
     @cached_property
+    def dimensions(self) -> Any:
+        """What is known of the dimensions; None if they contradict each other."""
+        return check_dimensions(self.model)
+
+    @cached_property
+    def ratios(self) -> list[sp.Symbol]:
+        """The parameters without a unit that are no angles, such as the ratio of a gear."""
+        dims = self.dimensions
+        if dims is None:
+            return []
+        angles = {x for f in (self.T + self.V).atoms(sp.sin, sp.cos) for x in f.free_symbols}
+        pure = [p.symbol for p in self.model.parameters if (d := dims.of(p.symbol)) and not d.unknown and d == NONE]
+        return [p for p in pure if p not in angles]
+
+    @cached_property
     def carried(self) -> list[sp.Expr]:
         """The prescribed motions in positions of bodies, such as A sin ωt of a shaken pivot."""
         return self._prescribed(x for b in self.bodies for x in self.position(b))
@@ -266,11 +285,6 @@ def _slopes(vector: sp.Matrix, by: sp.Expr) -> sp.Matrix:
 def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
     """Return an expression in which symbols are replaced by others, all at once."""
     return cast("sp.Expr", expr.xreplace(dict(table)))
-
-
-def partner(f: sp.Expr) -> sp.Expr:
-    """The cosine of the same angle for a sine, and the other way round."""
-    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
 
 
 def letters(expr: sp.Expr) -> list[Any]:

@@ -132,11 +132,11 @@ def _absolute(s: Ingredients, i: int) -> sp.Expr:
 
 
 def _squared(s: Ingredients, body: Body) -> sp.Expr | None:
-    """The square of a body's whole velocity, found once for all dampers; None if nobody writes it down."""
+    """The square of a body's whole velocity, found once for all dampers; None if it rests, or nobody writes it down."""
 
     def made() -> sp.Expr | None:
         squares = sp.Add(*[x**2 for x in s.velocity(body)])
-        return squares if bounded.size(squares) <= LONGEST else None
+        return squares if squares.has(*s.v) and bounded.size(squares) <= LONGEST else None
 
     return s.kept(("squared", body), made)
 

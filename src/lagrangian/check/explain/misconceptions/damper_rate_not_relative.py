@@ -12,7 +12,10 @@ from lagrangian.model import Damper
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("The force of a damper is b times the rate of its own deflection: the difference of the rates of its ends.")
+WHY = text(
+    "The force of a damper is b times how fast its two ends move relative to each other: the difference of rates that "
+    "are counted in the same sense, the sum of those that are counted in opposite ones."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:

@@ -11,6 +11,11 @@ from lagrangian.page.formula import text
 
 STEP = 2
 WHY = text("Every element belongs to exactly one of T*, V and Ξ: go through the sketch and count each once.")
+WHY_ROW = text(
+    "It belongs in the equation of every coordinate that moves one of its ends, or the point on which it acts, not in "
+    "one of them alone. Change the coordinate of this equation alone: does the element do work then?"
+)
+"""For what is missing in one equation and stands in another."""
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -36,10 +41,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             rows = [i for i, q in enumerate(s.q) if V.has(q)]
             for i in rows if len(rows) > 1 else ():
                 what = text(f"{title} is missing in the equation of ", s.q[i], ".")
-                yield Variant(what=what, V=-V, only=frozenset({i}), element=element, coordinate=i)
+                yield Variant(what=what, V=-V, only=frozenset({i}), element=element, coordinate=i, why=WHY_ROW)
         else:
             shares = s.shares(element)
             yield Variant(what=what, Xi=negative(shares), element=element)
             for i, x in shares.items() if len(shares) > 1 else ():
                 what = text(f"{title} is missing in the equation of ", s.q[i], ".")
-                yield Variant(what=what, Xi={i: -x}, element=element, coordinate=i)
+                yield Variant(what=what, Xi={i: -x}, element=element, coordinate=i, why=WHY_ROW)

@@ -15,6 +15,13 @@ STEP = 6
 WHY = text("Ξ = F·∂r/∂ξ: a force counts with how far its point moves for each unit of ξ, for an angle with its arm.")
 
 
+WHY_RATIO = text(
+    "A force or a torque counts with how far what it acts on moves or turns for each unit of ξ: through a gear or a "
+    "lever, with the ratio."
+)
+"""For a factor that is no length."""
+
+
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Replace every contribution of a force by the force itself; drop its angle; drop each length.
 
@@ -33,9 +40,12 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 if not (y := bounded.expand(x / p)).has(p):
                     others.setdefault(y, None if y in bare else p)
             for other, factor in others.items():
+                ratio = bounded.cancel(x / other) if other in bare else sp.S.One
+                named = ratio if factor is None and ratio.is_Symbol and ratio in s.ratios else factor
                 if other != x:
-                    what = _what(element, ("the equation of ", s.q[i]), factor)
-                    yield Variant(what=what, Xi={i: other - x}, element=element, coordinate=i)
+                    what = _what(element, ("the equation of ", s.q[i]), named)
+                    why = WHY_RATIO if named in s.ratios else None
+                    yield Variant(what=what, Xi={i: other - x}, element=element, coordinate=i, why=why)
         for p in _lengths(shares):
             changed = {i: bounded.expand(x / p) for i, x in shares.items() if x.has(p)}
             if len(changed) > 1:

@@ -36,8 +36,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(
                 share, here, " stands in ", other, " instead of what it adds there, and is missing in ", here, "."
             )
-            yield Variant(what=what, Xi={i: -own, j: own - there}, element=element, coordinate=j)
-            yield Variant(what=what, Xi={i: -own, j: -own - there}, element=element, coordinate=j)
+            for moved in (own, -own):
+                if (more := bounded.expand(moved - there)) != 0:  # else the other Ξ is as it should be
+                    yield Variant(what=what, Xi={i: -own, j: more}, element=element, coordinate=j)
             if bounded.expand(own + there) != 0:
                 what = text(share, here, " is counted in ", other, " beside what it adds there.")
                 yield Variant(what=what, Xi={i: -own, j: own}, element=element, coordinate=j)

@@ -14,6 +14,8 @@ STEP = 3
 TWICE, HALF = "twice", "half"
 """How far a height is taken."""
 WHY = text("The height is that of the centre of mass: measure how far from its parent that is, along the body.")
+WHY_FACTOR = text("How far does the body rise when the coordinate grows by 1? An angle counts with its radius or arm.")
+"""For a height that lacks its arm."""
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
@@ -34,4 +36,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for p in letters(own):
             if bounded.diff(own, p) != 0 and own.subs(p, 0) == 0 and not bounded.diff(own, p).has(p):
                 what = text(f"The weight of {body.title} comes without its arm ", p, ".")
-                yield Variant(what=what, V=mg * (bounded.diff(own, p) - own), element=gravity)
+                yield Variant(what=what, V=mg * (bounded.diff(own, p) - own), element=gravity, why=WHY_FACTOR)

@@ -15,6 +15,12 @@ WHY = text(
     "difference is the relative angle itself."
 )
 
+WHY_HEIGHT = text(
+    "The angle in a height or a deflection is counted from a fixed direction: an absolute angle is the sum of the "
+    "relative ones."
+)
+"""For V."""
+
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Replace every angle of T* and of V by others."""
@@ -29,7 +35,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 if key == "T":
                     yield Variant(what=what, T=changed - energy)
                 else:
-                    yield Variant(what=what, V=changed - energy)
+                    yield Variant(what=what, V=changed - energy, why=WHY_HEIGHT)
 
 
 def _others(s: Ingredients, angle: sp.Expr) -> list[sp.Expr]:

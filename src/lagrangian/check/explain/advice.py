@@ -1,0 +1,176 @@
+"""What is advised, as it fits the answer and the place: forces and moments to who wrote no energy, the product rule for
+a term with rates that is missing, a mass or a moment of inertia for what stands before an acceleration.
+
+Mistakes say why something is wrong by their kind; here it is chosen by what was written.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import sympy as sp
+
+from lagrangian.check.explain.misconceptions import product_rule, reaction_forgotten
+from lagrangian.check.explain.misconceptions.base import put
+from lagrangian.check.explain.own_terms import WHY_FORCE
+from lagrangian.check.explain.say import ANGLES, LETTERS, WHY_PART
+from lagrangian.check.explain.without_energies import WHY_EQUATION, silent_energies
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake, Verdict
+from lagrangian.model import Damper, Spring
+from lagrangian.page.formula import Text, text
+
+GENERAL = (WHY_PART[5], str(WHY_EQUATION))
+"""What is advised where nothing is known of a term but that it is wrong."""
+NUMBERS = ("number", "factor_of", "factor_missing", "foreign_factor", "divided_by", "divisor", "twice", "half")
+MISSING = ("forgotten", "left_out")
+"""What was done to a term, by parts of the names of mistakes."""
+IN_A_CIRCLE = "What goes in a circle is accelerated towards its centre"
+OF_CORIOLIS = "The Coriolis acceleration is twice the angular velocity times the velocity relative to what turns."
+OF_TWO_RATES = text(
+    "Such a term comes from d/dt of a product, as of s² θ̇: the derivative of the square is 2 s ṡ. In a balance of "
+    "forces or moments it is the Coriolis acceleration, with the same factor 2."
+)
+OF_TWICE = text(
+    "Is a factor 2 counted twice? A square brings it once when it is differentiated, and the sine of a double angle "
+    "contains it: 2 sin a cos a = sin 2a."
+)
+OF_INERTIA = text(
+    "What stands before an acceleration is a mass or a moment of inertia: m a² for a mass at the distance a from the "
+    "axis, and for a body that turns also J about its centre of mass."
+)
+OF_MOVED = text("Every body that this coordinate moves counts here: its mass, and if it turns its moment of inertia.")
+OF_MOTION = text(
+    f"{IN_A_CIRCLE}, what moves along something that turns has a Coriolis acceleration, and what is carried has the "
+    "acceleration of what carries it."
+)
+OF_PLACES = text(
+    "Change this coordinate alone: which weights rise or sink, which springs change their length, and which forces do "
+    "work?"
+)
+TERM_BY_TERM = text("Go through this equation once more, term by term.")
+_INERTIA = text(
+    "J is the moment of inertia about the centre of mass; about another axis, m a² is added, with its distance a."
+)
+_FORCES = text(
+    "A force stands in the equation of a coordinate only if it does work when this coordinate alone changes."
+)
+_CIRCLE = text(f"{IN_A_CIRCLE}: in which direction does this term push?")
+_MOTION = text(f"{IN_A_CIRCLE}, and what moves along something that turns has a Coriolis acceleration.")
+_SPRING = text("The force of a spring is its stiffness times its deflection, and it pulls back.")
+BALANCES: Mapping[str, Text] = {
+    "coriolis_half": text(OF_CORIOLIS),
+    "gradient_sign": _CIRCLE,
+    "gradient_forgotten": _MOTION,
+    "velocity_terms_forgotten": _MOTION,
+    "product_rule": text(
+        "An acceleration is d/dt of a velocity: what multiplies a rate in it changes in time as well."
+    ),
+    "coupling_forgotten": text("A body is accelerated by every coordinate that moves it."),
+    "inertia_left_out": text("Mass times acceleration, and moment of inertia times angular acceleration, count whole."),
+    "element_forgotten": text("Go through the sketch: which springs, dampers, weights and forces act here?"),
+    "element_twice": text("Go through the sketch: every spring, damper, weight and force acts once."),
+    "force_arm": text(
+        "The moment of a force is the force times its arm; through a gear, a torque acts with its ratio."
+    ),
+    "force_sign": text("A force counts positive if it pushes in the direction in which the coordinate grows."),
+    "force_wrong_equation": _FORCES,
+    "input_everywhere": _FORCES,
+    "gravity_sign": text(
+        "A weight pulls downwards: against a coordinate that lifts the body, with one that lowers it."
+    ),
+    "gravity_forgotten": text("Every body has its weight: does it push or turn along this coordinate?"),
+    "gravity_arm": text("The moment of a weight is the weight times the horizontal distance of the centre of mass."),
+    "height_relative": text("How far does the centre of mass rise when this coordinate alone changes?"),
+    "spring_half_forgotten": _SPRING,
+    "spring_square_forgotten": _SPRING,
+    "rest_forgotten": text("The force of a spring is its stiffness times its deflection from its neutral point."),
+    "rotation_forgotten": text("What turns a body faster counts as well: J times its angular acceleration."),
+    "translation_forgotten": _INERTIA,
+    "inertia_about_pivot": _INERTIA,
+    "half_forgotten": OF_INERTIA,
+    "relative_speed": text("What carries the body moves, too: its acceleration is the sum of both."),
+    "xi_sign": text("Forces and moments count with the sign that they have beside mass times acceleration."),
+}
+"""Why something is wrong in a balance of forces or moments."""
+OF_STEPS: Mapping[str, Text] = {
+    WHY_PART[2]: text("Which rates move this body, and how do they stand in its velocity and its angular velocity?"),
+    str(WHY_FORCE): text("A force acts with its part along the motion; its moment is the force times its arm."),
+    WHY_PART[3]: text("A spring pulls by its stiffness times its deflection, a weight pulls downwards."),
+}
+"""The same for what is said of every mistake in an energy, or in a force."""
+_LAGRANGE = re.compile(r"T\*|∂|ℒ|Ξ|L |[Ee]nerg|\bV\b|square")
+"""The words of Lagrange's equations."""
+_OF_ENERGIES = re.compile(r"kinetic energy|energy of|∂|d/dt")
+
+
+def with_fitting_advice(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict:
+    """The verdict, with the advice of its mistakes as it fits the ``lines`` of the answer, and without second choices
+    that speak of energies which nobody wrote."""
+    balances = without_lagrange(lines)
+    told = tuple(replace(m, why=_fitting(truth, m, balances)) for m in verdict.mistakes)
+    others = [m for m in verdict.alternatives if not (balances and _is_of_lagrange(m))]
+    return replace(verdict, mistakes=told, alternatives=tuple(others))
+
+
+def without_lagrange(lines: Sequence[AnsweredLine]) -> bool:
+    """Whether an answer has no energy, no generalized force and no derivative of these: balances, or results alone."""
+    kinds = {line.kind for line in lines}
+    return silent_energies(lines) == {"T*", "V"} and kinds.isdisjoint(("Xi", "D", "p", *DERIVED))
+
+
+def _is_of_lagrange(mistake: Mistake) -> bool:
+    """Whether a mistake can only be made in an energy, or in a derivative of one."""
+    return mistake.name == "inner_derivative" or _OF_ENERGIES.search(str(mistake.what)) is not None
+
+
+def _fitting(truth: Reference, mistake: Mistake, balances: bool) -> Text:
+    """Why something is wrong, by the kind of the change and by what the term holds."""
+    why = str(mistake.why)
+    if why in GENERAL:
+        return _of_term(truth, mistake, balances)
+    if balances and mistake.name in BALANCES and _LAGRANGE.search(why):
+        return BALANCES[mistake.name]
+    if balances and why in OF_STEPS:
+        return OF_STEPS[why]
+    return mistake.why
+
+
+def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:
+    """What is advised for a term that is missing or has another number, sign, letter or function."""
+    general = WHY_EQUATION if balances else text(WHY_PART[5])
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr) and not x.is_number]
+    if balances and "sign" in mistake.name and _is_between(truth, mistake):
+        return reaction_forgotten.WHY
+    if not formulas or "sign" in mistake.name:
+        return general
+    if mistake.name == "letter":
+        return text(LETTERS)
+    moving = formulas[0].atoms(sp.Derivative)
+    accelerated = any(d.derivative_count > 1 for d in moving)
+    if any(x in mistake.name for x in NUMBERS):
+        more = any(x in str(mistake.what) for x in (" too much", " twice"))
+        return OF_INERTIA if accelerated else TERM_BY_TERM if not moving else OF_TWICE if more else OF_TWO_RATES
+    if any(x in mistake.name for x in MISSING):
+        if not moving:
+            return OF_PLACES
+        return OF_MOVED if accelerated else OF_MOTION if balances else product_rule.WHY
+    if len(formulas) > 1 and _turns(formulas[0], formulas[1]):
+        return text(ANGLES)
+    return TERM_BY_TERM
+
+
+def _is_between(truth: Reference, mistake: Mistake) -> bool:
+    """Whether a mistake is in a spring or a damper that several coordinates deform."""
+    elements = [e for e in truth.model.elements if e.title == mistake.element]
+    moves = [e.extension(truth.model) for e in elements if isinstance(e, Spring)]
+    moves += [e.rate(truth.model) for e in elements if isinstance(e, Damper)]
+    return any(sum(truth.expand(x).has(c.symbol) for c in truth.model.coordinates) > 1 for x in moves)
+
+
+def _turns(one: sp.Expr, other: sp.Expr) -> bool:
+    """Whether two terms differ in their sines and cosines alone."""
+    flat = [put(x, dict.fromkeys(x.atoms(sp.sin, sp.cos), sp.S.One)) for x in (one, other)]
+    return flat != [one, other] and flat[0] in (flat[1], -flat[1])
