@@ -9,7 +9,7 @@ import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, System
-from lagrangian.check.explain.said_wrongly import turned_to
+from lagrangian.check.explain.sense_counted import turned_to
 from lagrangian.check.reference import truth_of
 from lagrangian.model import time
 

@@ -13,7 +13,8 @@ from lagrangian.check.explain.apart import folded
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
-from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told, turned_to
+from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told
+from lagrangian.check.explain.sense_counted import turned_to
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine

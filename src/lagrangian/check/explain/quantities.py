@@ -42,6 +42,8 @@ EACH = frozenset(
 """Kinds of quantities that are said of each of two equal bodies at once."""
 MOST = 100
 """The largest number of quantities of a system."""
+AXES = ("first", "second", "third")
+"""What the axes of a body are called, in which its moments of inertia are given."""
 LONGEST_VELOCITY = 120
 """The largest number of operations of a velocity whose acceleration is held against what an answer says."""
 
@@ -73,10 +75,12 @@ class Sayable:
     right: sp.Expr
     adds: Adds
     coordinate: str | None = None
-    parts: tuple[tuple[tuple[str | Left, ...], sp.Expr], ...] = ()
-    """The words and the values of forces of which it is the sum."""
+    parts: tuple[tuple[Any, sp.Expr], ...] = ()
+    """The elements and the values of forces of which it is the sum."""
     also: tuple[str, ...] = ()
     """The other elements of which it is, too."""
+    axis: int | None = None
+    """Along which axis of a body it is a component, from 0."""
 
 
 class Sayables:
@@ -188,6 +192,9 @@ def _elsewhere(s: Ingredients, b: Any, placed: Callable[[sp.Expr], list[sp.Expr]
 
 def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
     omega = s.omega(b) if isinstance(b, RigidBody) else ()
+    for k, w in enumerate(omega if len(omega) > 1 else ()):
+        words = (f"component of the angular velocity of {b.title} along its {AXES[k]} axis",)
+        yield Sayable("turning", b, words, w, partial(_turning, s, b, k), axis=k)
     if len(omega) != 1:
         return
     J, w, words = s.expand(b.inertia[0]), omega[0], f"moment of inertia of {b.title}"
@@ -198,6 +205,12 @@ def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
         whole = J + s.expand(b.mass) * square
         about = (f"{words} about its pivot",)
         yield Sayable("axis", b, about, whole, lambda said, whole=whole: Effect(T=(said - whole) * w**2 / 2))
+
+
+def _turning(s: Ingredients, b: Any, k: int, said: sp.Expr) -> Effect:
+    """What a body adds that has another component of its angular velocity."""
+    omega = tuple(said if i == k else w for i, w in enumerate(s.omega(b)))
+    return Effect(T=s.rotating(b, omega) - s.rotation(b))
 
 
 def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
@@ -254,8 +267,8 @@ def _of_springs(s: Ingredients) -> Iterator[Sayable]:
         words, whole = (f"deflection of {strut.title}",), k * way + b * rate
         yield Sayable("deflection", strut.spring, words, way, stored)
         yield Sayable("deflection", strut.spring, words, way, pulled)
-        parts: Any = [((f"force of {e.title}",), s.expand(e.k) * way) for e in strut.springs]
-        parts += [((f"force of {d.title}",), s.expand(d.b) * rate) for d in strut.dampers]
+        parts: Any = [(e, s.expand(e.k) * way) for e in strut.springs]
+        parts += [(d, s.expand(d.b) * rate) for d in strut.dampers]
         own = (f"force of {strut.title}",)
         yield Sayable("force", strut.spring, own, whole, _force(whole, slopes), None, tuple(parts))
 

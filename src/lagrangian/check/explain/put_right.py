@@ -1,0 +1,181 @@
+"""Finds the definition whose right value puts the lines right that use it: a_x = l θ̈ cos θ + l θ̇² sin θ, then m a_x.
+
+What a name adds to the equations is not known where it stands in the balance of another body. So the answer is read
+without its definition, and judged with the right quantity in its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.explain.bodies_said import Blamed
+from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.its_body import of_its_body
+from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
+from lagrangian.check.explain.wrong_balance import ReadWithout
+from lagrangian.check.held import held
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.errors import ParseError
+from lagrangian.model import time
+from lagrangian.read.letters import key
+
+MOST_NAMES = 3
+"""The most definitions that are left out in turn."""
+MOST_VALUES = 8
+"""The most right quantities that are put in the place of one."""
+NEAR = 1e-9
+"""The relative size of what is rounding."""
+HIGHEST = 2
+"""The highest derivative of a name that is replaced."""
+
+Judge: TypeAlias = Callable[[Sequence[AnsweredLine], bool], Verdict]
+"""The verdict on some lines, with or without the mistakes in them."""
+
+
+def with_wrong_name(
+    truth: Reference, lines: Sequence[AnsweredLine], read: ReadWithout, judge: Judge, verdict: Verdict
+) -> Verdict:
+    """The verdict on a wrong answer, in which a definition of a quantity of the system is the mistake if the first
+    wrong line is right with the right quantity in its place."""
+    open_ones = _open(verdict)
+    if verdict.hint == 0 or not open_ones or any(f.line.kind == "definition" for f in open_ones):
+        return verdict
+    for line in list(_in_question(truth, lines, open_ones[0].line))[:MOST_NAMES]:
+        if (again := _without(line, lines, read)) is None:
+            continue
+        symbol, others = again
+        for value, same in _values(truth, line):
+            put = [replace(x, expr=_put(x.expr, symbol, value)) for x in others]
+            found = judge(put, False)
+            if (mended := _mended(verdict, found)) is not None:
+                said = of_its_body(truth, lines, same)
+                return _blamed(truth, verdict, said, mended, partial(judge, put, True))
+    return verdict
+
+
+def _open(verdict: Verdict) -> list[Finding]:
+    """The findings that are wrong and follow from none."""
+    return [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+
+
+def _in_question(truth: Reference, lines: Sequence[AnsweredLine], first: AnsweredLine) -> Iterator[AnsweredLine]:
+    """The definitions whose names the first wrong line uses, itself or by others, and that are right for nothing."""
+    named = [x for x in lines if x.kind == "definition" and x.name]
+    used = set(first.names)
+    for _ in named:
+        more = set[str]().union(*(x.names for x in named if key(str(x.name)) in used))
+        if more <= used:
+            break
+        used |= more
+    for x in named:
+        if key(str(x.name)) in used and not right_quantities(truth, x, but=True):
+            yield x
+
+
+def _values(truth: Reference, line: AnsweredLine) -> list[tuple[sp.Expr, list[SaidWrongly]]]:
+    """The values that a name may have been meant to have, and of what each is the value; the likeliest first, those
+    with the letters that are written."""
+    alike: dict[sp.Expr, list[SaidWrongly]] = {}
+    for said in said_of(truth, line):
+        if said.right is not None:
+            alike.setdefault(said.right, []).append(said)
+    written = _parts(truth.expand(line.expr))
+    return sorted(alike.items(), key=lambda x: len(_parts(x[0]) ^ written))[:MOST_VALUES]
+
+
+def _parts(expr: sp.Expr) -> set[sp.Basic]:
+    """The letters and rates in an expression."""
+    return letters_in(expr) | expr.atoms(sp.Derivative)
+
+
+def _without(
+    line: AnsweredLine, lines: Sequence[AnsweredLine], read: ReadWithout
+) -> tuple[sp.Expr, list[AnsweredLine]] | None:
+    """The symbol of a name without its definition, and the lines of the answer with it; None if it cannot be had."""
+    beside = [x for x in lines if x.number == line.number and x is not line]
+    try:
+        again, unknown = read(frozenset([line.number]))
+    except ParseError:
+        return None
+    symbols = {key(str(name)): symbol for name, symbol in unknown.items()}
+    own = symbols.get(key(str(line.name)))
+    if own is None:
+        return None
+    others = [*again]
+    for x in beside:
+        if x.kind == "definition" and (symbol := symbols.get(key(str(x.name)))) is not None:
+            others = [replace(y, expr=_put(y.expr, symbol, x.expr)) for y in others]
+    kept = [x for x in beside if x.kind != "definition"]
+    return own, sorted([*others, *kept], key=lambda x: x.number)
+
+
+def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """An expression with a value in place of a symbol, and its rates in place of those of the symbol."""
+    table: dict[Any, sp.Expr] = {symbol: value}
+    if not symbol.is_Symbol:
+        table |= {sp.Derivative(symbol, (time, k)): bounded.diff(value, *[time] * k) for k in range(1, HIGHEST + 1)}
+    return cast("sp.Expr", bounded.replaced(expr, table))
+
+
+def _mended(verdict: Verdict, found: Verdict) -> list[AnsweredLine] | None:
+    """The wrong lines that are right with another value, if the first of all is among them, and no more are wrong."""
+    before, now = (_wrong(x) for x in (verdict, found))
+    own = [f.line for f in verdict.findings]
+    mended = [x for x, at in zip(own, keys_of(own), strict=True) if at in before and at not in now]
+    first = _open(verdict)[0].line
+    return mended if now < before and any(x is first for x in mended) else None
+
+
+def _wrong(verdict: Verdict) -> set[tuple[int, str, int]]:
+    lines = [f.line for f in verdict.findings]
+    return {at for f, at in zip(verdict.findings, keys_of(lines), strict=True) if f.status is Status.WRONG}
+
+
+def _blamed(
+    truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Sequence[AnsweredLine], again: Callable[[], Verdict]
+) -> Verdict:
+    """The verdict with a wrong definition, from which the lines follow that its right value mends, and those that are
+    wrong as these are; what else is wrong is told as it is beside the right value."""
+    below = [f.line for f in _open(verdict) if not any(f.line is x for x in mended)]
+    below = [x for x, follows in zip(below, _wrong_alike(truth, mended, below), strict=True) if follows]
+    later = [f.line for f in verdict.findings if f.follows]
+    findings = with_wrong_definitions(verdict.findings, Blamed((said,), (*mended, *below, *later)))
+    left = [f for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind != "definition"]
+    told = again().mistakes if left else ()
+    return replace(verdict, findings=findings, mistakes=(said.mistake, *told), alternatives=(), sure=True)
+
+
+def _wrong_alike(truth: Reference, mended: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[bool]:
+    """Whether each of some equations is wrong by a multiple of what one that is mended is, at every position."""
+    on = held(truth) if truth.derivation.multipliers else truth
+    known = [x for x in mended if x.kind == "equation"]
+    if on is None or not known or not lines:
+        return [False] * len(lines)
+    values = CompiledExpressions([x.expr for x in (*known, *lines)]).at(on.states, on.accelerations)
+    if not np.isfinite(values).all():
+        return [False] * len(lines)
+    blocks = values.reshape(len(values), -1, on.states.motions)
+    theirs = [x for x in blocks[: len(known)] if _changes(x)]
+    own = zip(lines, blocks[len(known) :], strict=True)
+    return [x.kind == "equation" and any(_proportional(y, rest) for y in theirs) for x, rest in own]
+
+
+def _changes(values: Array) -> bool:
+    """Whether values are not the same for all motions at a position."""
+    return bool((np.ptp(values, axis=1) > NEAR * np.abs(values).max(axis=1)).all())
+
+
+def _proportional(a: Array, b: Array) -> bool:
+    """Whether values are multiples of others at every position."""
+    scale = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return bool((np.abs(np.abs((a * b).sum(axis=1)) - scale) <= NEAR * scale).all())

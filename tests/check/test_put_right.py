@@ -1,0 +1,125 @@
+"""A definition whose right value puts the lines right that use it is the mistake, wherever they use it.
+
+Oracle: by hand, a wheel on a spring with a pendulum of length s at its axle, r counted to the right, heights upwards:
+
+    (M + m + J/R²) ẍ + m s θ̈ cos θ − m s θ̇² sin θ + k x + b ẋ = 0
+    m s² θ̈ + m s ẍ cos θ + m g s sin θ = 0
+
+and a scanner with moments of inertia A, B, C on a mast that rolls by φ about its own axis x, turned by ψ about z:
+ω = (φ̇ cos ψ, −φ̇ sin ψ, ψ̇), T* = ½ (J + A cos²ψ + B sin²ψ) φ̇² + ½ C ψ̇².
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+from lagrangian import CheckedAnswer, Derivation, System
+
+BOB = "m s^2 theta'' + m s x'' cos(theta) + m g s sin(theta) = 0"
+WHEEL = "(M + m + J/R^2) x'' + m s theta'' cos(theta) - m s theta'^2 sin(theta) + k x + b x' = 0"
+OF_BOB = "a = x'' + s theta'' cos(theta) - s theta'^2 sin(theta)"
+BALANCE = "(M + J/R^2) x'' + m a = - k x - b x'"
+
+
+@cache
+def wheel() -> Derivation:
+    """A wheel that rolls, on a spring and a damper, with a pendulum at its axle."""
+    sys = System("wheel with a pendulum")
+    x, theta = sys.coordinates("x theta")
+    M, J, R, m, s, k, b, g = sys.parameters("M J R m s k b g", M=9, J=2, R=0.4, m=0.7, s=0.6, k=30, b=2, g=9.81)
+    sys.rigid_body(M, J, at=sys.point("A", (x, R)), frame=sys.frame(-x / R, name="wheel"), name="wheel")
+    sys.particle(m, at=sys.point("B", (x + s * sp.sin(theta), R - s * sp.cos(theta))), name="bob")
+    sys.gravity(direction=(0, -1), g=g)
+    sys.spring(k, deflection=x, name="spring")
+    sys.damper(b, deflection=x, name="brake")
+    return sys.derive()
+
+
+@cache
+def scanner() -> Derivation:
+    """A scanner on a mast that rolls with a ship, with different moments of inertia about its axes."""
+    sys = System("scanner")
+    phi, psi = sys.coordinates("phi psi")
+    m, J, A, B, C, K = sys.parameters("m J A B C K", m=2, J=30, A=2, B=5, C=6, K=9)
+    ship = sys.frame(phi, axis=(1, 0, 0), name="ship")
+    turned = sys.frame(psi, axis=(0, 0, 1), parent=ship, name="scanner")
+    sys.rigid_body(m, (J, 0, 0), at=sys.origin, frame=ship, name="ship")
+    sys.rigid_body(m, (A, B, C), at=sys.origin, frame=turned, name="scanner")
+    sys.spring(K, deflection=phi, name="buoyancy")
+    return sys.derive()
+
+
+@cache
+def railway() -> Derivation:
+    """A car on four wheels and a drum that a rope turns."""
+    sys = System("car")
+    s = sys.coordinate("s")
+    M, mw, Jw, r, J, R, k = sys.parameters("M m_w J_w r J R k")
+    sys.particle(M, at=sys.point("A", (s, 0)), name="car")
+    sys.rigid_body(4 * mw, 4 * Jw, at=sys.point("B", (s, 0)), frame=sys.frame(-s / r, name="wheel"), name="wheels")
+    sys.rigid_body(0, J, at=sys.origin, frame=sys.frame(s / R, name="drum"), name="drum")
+    sys.spring(k, deflection=s, name="spring")
+    return sys.derive()
+
+
+def found(verdict: CheckedAnswer) -> list[tuple[int, bool, bool]]:
+    """The number of every line with a verdict, whether it is right, and whether it is wrong because of another."""
+    return [(f.line.number, f.status.right, f.follows) for f in verdict.findings]
+
+
+@pytest.mark.parametrize("beside", ["", ", h = s (1 - cos(theta))"])
+def test_a_wrong_acceleration_that_a_balance_of_another_body_uses_is_the_mistake(beside: str) -> None:
+    """The row of θ is right: it was not made with this acceleration."""
+    right = [OF_BOB + beside, BALANCE, WHEEL, BOB]
+    assert wheel().check("\n".join(right)).right
+    wrong = [x.replace("- s theta'^2", "+ s theta'^2").replace("- m s theta'^2", "+ m s theta'^2") for x in right]
+    verdict = wheel().check("\n".join(wrong))
+    told = [x for x in found(verdict) if x[0] != 1 or not x[1]]
+    assert told == [(1, False, False), (2, False, True), (3, False, True), (4, True, False)]
+    (mistake,) = verdict.mistakes
+    assert str(mistake.what) == (
+        "Line 1 is not right: the x component of the acceleration of particle 'bob' is "
+        "-s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x'', not s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x''."
+    )
+
+
+def test_a_right_acceleration_beside_a_wrong_balance_is_not_the_mistake() -> None:
+    verdict = wheel().check("\n".join([OF_BOB, BALANCE.replace("- k x", "+ k x"), WHEEL, BOB]))
+    assert found(verdict)[:2] == [(1, True, False), (2, False, False)] and not verdict.right
+
+
+def test_another_mistake_beside_a_wrong_acceleration_stays_one() -> None:
+    """Line 3 is wrong by the spring as well, which no acceleration changes."""
+    wrong = [OF_BOB.replace("- s", "+ s"), BALANCE, WHEEL.replace("- m s", "+ m s").replace("+ k x", "- k x"), BOB]
+    verdict = wheel().check("\n".join(wrong))
+    assert found(verdict)[:3] == [(1, False, False), (2, False, True), (3, False, False)]
+
+
+SCANNER = """w1 = phi' cos(psi)
+w2 = -phi' sin(psi)
+T = 1/2 (J + A cos(psi)^2 + B sin(psi)^2) phi'^2 + 1/2 C psi'^2
+V = 1/2 K phi^2"""
+
+
+def test_components_of_an_angular_velocity_are_told_where_they_are_said() -> None:
+    assert not any("wrong" in f.status.value for f in scanner().check(SCANNER).findings)
+    wrong = SCANNER.replace("phi' cos(psi)\nw2 = -phi' sin", "phi' sin(psi)\nw2 = phi' cos")
+    wrong = wrong.replace("A cos(psi)^2 + B sin(psi)^2", "A sin(psi)^2 + B cos(psi)^2")
+    verdict = scanner().check(wrong)
+    assert found(verdict) == [(1, False, False), (2, False, False), (3, False, True), (4, True, False)]
+    assert str(verdict.mistakes[0].what) == (
+        "Line 1 is not right: the component of the angular velocity of rigid body 'scanner' along its first axis is "
+        "cos(psi)*phi', not sin(psi)*phi'."
+    )
+    assert str(verdict.mistakes[1].what).endswith("second axis is -sin(psi)*phi', not cos(psi)*phi'.")
+
+
+def test_the_index_of_a_moment_of_inertia_says_whose_angular_velocity_it_is() -> None:
+    rest = "om_d = s'/R\nT = 1/2 (M + 4 m_w + 4 J_w/r^2 + J/R^2) s'^2\nV = 1/2 k s^2"
+    assert all(f.status.right for f in railway().check(f"om_w = s'/r\n{rest}").findings)
+    verdict = railway().check(f"om_w = s'/R\n{rest}".replace("J_w/r^2", "J_w/R^2"))
+    assert found(verdict) == [(1, False, False), (2, True, False), (3, False, True), (4, True, False)]
+    assert "angular velocity of rigid body 'wheels' is s'/r, not s'/R" in str(verdict.mistakes[0].what)
