@@ -82,7 +82,8 @@ def test_a_wrong_acceleration_that_a_balance_of_another_body_uses_is_the_mistake
     (mistake,) = verdict.mistakes
     assert str(mistake.what) == (
         "Line 1 is not right: the x component of the acceleration of particle 'bob' is "
-        "-s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x'', not s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x''."
+        "-s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x'', not s*sin(theta)*theta'^2 + s*cos(theta)*theta'' + x'': "
+        "the term s*sin(theta)*theta'^2 has the wrong sign."
     )
 
 

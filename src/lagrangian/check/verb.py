@@ -206,19 +206,11 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
 
 def _with_names(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
     """The verdict on a wrong answer in which the definition is the mistake whose right value puts the others right."""
-
-    def read(numbers: frozenset[int]) -> tuple[Sequence[AnsweredLine], dict[str, sp.Expr]]:
-        assert answer.read_without is not None
-        found = answer.read_without(numbers)
-        return check.lines_of(found), {u.name: u.symbol for u in found.unknown}
-
-    def judge(lines: Sequence[AnsweredLine], explain: bool) -> check.Verdict:
-        return check.check(derivation, lines, hint=verdict.hint, explain=explain)
-
-    truth = truth_of(derivation)
     if answer.read_without is None or verdict.status is not check.Status.WRONG:
         return verdict
-    return with_wrong_name(truth, filled(truth, decides.lines), read, judge, verdict)
+    truth = truth_of(derivation)
+    lines = filled(truth, decides.lines)
+    return with_wrong_name(truth, lines, answer, lambda put: _judged(derivation, put)[1], verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:

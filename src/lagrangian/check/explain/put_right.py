@@ -6,22 +6,25 @@ without its definition, and judged with the right quantity in its place.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.constraints.eliminated import unknown_in
+from lagrangian.check.coordinates.auxiliary import with_auxiliary
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.its_body import of_its_body
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
-from lagrangian.check.explain.wrong_balance import ReadWithout
+from lagrangian.check.explain.wrong_balance import balances_agree
 from lagrangian.check.held import held
+from lagrangian.check.lines import filled, lines_of
+from lagrangian.check.reading import Answer
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -38,12 +41,12 @@ NEAR = 1e-9
 HIGHEST = 2
 """The highest derivative of a name that is replaced."""
 
-Judge: TypeAlias = Callable[[Sequence[AnsweredLine], bool], Verdict]
-"""The verdict on some lines, with or without the mistakes in them."""
+Judge: TypeAlias = Callable[[Answer], Verdict]
+"""The verdict on an answer."""
 
 
 def with_wrong_name(
-    truth: Reference, lines: Sequence[AnsweredLine], read: ReadWithout, judge: Judge, verdict: Verdict
+    truth: Reference, lines: Sequence[AnsweredLine], answer: Answer, judge: Judge, verdict: Verdict
 ) -> Verdict:
     """The verdict on a wrong answer, in which a definition of a quantity of the system is the mistake if the first
     wrong line is right with the right quantity in its place."""
@@ -51,15 +54,13 @@ def with_wrong_name(
     if verdict.hint == 0 or not open_ones or any(f.line.kind == "definition" for f in open_ones):
         return verdict
     for line in list(_in_question(truth, lines, open_ones[0].line))[:MOST_NAMES]:
-        if (again := _without(line, lines, read)) is None:
+        if (again := _without(line, lines, answer)) is None:
             continue
         symbol, others = again
         for value, same in _values(truth, line):
-            put = [replace(x, expr=_put(x.expr, symbol, value)) for x in others]
-            found = judge(put, False)
-            if (mended := _mended(verdict, found)) is not None:
-                said = of_its_body(truth, lines, same)
-                return _blamed(truth, verdict, said, mended, partial(judge, put, True))
+            put = _with(others, {symbol: value})
+            if mended := _mended(truth, verdict, judge(put), put):
+                return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
     return verdict
 
 
@@ -98,25 +99,33 @@ def _parts(expr: sp.Expr) -> set[sp.Basic]:
     return letters_in(expr) | expr.atoms(sp.Derivative)
 
 
-def _without(
-    line: AnsweredLine, lines: Sequence[AnsweredLine], read: ReadWithout
-) -> tuple[sp.Expr, list[AnsweredLine]] | None:
-    """The symbol of a name without its definition, and the lines of the answer with it; None if it cannot be had."""
-    beside = [x for x in lines if x.number == line.number and x is not line]
+def _without(line: AnsweredLine, lines: Sequence[AnsweredLine], answer: Answer) -> tuple[sp.Expr, Answer] | None:
+    """The symbol of a name without its definition, and the answer with it; None if it cannot be had."""
+    assert answer.read_without is not None
     try:
-        again, unknown = read(frozenset([line.number]))
+        again = answer.read_without(frozenset([line.number]))
     except ParseError:
         return None
-    symbols = {key(str(name)): symbol for name, symbol in unknown.items()}
+    symbols = {key(u.name): u.symbol for u in again.unknown}
     own = symbols.get(key(str(line.name)))
     if own is None:
         return None
-    others = [*again]
-    for x in beside:
-        if x.kind == "definition" and (symbol := symbols.get(key(str(x.name)))) is not None:
-            others = [replace(y, expr=_put(y.expr, symbol, x.expr)) for y in others]
-    kept = [x for x in beside if x.kind != "definition"]
-    return own, sorted([*others, *kept], key=lambda x: x.number)
+    beside = [x for x in lines if x.number == line.number and x is not line and x.kind == "definition"]
+    said = {symbols[key(str(x.name))]: x.expr for x in beside if key(str(x.name)) in symbols}
+    kept = tuple(x for x in answer.lines if x.place.line == line.number and x.kind != "definition")
+    unknown = tuple(u for u in again.unknown if u.symbol not in (own, *said))
+    return own, replace(_with(again, said), lines=(*kept, *_with(again, said).lines), unknown=unknown)
+
+
+def _with(answer: Answer, values: Mapping[sp.Expr, sp.Expr]) -> Answer:
+    """An answer with values in place of symbols."""
+    lines = list(answer.lines)
+    for symbol, value in values.items():
+        lines = [
+            replace(x, lhs=None if x.lhs is None else _put(x.lhs, symbol, value), rhs=_put(x.rhs, symbol, value))
+            for x in lines
+        ]
+    return replace(answer, lines=tuple(lines))
 
 
 def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
@@ -127,31 +136,47 @@ def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
     return cast("sp.Expr", bounded.replaced(expr, table))
 
 
-def _mended(verdict: Verdict, found: Verdict) -> list[AnsweredLine] | None:
-    """The wrong lines that are right with another value, if the first of all is among them, and no more are wrong."""
-    before, now = (_wrong(x) for x in (verdict, found))
-    own = [f.line for f in verdict.findings]
-    mended = [x for x, at in zip(own, keys_of(own), strict=True) if at in before and at not in now]
+def _mended(truth: Reference, verdict: Verdict, found: Verdict, put: Answer) -> list[AnsweredLine]:
+    """The wrong lines that are right with another value; none if the first of all is not among them, or more are wrong.
+
+    A balance with forces of the answer's own is right if there are forces with which all balances hold, or if all lines
+    are right into which its force was put.
+    """
+    before, now, right = _at(verdict, right=False), _at(found, right=False), _at(found, right=True)
+    lines = filled(truth, with_auxiliary(truth, lines_of(put)))
+    agree = balances_agree(truth, lines)
+    own = unknown_in(truth, lines) if agree else set()
+    balances = {(x.number, x.text) for x in lines if x.expr.has(*own)} if own else set()
+    now = {at: x for at, x in now.items() if at[:2] not in balances}
+    solved = {(x.number, x.text) for x in lines if x.kind == "definition" and _is_used_rightly(x, found)}
+    apart = {at: x for at, x in before.items() if at not in right and at[:2] in balances | solved}
+    mended = [x for at, x in before.items() if at in right or at in apart]
     first = _open(verdict)[0].line
-    return mended if now < before and any(x is first for x in mended) else None
+    return mended if now.keys() < before.keys() and any(x is first for x in mended) else []
 
 
-def _wrong(verdict: Verdict) -> set[tuple[int, str, int]]:
+def _is_used_rightly(line: AnsweredLine, verdict: Verdict) -> bool:
+    """Whether all lines with the name of a definition are right, and there are some."""
+    users = [f for f in verdict.findings if key(str(line.name)) in f.line.names and f.line.kind != "definition"]
+    return bool(users) and all(f.status.right for f in users)
+
+
+def _at(verdict: Verdict, *, right: bool) -> dict[tuple[int, str, int], AnsweredLine]:
+    """The lines that are right, or wrong, by what identifies them."""
     lines = [f.line for f in verdict.findings]
-    return {at for f, at in zip(verdict.findings, keys_of(lines), strict=True) if f.status is Status.WRONG}
+    statuses = (f.status.right if right else f.status is Status.WRONG for f in verdict.findings)
+    return {at: x for at, x, yes in zip(keys_of(lines), lines, statuses, strict=True) if yes}
 
 
-def _blamed(
-    truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Sequence[AnsweredLine], again: Callable[[], Verdict]
-) -> Verdict:
+def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Sequence[AnsweredLine]) -> Verdict:
     """The verdict with a wrong definition, from which the lines follow that its right value mends, and those that are
-    wrong as these are; what else is wrong is told as it is beside the right value."""
+    wrong as these are."""
     below = [f.line for f in _open(verdict) if not any(f.line is x for x in mended)]
     below = [x for x, follows in zip(below, _wrong_alike(truth, mended, below), strict=True) if follows]
     later = [f.line for f in verdict.findings if f.follows]
     findings = with_wrong_definitions(verdict.findings, Blamed((said,), (*mended, *below, *later)))
     left = [f for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind != "definition"]
-    told = again().mistakes if left else ()
+    told = verdict.mistakes if left else ()
     return replace(verdict, findings=findings, mistakes=(said.mistake, *told), alternatives=(), sure=True)
 
 

@@ -27,7 +27,7 @@ from lagrangian.check.explain.quantities import (
 )
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
-from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_RELATIVE, WHY_TERM
+from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, WHY_TERM, why_of
 from lagrangian.check.explain.sense_counted import senses, value_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
@@ -42,6 +42,8 @@ LONGEST = 60
 """The largest number of operations of such a definition."""
 OF_RATES = frozenset(["turning", "speed", "component", "along", "rate"])
 """Kinds of what holds rates."""
+PLACED = ("position", "height")
+"""The kinds of quantities that are counted from a place of the answer's own."""
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
 
@@ -124,7 +126,7 @@ class SaidWrongly:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
-        return WHY_TERM if whole else WHY[of.kind]
+        return WHY_TERM if whole else why_of(of.kind, self.words.apart)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:
@@ -192,7 +194,9 @@ def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool
     every, name = _quantities(truth, said).all, line.name or ""
     owner = owner_of(name, truth.model)
     if _accelerates(truth, said):
-        return [k for k, q in enumerate(every) if owner in (None, q.owner)]
+        own = [k for k, q in enumerate(every) if owner in (None, q.owner)]
+        known = set[sp.Basic]().union(*(every[k].right.free_symbols for k in own))
+        return own if said.free_symbols <= known else list(range(len(every)))  # a1 may be along the first axis
     kinds = kinds_of(name)
     kinds = None if kinds is not None and set(kinds) <= OF_RATES and _is_place(truth, line) else kinds
     found = [
@@ -260,7 +264,8 @@ def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> It
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
     every, right = _quantities(truth, said), right_quantities(truth, line, but=True, turned=turned)
-    s, elsewhere = every.of, bool(right)
+    placed = all(q.kind in PLACED for q in right)  # R + s sin θ is the height s sin θ from another place, if it is that
+    s, elsewhere = every.of, bool(right_quantities(truth, line, turned=turned) if placed else right)
     for k in _plausible(truth, line, said, turned):
         q = every.all[k]
         if not _alike(s, q, said) or any(q is x for x in right):
@@ -284,7 +289,8 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()
     carried = carried_apart(right, own) if q.kind in ("component", "along") and not apart else ()
-    apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else apart
+    if not apart and not carried and (q.kind in OF_MANY_TERMS or own.is_Add):
+        apart = told_apart(s, right, own)
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
     why = WHY_RELATIVE if carried else None
     return replace(told(of, [right], [own], (right,), (own,)), apart=apart or carried, why=why)
@@ -316,8 +322,12 @@ def said_of_rate(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         for sign in (1, -1):
             written = bounded.expand(sign * q.right - rest)
             effect = put(truth, q.adds(sign * written))
-            right = (bounded.expand(sign * q.right),)
-            yield SaidWrongly(line, effect, partial(told, q, [q.right], [written], right, (written,)))
+            yield SaidWrongly(line, effect, partial(_of_rate, every.of, q, bounded.expand(sign * q.right), written))
+
+
+def _of_rate(s: Ingredients, q: Sayable, right: sp.Expr, written: sp.Expr) -> InWords:
+    """What is wrong in the rate of a place."""
+    return replace(told(q, [right], [written], (right,), (written,)), apart=told_apart(s, right, written))
 
 
 def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
