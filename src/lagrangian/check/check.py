@@ -16,6 +16,7 @@ from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
 from lagrangian.check.constraints.own_angle import without_own_angles
 from lagrangian.check.constraints.own_constraints import unfolded
+from lagrangian.check.constraints.own_counted import without_own_counts
 from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
@@ -143,7 +144,7 @@ def _checked(
 
 def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
     """The verdict on an answer for a system with constraints."""
-    read = unfolded(truth, without_own_angles(truth, written))
+    read = unfolded(truth, without_own_angles(truth, without_own_counts(truth, written)))
     judge = partial(check_in_any_angle, truth, hint=hint)
     verdict = read.judged(judge)
     verdict = energies_on_rows(truth, read.lines, verdict, hint)

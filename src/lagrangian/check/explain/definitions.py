@@ -35,6 +35,8 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     ]
     for line in blamed.later:
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
+    of_value = {(p.line.number, p.line.text) for p in blamed.said if p.line.kind == "definition"}
+    found = [replace(f, differences=()) if (f.line.number, f.line.text) in of_value else f for f in found]
     for at, new in lines.items():
         if at not in [(f.line.number, f.line.text) for f in found if f.status is Status.WRONG]:
             found = inserted(found, new)

@@ -12,6 +12,7 @@ from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import unknown_in
@@ -51,22 +52,24 @@ def with_wrong_name(
     """The verdict on a wrong answer, in which a definition of a quantity of the system is the mistake if the first
     wrong line is right with the right quantity in its place."""
     open_ones = _open(verdict)
-    if verdict.hint == 0 or not open_ones or any(f.line.kind == "definition" for f in open_ones):
+    if verdict.hint == 0 or not open_ones:
         return verdict
     for line in list(_in_question(truth, lines, open_ones[0].line))[:MOST_NAMES]:
         if (again := _without(line, lines, answer)) is None:
             continue
         symbol, others = again
+        copied = [x.rhs for x in answer.lines if (x.place.line, x.name) == (line.number, line.name) and x.rhs.is_Add]
         for value, same in _values(truth, line):
-            put = _with(others, {symbol: value})
+            put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
             if mended := _mended(truth, verdict, judge(put), put):
                 return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
     return verdict
 
 
 def _open(verdict: Verdict) -> list[Finding]:
-    """The findings that are wrong and follow from none."""
-    return [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    """The findings that are wrong and follow from none, but for those of definitions."""
+    wrong = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    return [f for f in wrong if f.line.kind != "definition"]
 
 
 def _in_question(truth: Reference, lines: Sequence[AnsweredLine], first: AnsweredLine) -> Iterator[AnsweredLine]:
@@ -118,7 +121,7 @@ def _without(line: AnsweredLine, lines: Sequence[AnsweredLine], answer: Answer) 
 
 
 def _with(answer: Answer, values: Mapping[sp.Expr, sp.Expr]) -> Answer:
-    """An answer with values in place of symbols."""
+    """An answer with values in place of symbols, or of sums."""
     lines = list(answer.lines)
     for symbol, value in values.items():
         lines = [
@@ -131,7 +134,7 @@ def _with(answer: Answer, values: Mapping[sp.Expr, sp.Expr]) -> Answer:
 def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
     """An expression with a value in place of a symbol, and its rates in place of those of the symbol."""
     table: dict[Any, sp.Expr] = {symbol: value}
-    if not symbol.is_Symbol:
+    if isinstance(symbol, AppliedUndef):
         table |= {sp.Derivative(symbol, (time, k)): bounded.diff(value, *[time] * k) for k in range(1, HIGHEST + 1)}
     return cast("sp.Expr", bounded.replaced(expr, table))
 
@@ -175,8 +178,7 @@ def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Seque
     below = [x for x, follows in zip(below, _wrong_alike(truth, mended, below), strict=True) if follows]
     later = [f.line for f in verdict.findings if f.follows]
     findings = with_wrong_definitions(verdict.findings, Blamed((said,), (*mended, *below, *later)))
-    left = [f for f in findings if f.status is Status.WRONG and not f.follows and f.line.kind != "definition"]
-    told = verdict.mistakes if left else ()
+    told = verdict.mistakes if _open(replace(verdict, findings=findings)) else ()
     return replace(verdict, findings=findings, mistakes=(said.mistake, *told), alternatives=(), sure=True)
 
 

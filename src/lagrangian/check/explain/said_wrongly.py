@@ -229,8 +229,8 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False,
     found: list[Sayable] = []
     for k in _plausible(truth, line, said, turned) if np.isfinite(values).all() else ():
         q, right = every.all[k], every.values[k]
-        if trivial and q.kind not in TRIVIAL:
-            continue
+        if (trivial and q.kind not in TRIVIAL) or (q.kind == "restoring" and not every.of.moves(said)):
+            continue  # M g may be a weight, or what a rope is said to pull
         for x, expr in _readings(q, values, said):
             rest = x - right
             rest = without_constant(rest) if but and q.kind in LEVEL else rest
