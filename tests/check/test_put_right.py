@@ -21,6 +21,7 @@ from lagrangian.model import time
 
 BOB = "m s^2 theta'' + m s x'' cos(theta) + m g s sin(theta) = 0"
 WHEEL = "(M + m + J/R^2) x'' + m s theta'' cos(theta) - m s theta'^2 sin(theta) + k x + b x' = 0"
+T = "T = 1/2 (M + J/R^2) x'^2 + 1/2 m (x'^2 + s^2 theta'^2 + 2 s x' theta' cos(theta))"
 OF_BOB = "a = x'' + s theta'' cos(theta) - s theta'^2 sin(theta)"
 BALANCE = "(M + J/R^2) x'' + m a = - k x - b x'"
 
@@ -244,3 +245,10 @@ def test_the_distance_from_an_axis_is_judged_as_an_arm() -> None:
     assert "is R + s*cos(theta), not R + s*sin(theta)" in str(verdict.mistakes[0].what)
     half = panel().check(sheet.replace("1/2 m (R", "m (R"))
     assert found(half)[:2] == [(1, True, False), (2, False, False)]
+
+
+def test_a_rate_may_be_said_of_one_body_after_another() -> None:
+    said = "axle: X' = x', Y' = 0\nbob: X' = x' + s theta' cos(theta), Y' = s theta' sin(theta)"
+    assert wheel().check("\n".join([said, T, WHEEL, BOB])).right
+    wrong = wheel().check("\n".join([said.replace("+ s", "- 2 s"), T, WHEEL, BOB]))
+    assert not wrong.right and wrong.first_wrong is not None and wrong.first_wrong.line.number == 2

@@ -29,6 +29,7 @@ from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
+from lagrangian.check.explain.said_again import as_said_of_others
 from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
@@ -116,7 +117,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
 
 def _filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines with names written out, and what they state for coordinates of their own."""
-    written = filled(truth, lines)
+    written = as_said_of_others(truth, filled(truth, lines))
     return with_own_quantities(truth, written, chart(truth, written))
 
 
