@@ -252,3 +252,17 @@ def test_a_rate_may_be_said_of_one_body_after_another() -> None:
     assert wheel().check("\n".join([said, T, WHEEL, BOB])).right
     wrong = wheel().check("\n".join([said.replace("+ s", "- 2 s"), T, WHEEL, BOB]))
     assert not wrong.right and wrong.first_wrong is not None and wrong.first_wrong.line.number == 2
+
+
+@pytest.mark.parametrize(
+    "said", ["Acceleration of the bob to the right: {}", "Accelerations of the bob:\n- to the right: {}"]
+)
+def test_an_acceleration_in_words_is_judged(said: str) -> None:
+    """An expression behind such words is no equation of motion."""
+    right = said.format(OF_BOB.removeprefix("a = "))
+    assert wheel().check("\n".join([right, WHEEL, BOB])).right
+    wrong = right.replace("- s theta'^2", "+ s theta'^2")
+    bob = BOB.replace(" + m s x''", " + 2 m s^2 theta'^2 sin(theta) cos(theta) + m s x''")
+    verdict = wheel().check("\n".join([wrong, WHEEL.replace("- m s theta'^2", "+ m s theta'^2"), bob]))
+    assert [x[1:] for x in found(verdict)] == [(False, False), (False, True), (False, True)]
+    assert str(verdict.mistakes[0].what).endswith("the term s*sin(theta)*theta'^2 has the wrong sign.")

@@ -289,7 +289,7 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()
     carried = carried_apart(right, own) if q.kind in ("component", "along") and not apart else ()
-    if not apart and not carried and (q.kind in OF_MANY_TERMS or own.is_Add):
+    if not apart and not carried and (q.kind in OF_MANY_TERMS or own.is_Add or right.is_Add):
         apart = told_apart(s, right, own)
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
     why = WHY_RELATIVE if carried else None
