@@ -14,6 +14,7 @@ from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
+from lagrangian.check.explain.put_right import with_wrong_name
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
@@ -154,6 +155,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
         verdict = _with_balances(derivation, answer, decides, verdict)
+        verdict = _with_names(derivation, answer, decides, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
     program = None if verdict.right and not unsure else _program(answer)
@@ -200,6 +202,15 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
     if answer.read_without is None:
         return verdict
     return with_forces_of_below(truth, lines, read, verdict)
+
+
+def _with_names(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
+    """The verdict on a wrong answer in which the definition is the mistake whose right value puts the others right."""
+    if answer.read_without is None or verdict.status is not check.Status.WRONG:
+        return verdict
+    truth = truth_of(derivation)
+    lines = filled(truth, decides.lines)
+    return with_wrong_name(truth, lines, answer, lambda put: _judged(derivation, put)[1], verdict)
 
 
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:

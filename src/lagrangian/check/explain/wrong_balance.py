@@ -140,6 +140,13 @@ def with_wrong_balance(
     return replace(verdict, findings=findings, mistakes=(mistake,), alternatives=(), notes=notes, sure=True)
 
 
+def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether there are forces of the answer's own with which all its balances hold along the right motion."""
+    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    balances = None if on is None else _balances(on, lines)
+    return balances is not None and balances.solved(range(len(balances.lines))) is not None
+
+
 @dataclass(frozen=True, eq=False)
 class WrongBalance:
     """The line that is wrong, its place among the balances (None for a later one), the term of it that is, and the
