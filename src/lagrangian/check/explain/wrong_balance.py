@@ -250,7 +250,11 @@ def with_forces_of_below(
     symbols = {key(str(name)): symbol for name, symbol in unknown.items()}
     if any(key(str(x.name)) not in symbols for x in solved):
         return verdict
-    said = [replace(x, kind="equation", expr=symbols[key(str(x.name))] - x.expr) for x in solved]
+    names = [symbols[key(str(x.name))] for x in solved]
+    said = [
+        replace(x, kind="equation", expr=name - x.expr, sides=(name, x.expr))
+        for name, x in zip(names, solved, strict=True)
+    ]
     later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines)]
     own = [*again, *(x for x in said if x not in later)]
     return with_wrong_balance(truth, filled(truth, own), verdict, filled(truth, later))
