@@ -53,7 +53,8 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
         return flipped
     alone = len(sp.Add.make_args(left)) == 1
     signed = alone and len(there) == 1 and right.could_extract_minus_sign()
-    if (near_left and not near_right) or not (signed or len(there) > 1):
+    solved = right != 0 and isinstance(left, (sp.Symbol, sp.Derivative, AppliedUndef))
+    if (near_left and not near_right) or not (signed or solved or len(there) > 1):
         return "", difference
     if not alone:
         return LEFT, difference
