@@ -5,10 +5,10 @@ Oracle: the equations of the cart with a pole, by hand.
 
 from __future__ import annotations
 
-import lagrangian as lg
 import pytest
 import sympy as sp
 
+import lagrangian as lg
 from built_in import derivation
 
 POLE = "(J + m l^2) theta'' + m l x'' cos(theta) - m g l sin(theta) = 0"

@@ -56,7 +56,7 @@ def with_wrong_balance(
 
     ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
     """
-    if verdict.status is not Status.WRONG or truth.n < 2 or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
+    if verdict.status is not Status.WRONG or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
     if (law := with_wrong_law(truth, lines, verdict)) is not None:
         return law
