@@ -15,6 +15,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
+from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, FREQUENCIES
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.set_aside import MOST_TOLD
@@ -23,28 +24,6 @@ from lagrangian.model import Model
 from lagrangian.read.letters import undotted
 from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
-
-_CHECKS = (
-    "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
-    "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
-    "remark remarks note notes nb bemerkung bemerkungen anmerkung hinweis remarque comment kommentar observation "
-    "interpretation discussion diskussion comparison vergleich sum summe adding addition somme "
-    "conserved conservation erhaltung energieerhaltung impulserhaltung drallerhaltung energiebilanz"
-)
-_CASES = (
-    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
-    "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
-    "static statics statisch statische statischer steady stationär stationäre "
-    "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
-)
-_FREQUENCIES = (
-    "frequency frequencies eigenfrequency eigenfrequencies eigenfrequenz eigenfrequenzen eigenkreisfrequenz "
-    "eigenkreisfrequenzen eigenvalue eigenvalues eigenwert eigenwerte fréquence fréquences pulsation pulsations"
-)
-CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
-"""Words with which a check or a remark begins, and those of a case that is not every motion."""
-FREQUENCIES = frozenset(_FREQUENCIES.split())
-"""Words of what is found from equations of motion; a line with an acceleration may be one."""
 
 _REST = re.compile(
     r"\b(?:at rest|hover|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
