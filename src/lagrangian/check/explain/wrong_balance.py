@@ -98,7 +98,7 @@ def with_wrong_balance(
 def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether there are forces of the answer's own with which all its balances hold along the right motion."""
     on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
-    balances = None if on is None else _balances(on, lines)
+    balances = None if on is None else balances_of(on, lines)
     return balances is not None and balances.solved(range(len(balances.lines))) is not None
 
 
