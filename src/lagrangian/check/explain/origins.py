@@ -1,0 +1,177 @@
+"""Finds the values of an answer's own names in which wrong terms of its equations were made: a program, its matrices.
+
+IH = J + m l;  IH β″ + k β = 0        the term m l β̈ of the equation is that of m l in IH
+
+The answer is read with marks in its values (`reading.marked_values`). What an equation has of a value, as its slope by
+the mark says, holds the wrong term: then it was made there, at the first value of which this is true. A term that is
+missing was left out of the value whose factor in the equation is a factor of the term. An equation all of whose wrong
+terms were made in values follows from these.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.difference import differences
+from lagrangian.check.explain.origins_said import Made, with_made
+from lagrangian.check.reading.marked_values import MarkedValue, Marks
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import ratio, zero_everywhere
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
+from lagrangian.read.letters import key
+from lagrangian.records import dataclass
+
+LONGEST = 1_500
+"""The most operations of an equation with marks."""
+_COMMENT = re.compile(r"[%#].*+")
+_WORD = re.compile(r"[^\W\d]\w*+")
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """What an equation has of a value: its factor, and the terms of factor times value."""
+
+    of: MarkedValue
+    factor: sp.Expr
+    terms: frozenset[sp.Expr]
+
+
+def with_origins(truth: Reference, verdict: Verdict, marks: Marks, lines: Sequence[AnsweredLine]) -> Verdict:
+    """The verdict, with the wrong terms of equations at the values in which they were made; ``lines`` are those of the
+    answer that was read with marks."""
+    rows = [replace(x, expr=truth.expand(x.expr)) for x in lines if x.kind == "equation"]
+    equations = [f for f in verdict.findings if f.line.kind == "equation"]
+    marked = {id(f): _with_marks(truth, marks, f.line, rows) for f in equations}
+    parts = {id(f): [] if x is None else _parts(marks, x) for f in equations if (x := marked[id(f)]) is not None}
+    judged = {f.line.number for f in verdict.findings if f.line.kind != "equation"}
+    found: list[Made] = []
+    for f in verdict.findings:
+        if f.status is not Status.WRONG or f.follows:
+            continue
+        held = [p for p in parts.get(id(f), ()) if p.of.line not in (*judged, f.line.number)]
+        if not held:
+            continue
+        expr, differing = marked[id(f)], f.differences
+        if not differing and expr is not None:
+            expr, differing = _multiplied(truth, marks, expr, f.coordinate)
+            held = [p for p in _parts(marks, expr) if any(p.of is q.of for q in held)]
+        alone = _names_only(truth, marks, f.line.number)
+        for d in differing:
+            found += [Made(f, d, of, own) for of, own in _made_in(held, d, alone)]
+    uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
+    found = [x for x in found if _fits(x, found, uses)]
+    return with_made(verdict, found) if found else verdict
+
+
+def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, Part]]) -> bool:
+    """Whether every equation that has the value shows the same mistake in it, and something in values of its name is
+    not wrong: otherwise the equations may use it wrongly."""
+    shown = {id(x.finding) for x in found if x.of is made.of}
+    if any(p.of is made.of and id(f) not in shown for f, p in uses):
+        return False
+    if made.term.kind != "sign":
+        return True
+    turned = {y for x in found for y in sp.Add.make_args(bounded.expand(x.term.written)) if x.of.name == made.of.name}
+    return any(not p.terms <= turned | {sp.S.Zero} for _, p in uses if p.of.name == made.of.name)
+
+
+def _names_only(truth: Reference, marks: Marks, number: int) -> bool:
+    """Whether a line of a program has nothing of the system but names to which values were given before."""
+    said = _COMMENT.sub("", marks.lines[number - 1]) if 0 < number <= len(marks.lines) else ""
+    own = {key(x.name) for x in marks.values}
+    given = {key(x.name) for x in (*truth.model.parameters, *truth.model.inputs)} - own
+    words = {key(x) for x in _WORD.findall(said)}
+    return bool(words & own) and not words & given
+
+
+def _with_marks(
+    truth: Reference, marks: Marks, line: AnsweredLine, rows: Sequence[AnsweredLine]
+) -> sp.Expr | None:
+    """An equation as it was read with marks; what it has of forces with names of the answer's own is not compared."""
+    for expr in (x.expr for x in rows if x.number == line.number):
+        if bounded.operations(expr) > LONGEST or not bounded.letters(expr) & marks.plain.keys():
+            continue
+        plain = [cast("sp.Expr", expr.xreplace(marks.plain)), line.expr]
+        known = [cast("sp.Expr", x.xreplace(dict.fromkeys(_foreign(truth, x), sp.S.Zero))) for x in plain]
+        if zero_everywhere(truth, known[0] - known[1]):
+            return expr
+    return None
+
+
+def _foreign(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
+    return {x for x in bounded.letters(expr) if isinstance(x, sp.Symbol) and x not in truth.names}
+
+
+def _parts(marks: Marks, expr: sp.Expr) -> list[Part]:
+    """The parts of an equation that come from marked values."""
+    used = bounded.letters(expr)
+    found: list[Part] = []
+    for of in marks.values:
+        if of.added in used and not {of.added, of.scale} & marks.lost:
+            factor, whole = (cast("sp.Expr", bounded.diff(expr, x).xreplace(marks.plain)) for x in (of.added, of.scale))
+            if factor != 0:
+                found.append(Part(of, factor, frozenset(sp.Add.make_args(bounded.expand(whole)))))
+    return found
+
+
+def _multiplied(
+    truth: Reference, marks: Marks, expr: sp.Expr, coordinate: str | None
+) -> tuple[sp.Expr, tuple[TermDifference, ...]]:
+    """An equation that is solved for its acceleration, times the denominator, and the terms that differ in it."""
+    whole = cast("sp.Expr", sp.fraction(bounded.together(expr))[0])
+    form = truth.form(cast("sp.Expr", whole.xreplace(marks.plain)))
+    index = next((i for i, c in enumerate(truth.model.coordinates) if c.name == coordinate), None)
+    right = truth.forms[index] if index is not None else None
+    voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
+    if voted is None or form is None or right is None:
+        return whole, ()
+    return whole, differences(truth, form, right, voted[0], index)
+
+
+def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tuple[MarkedValue, TermDifference]]:
+    """The values in which a wrong term was made, with what is wrong in them; none if it was made in the equation.
+
+    ``alone``: the equation has only names, so that a term which is missing was left out of one of them.
+    """
+    if d.written != 0:
+        written = set(sp.Add.make_args(bounded.expand(d.written)))
+        part = next((p for p in parts if written <= p.terms), None)
+        own = None if part is None else _in_value(part, d)
+        return [] if part is None or own is None else [(part.of, own)]
+    found: list[tuple[MarkedValue, TermDifference]] = []
+    for term in sp.Add.make_args(bounded.expand(d.term)) if alone else ():
+        lacking = replace(d, term=term)
+        own = [(p, x) for p in parts if (x := _in_value(p, lacking)) is not None]
+        fewest = min((_moving(x.term) for _, x in own), default=0)
+        own = [(p, x) for p, x in own if _moving(x.term) == fewest]
+        if not own:
+            return []
+        last = own[-1][0]  # of several names for the same, the first one
+        found.append(next((p.of, x) for p, x in own if p.terms == last.terms))
+    return found
+
+
+def _in_value(part: Part, d: TermDifference) -> TermDifference | None:
+    """What is wrong in a value, of a term that is wrong in the equation; None if its factor does not divide the term."""
+    term, written = (_divided(x, part.factor) for x in (d.term, d.written))
+    for x in (term, written):
+        if sp.fraction(bounded.together(x))[1].atoms(AppliedUndef, sp.Derivative):
+            return None
+    return replace(d, term=term, written=written)
+
+
+def _divided(term: sp.Expr, factor: sp.Expr) -> sp.Expr:
+    quotient = cast("sp.Expr", term / factor)
+    return bounded.expand(quotient) if factor.is_Atom or factor.is_Mul and not factor.atoms(sp.Add) else bounded.cancel(quotient)
+
+
+def _moving(expr: sp.Expr) -> int:
+    """How many coordinates and rates are factors of a term."""
+    return sum(abs(int(n)) for x, n in expr.as_powers_dict().items() if x.atoms(AppliedUndef) and n.is_Integer)
