@@ -180,7 +180,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
 def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
     """The verdict on a wrong answer with its wrong terms at the values of names in which they were made."""
     wrong = [f for f in verdict.findings if f.line.kind == "equation" and f.status is check.Status.WRONG]
-    if not hint or answer.marked is None or not any(f.differences and not f.follows for f in wrong):
+    if not hint or answer.marked is None or all(f.follows for f in wrong):
         return verdict
     try:
         read, marks = answer.marked()

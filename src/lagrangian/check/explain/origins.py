@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import Any, cast
 
 import sympy as sp
@@ -20,11 +21,13 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.difference import differences
+from lagrangian.check.explain.in_own_names import OwnName, own_names, with_names
 from lagrangian.check.explain.origins_said import Made, with_made
 from lagrangian.check.reading.marked_values import MarkedValue, Marks
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
+from lagrangian.model import time
 from lagrangian.read.letters import key
 from lagrangian.records import dataclass
 
@@ -42,6 +45,11 @@ class Part:
     factor: sp.Expr
     terms: frozenset[sp.Expr]
 
+    @property
+    def is_factor(self) -> bool:
+        """Whether the value is multiplied by letters: it may be right, and what it is multiplied by wrong."""
+        return bool(self.factor.free_symbols - {time})
+
 
 def with_origins(truth: Reference, verdict: Verdict, marks: Marks, lines: Sequence[AnsweredLine]) -> Verdict:
     """The verdict, with the wrong terms of equations at the values in which they were made; ``lines`` are those of the
@@ -52,22 +60,31 @@ def with_origins(truth: Reference, verdict: Verdict, marks: Marks, lines: Sequen
     parts = {id(f): [] if x is None else _parts(marks, x) for f in equations if (x := marked[id(f)]) is not None}
     judged = {f.line.number for f in verdict.findings if f.line.kind != "equation"}
     found: list[Made] = []
+    differing: dict[int, Sequence[TermDifference]] = {}
     for f in verdict.findings:
-        if f.status is not Status.WRONG or f.follows:
-            continue
         held = [p for p in parts.get(id(f), ()) if p.of.line not in (*judged, f.line.number)]
-        if not held:
+        expr = marked.get(id(f))
+        if f.status is not Status.WRONG or f.follows or not held or expr is None:
             continue
-        expr, differing = marked[id(f)], f.differences
-        if not differing and expr is not None:
-            expr, differing = _multiplied(truth, marks, expr, f.coordinate)
+        differing[id(f)], under = f.differences, sp.S.One
+        if not f.differences:
+            expr, under, differing[id(f)] = _multiplied(truth, marks, expr, f.coordinate)
             held = [p for p in _parts(marks, expr) if any(p.of is q.of for q in held)]
         alone = _names_only(truth, marks, f.line.number)
-        for d in differing:
-            found += [Made(f, d, of, own) for of, own in _made_in(held, d, alone)]
+        for d in differing[id(f)]:
+            found += [Made(f, d, under, of, own) for of, own in _made_in(held, d, alone)]
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
     found = [x for x in found if _fits(x, found, uses)]
-    return with_made(verdict, found) if found else verdict
+    if not found:
+        return verdict
+    names = own_names(truth, lines, [x.finding.line for x in found])
+    found = [replace(x, own=_named(x.own, names)) for x in found]
+    return with_made(truth, verdict, found, differing)
+
+
+def _named(d: TermDifference, names: Sequence[OwnName]) -> TermDifference:
+    """What is wrong in a value, in names of the answer and of the system."""
+    return replace(d, term=with_names(d.term, names), written=with_names(d.written, names))
 
 
 def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, Part]]) -> bool:
@@ -91,9 +108,7 @@ def _names_only(truth: Reference, marks: Marks, number: int) -> bool:
     return bool(words & own) and not words & given
 
 
-def _with_marks(
-    truth: Reference, marks: Marks, line: AnsweredLine, rows: Sequence[AnsweredLine]
-) -> sp.Expr | None:
+def _with_marks(truth: Reference, marks: Marks, line: AnsweredLine, rows: Sequence[AnsweredLine]) -> sp.Expr | None:
     """An equation as it was read with marks; what it has of forces with names of the answer's own is not compared."""
     for expr in (x.expr for x in rows if x.number == line.number):
         if bounded.operations(expr) > LONGEST or not bounded.letters(expr) & marks.plain.keys():
@@ -106,7 +121,7 @@ def _with_marks(
 
 
 def _foreign(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
-    return {x for x in bounded.letters(expr) if isinstance(x, sp.Symbol) and x not in truth.names}
+    return {x for x in bounded.letters(expr) if isinstance(x, (sp.Symbol, AppliedUndef)) and x not in truth.names}
 
 
 def _parts(marks: Marks, expr: sp.Expr) -> list[Part]:
@@ -123,16 +138,17 @@ def _parts(marks: Marks, expr: sp.Expr) -> list[Part]:
 
 def _multiplied(
     truth: Reference, marks: Marks, expr: sp.Expr, coordinate: str | None
-) -> tuple[sp.Expr, tuple[TermDifference, ...]]:
-    """An equation that is solved for its acceleration, times the denominator, and the terms that differ in it."""
-    whole = cast("sp.Expr", sp.fraction(bounded.together(expr))[0])
-    form = truth.form(cast("sp.Expr", whole.xreplace(marks.plain)))
+) -> tuple[sp.Expr, sp.Expr, tuple[TermDifference, ...]]:
+    """An equation that is solved for its acceleration, times the denominator, this, and the terms that differ in it."""
+    whole, under = map(cast("Any", sp.sympify), sp.fraction(bounded.together(expr)))
+    plain, under = (cast("sp.Expr", x.xreplace(marks.plain)) for x in (whole, under))
+    form = truth.form(plain)
     index = next((i for i, c in enumerate(truth.model.coordinates) if c.name == coordinate), None)
     right = truth.forms[index] if index is not None else None
     voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
     if voted is None or form is None or right is None:
-        return whole, ()
-    return whole, differences(truth, form, right, voted[0], index)
+        return whole, under, ()
+    return whole, under, differences(truth, form, right, voted[0], index, plain)
 
 
 def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tuple[MarkedValue, TermDifference]]:
@@ -142,9 +158,8 @@ def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tupl
     """
     if d.written != 0:
         written = set(sp.Add.make_args(bounded.expand(d.written)))
-        part = next((p for p in parts if written <= p.terms), None)
-        own = None if part is None else _in_value(part, d)
-        return [] if part is None or own is None else [(part.of, own)]
+        holding = (p for p in parts if written <= p.terms and not (written == p.terms and p.is_factor))
+        return list(islice(((p.of, own) for p in holding if (own := _in_value(p, d)) is not None), 1))
     found: list[tuple[MarkedValue, TermDifference]] = []
     for term in sp.Add.make_args(bounded.expand(d.term)) if alone else ():
         lacking = replace(d, term=term)
@@ -169,9 +184,10 @@ def _in_value(part: Part, d: TermDifference) -> TermDifference | None:
 
 def _divided(term: sp.Expr, factor: sp.Expr) -> sp.Expr:
     quotient = cast("sp.Expr", term / factor)
-    return bounded.expand(quotient) if factor.is_Atom or factor.is_Mul and not factor.atoms(sp.Add) else bounded.cancel(quotient)
+    return bounded.cancel(quotient) if factor.atoms(sp.Add) else bounded.expand(quotient)
 
 
 def _moving(expr: sp.Expr) -> int:
     """How many coordinates and rates are factors of a term."""
-    return sum(abs(int(n)) for x, n in expr.as_powers_dict().items() if x.atoms(AppliedUndef) and n.is_Integer)
+    powers: dict[Any, Any] = dict(expr.as_powers_dict())
+    return sum(abs(int(n)) for x, n in powers.items() if x.atoms(AppliedUndef) and n.is_Integer)

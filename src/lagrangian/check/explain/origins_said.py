@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import cast
 
 import sympy as sp
 
-from lagrangian import bounded
 from lagrangian.check.explain.sides_said import EQUATION, ON_LEFT, ON_RIGHT
 from lagrangian.check.reading.marked_values import MarkedValue
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, Verdict, inserted
 from lagrangian.page.formula import Left, Verbatim, text
 from lagrangian.records import dataclass
@@ -26,22 +28,25 @@ _RIGHT = (" should be ", " belongs ")
 
 @dataclass(frozen=True, eq=False)
 class Made:
-    """A wrong term of an equation, the value in which it was made, and what is wrong there."""
+    """A wrong term of an equation times ``under``, the value in which it was made, and what is wrong there."""
 
     finding: Finding
     term: TermDifference
+    under: sp.Expr
     of: MarkedValue
     own: TermDifference
 
 
-def with_made(verdict: Verdict, found: Sequence[Made]) -> Verdict:
-    """The verdict, with these terms told at their values; equations with no other wrong term follow."""
-    moved = {(id(x.finding), id(x.term)) for x in found}
+def with_made(
+    truth: Reference, verdict: Verdict, found: Sequence[Made], differing: Mapping[int, Sequence[TermDifference]]
+) -> Verdict:
+    """The verdict, with these terms told at their values; equations with no other of the ``differing`` terms follow."""
     findings: list[Finding] = []
     for f in verdict.findings:
-        left = tuple(d for d in f.differences if (id(f), id(d)) not in moved)
-        touched = len(left) < len(f.differences)
-        findings.append(replace(f, differences=left or f.differences, follows=f.follows or not left) if touched else f)
+        moved = [x.term for x in found if x.finding is f]
+        left = [d for d in differing.get(id(f), ()) if not any(d is x for x in moved)]
+        shown = tuple(d for d in f.differences if any(d is x for x in left))
+        findings.append(replace(f, differences=shown or f.differences, follows=not left) if moved else f)
     for (number, name), same in _by_line(found).items():
         first = same[0]
         line = AnsweredLine("definition", sp.Symbol(name), number, name, first.of.text)
@@ -52,8 +57,8 @@ def with_made(verdict: Verdict, found: Sequence[Made]) -> Verdict:
     return replace(
         verdict,
         findings=tuple(findings),
-        mistakes=tuple(_said(m, found) for m in verdict.mistakes),
-        alternatives=tuple(_said(m, found) for m in verdict.alternatives),
+        mistakes=tuple(_said(truth, m, found) for m in verdict.mistakes),
+        alternatives=tuple(_said(truth, m, found) for m in verdict.alternatives),
     )
 
 
@@ -64,22 +69,22 @@ def _by_line(found: Sequence[Made]) -> dict[tuple[int, str], list[Made]]:
     return lines
 
 
-def _said(mistake: Mistake, found: Sequence[Made]) -> Mistake:
+def _said(truth: Reference, mistake: Mistake, found: Sequence[Made]) -> Mistake:
     """A mistake whose first sentence speaks of a term of an equation, with the line and the term of the value."""
-    parts = mistake.what.parts
-    begins = _BEGINS.match(parts[0]) if len(parts) > 2 and isinstance(parts[0], str) else None
-    if begins is None or not isinstance(parts[1], sp.Expr):
+    begins, spoken, *rest = (*mistake.what.parts, "", "")
+    opening = _BEGINS.match(begins) if isinstance(begins, str) else None
+    if opening is None or not isinstance(spoken, sp.Expr):
         return mistake
-    spoken = parts[1]
-    made = [x for x in found if any(_same(spoken, y) for y in (x.term.term, x.term.written))]
+    same = _Same(truth)
+    made = [x for x in found if any(same(spoken, y, x.under) for y in (x.term.term, x.term.written))]
     made = [x for x in made if mistake.coordinate in (None, x.finding.coordinate)]
     if len(made) != 1:
         return mistake
-    first = f"In line {made[0].of.line}{':' if begins['what'].lower().startswith('in') else ','} "
-    return replace(mistake, what=text(first + begins["what"].lower(), *_of_value(parts[1:], made[0])))
+    first = f"In line {made[0].of.line}{':' if opening['what'].lower().startswith('in') else ','} "
+    return replace(mistake, what=text(first + opening["what"].lower(), *_of_value(same, [spoken, *rest], made[0])))
 
 
-def _of_value(parts: Sequence[str | Left | Verbatim], made: Made) -> Iterator[str | Left | Verbatim]:
+def _of_value(same: _Same, parts: Sequence[str | Left | Verbatim], made: Made) -> Iterator[str | Left | Verbatim]:
     """The rest of a sentence, with the terms of the value for those of the equation."""
     before: str | Left | Verbatim = ""
     for part in parts:
@@ -89,14 +94,21 @@ def _of_value(parts: Sequence[str | Left | Verbatim], made: Made) -> Iterator[st
             said = part.removesuffix(EQUATION).replace(f"{ON_LEFT} ", "").replace(f"{ON_RIGHT} ", "")
             yield from [said] if said else []
         elif isinstance(part, sp.Expr) and not named:
-            wrong = made.term.kind != "missing" and not right and _same(part, made.term.written)
-            own = made.own.written if wrong else made.own.term if _same(part, made.term.term) else part
-            yield own
+            wrong = made.term.kind != "missing" and not right and same(part, made.term.written, made.under)
+            own = made.own.written if wrong else made.own.term
+            yield own if wrong or same(part, made.term.term, made.under) else part
         elif not named:
             yield part
         before = part
 
 
-def _same(one: sp.Expr, other: sp.Expr) -> bool:
-    """Whether two terms are the same but for a sign."""
-    return other != 0 and any(bounded.expand(one - sign * other) == 0 for sign in (1, -1))
+@dataclass(frozen=True)
+class _Same:
+    truth: Reference
+
+    def __call__(self, one: sp.Expr, other: sp.Expr, under: sp.Expr) -> bool:
+        """Whether a term is another one, divided by something, but for a sign."""
+        if other == 0 or one.is_Atom:
+            return False
+        mine, divided = self.truth.expand(one), cast("sp.Expr", other / under)
+        return any(zero_everywhere(self.truth, mine - sign * divided) for sign in (1, -1))

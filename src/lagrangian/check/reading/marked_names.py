@@ -28,7 +28,7 @@ class MarkedNames(Names):
         line = 0 if source is None else source.at(len(source.text)).line or 0
         if isinstance(value, MatrixBase) and any(map(is_formula, value.flat())):
             value = sp.ImmutableMatrix(self.marks.matrix(value, str(written), line))
-        elif is_formula(value):
+        elif not isinstance(value, MatrixBase) and is_formula(value):
             value = self.marks.marked(value, str(written), line)
         super().define(written, value)
 

@@ -1,7 +1,8 @@
 """Marks in the values that an answer gives to names of its own, with which it is read once more: where a mark appears
 in an equation, the value stands there.
 
-A value v becomes k v + d: at k = 1 and d = 0 nothing has changed, and the slope of an equation by k is what it has of v.
+A value v becomes k v + d: at k = 1 and d = 0 nothing has changed, and the slope of an equation by k is what it has of
+v.
 """
 
 from __future__ import annotations

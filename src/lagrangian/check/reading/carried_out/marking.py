@@ -34,7 +34,13 @@ class MarkingInterpreter(Interpreter):
 
     def _assign(self, target: ast.expr, value: Value, names: dict[str, Value], line: int) -> None:
         node = self.nodes.get(id(target))
-        held = target.value if isinstance(target, ast.Subscript) else target.func if isinstance(target, ast.Call) else target
+        held = (
+            target.value
+            if isinstance(target, ast.Subscript)
+            else target.func
+            if isinstance(target, ast.Call)
+            else target
+        )
         called = called_name(held)
         if node is not None and called and not self.known(called):
             value = self._marked(value, node, called, line)
