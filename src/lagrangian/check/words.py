@@ -161,7 +161,7 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         yield text(*_where(mistake, verdict))
     if verdict.mistakes:
         first = verdict.first_wrong
-        row = first is not None and first.line.kind == "equation"
+        row = first is not None and first.line.kind in ("equation", "definition")
         others = [m for m in verdict.alternatives if not any(_repeats(m, told, row) for told in verdict.mistakes)]
         if others and verdict.hint >= 3:
             yield text("It could also be this: ", *others[0].what.parts)

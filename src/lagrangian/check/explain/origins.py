@@ -22,6 +22,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.difference import differences
 from lagrangian.check.explain.in_own_names import OwnName, own_names, with_names
+from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.origins_said import Made, with_made
 from lagrangian.check.reading.marked_values import MarkedValue, Marks
 from lagrangian.check.reference import Reference
@@ -66,13 +67,14 @@ def with_origins(truth: Reference, verdict: Verdict, marks: Marks, lines: Sequen
         expr = marked.get(id(f))
         if f.status is not Status.WRONG or f.follows or not held or expr is None:
             continue
-        differing[id(f)], under = f.differences, sp.S.One
-        if not f.differences:
+        alone = _names_only(truth, marks, f.line.number)
+        made = [Made(f, d, sp.S.One, *x, alone) for d in f.differences for x in _made_in(held, d, alone)]
+        differing[id(f)] = f.differences
+        if not made:
             expr, under, differing[id(f)] = _multiplied(truth, marks, expr, f.coordinate)
             held = [p for p in _parts(marks, expr) if any(p.of is q.of for q in held)]
-        alone = _names_only(truth, marks, f.line.number)
-        for d in differing[id(f)]:
-            found += [Made(f, d, under, of, own) for of, own in _made_in(held, d, alone)]
+            made = [Made(f, d, under, *x, alone) for d in differing[id(f)] for x in _made_in(held, d, alone)]
+        found += made
     uses = [(f, p) for f in verdict.findings for p in parts.get(id(f), ())]
     found = [x for x in found if _fits(x, found, uses)]
     if not found:
@@ -88,15 +90,27 @@ def _named(d: TermDifference, names: Sequence[OwnName]) -> TermDifference:
 
 
 def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, Part]]) -> bool:
-    """Whether every equation that has the value shows the same mistake in it, and something in values of its name is
-    not wrong: otherwise the equations may use it wrongly."""
+    """Whether every equation that has the value shows the same mistake in it, and the value rather than its use is
+    wrong: a sign or a factor that is wrong in all of what a name adds may be that of the equation."""
     shown = {id(x.finding) for x in found if x.of is made.of}
     if any(p.of is made.of and id(f) not in shown for f, p in uses):
         return False
-    if made.term.kind != "sign":
+    own = [(f, p) for f, p in uses if p.of.name == made.of.name and p.terms != {sp.S.Zero}]
+    if made.term.kind not in ("sign", "coefficient") or any(f.status.right for f, _ in own):
         return True
-    turned = {y for x in found for y in sp.Add.make_args(bounded.expand(x.term.written)) if x.of.name == made.of.name}
-    return any(not p.terms <= turned | {sp.S.Zero} for _, p in uses if p.of.name == made.of.name)
+    turned = {y for x in found if x.finding is made.finding for y in sp.Add.make_args(bounded.expand(x.term.written))}
+    here = [p for f, p in own if f is made.finding]
+    if any(not p.terms <= turned for p in here):
+        return True
+    factor = next((p.factor for p in here if p.of is made.of), sp.S.Zero)
+    if made.alone and factor == -1:
+        return True
+    return made.term.kind == "coefficient" and len(here) == 1 and _is_moving(factor)
+
+
+def _is_moving(factor: sp.Expr) -> bool:
+    """Whether a factor is a coordinate or a rate, with a sign or without."""
+    return any(isinstance(x, (AppliedUndef, sp.Derivative)) for x in (factor, -factor))
 
 
 def _names_only(truth: Reference, marks: Marks, number: int) -> bool:
@@ -144,11 +158,20 @@ def _multiplied(
     plain, under = (cast("sp.Expr", x.xreplace(marks.plain)) for x in (whole, under))
     form = truth.form(plain)
     index = next((i for i, c in enumerate(truth.model.coordinates) if c.name == coordinate), None)
-    right = truth.forms[index] if index is not None else None
+    solved = multiplied(truth, plain)
+    if solved is not None:
+        right = truth.form(solved[1])
+    else:
+        held = index is not None and all(plain.has(a) for a in truth.rows[index].atoms(sp.Derivative) if _is_second(a))
+        right = truth.forms[index] if index is not None and held else None
     voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
     if voted is None or form is None or right is None:
         return whole, under, ()
     return whole, under, differences(truth, form, right, voted[0], index, plain)
+
+
+def _is_second(rate: sp.Derivative) -> bool:
+    return bool(rate.derivative_count > 1)
 
 
 def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tuple[MarkedValue, TermDifference]]:
@@ -174,7 +197,7 @@ def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tupl
 
 
 def _in_value(part: Part, d: TermDifference) -> TermDifference | None:
-    """What is wrong in a value, of a term that is wrong in the equation; None if its factor does not divide the term."""
+    """What is wrong in a value, of a term that is wrong in the equation; None if its factor is not in the term."""
     term, written = (_divided(x, part.factor) for x in (d.term, d.written))
     for x in (term, written):
         if sp.fraction(bounded.together(x))[1].atoms(AppliedUndef, sp.Derivative):

@@ -28,13 +28,15 @@ _RIGHT = (" should be ", " belongs ")
 
 @dataclass(frozen=True, eq=False)
 class Made:
-    """A wrong term of an equation times ``under``, the value in which it was made, and what is wrong there."""
+    """A wrong term of an equation times ``under``, the value in which it was made, what is wrong there, and whether the
+    equation has nothing but names."""
 
     finding: Finding
     term: TermDifference
     under: sp.Expr
     of: MarkedValue
     own: TermDifference
+    alone: bool
 
 
 def with_made(
