@@ -15,6 +15,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
 from lagrangian.check.explain.origins import with_origins
+from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
@@ -174,7 +175,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked)
-    return _told(_with_origins(derivation, answer, verdict, hint), answer, decides.notes)
+    return _told(fitting(_with_origins(derivation, answer, verdict, hint)), answer, decides.notes)
 
 
 def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
