@@ -54,13 +54,13 @@ def fitting(verdict: Verdict) -> Verdict:
     signs = any(_family(m) == "sign" for m in verdict.mistakes)
     others = [
         m
-        for m in distinct(verdict.alternatives, verdict.mistakes)
+        for m in verdict.alternatives
         if not (missing and _is_of_what_is_there(m))
         and not (signs and _is_of_what_is_there(m) and _family(m) != "sign")
         and not right.intersection(STATED.get(m.step, ()))
     ]
     told = (_without_right(m, verdict) for m in verdict.mistakes)
-    return replace(verdict, mistakes=tuple(told), alternatives=tuple(others))
+    return replace(verdict, mistakes=tuple(told), alternatives=distinct(others, verdict.mistakes))
 
 
 def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
@@ -94,6 +94,7 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         return False
     same = _of_same(mistake, other)
     if quoted and others:
+        quoted, others = (x - _functions(x) for x in (quoted, others))
         letters, told = _letters(quoted), _letters(others)
         letters, told = (letters, told) if letters and told else (quoted, others)
         return quoted == others or (same and (letters <= told or told <= letters))
@@ -122,7 +123,12 @@ def _family(mistake: Mistake) -> str:
 def _quoted(mistake: Mistake) -> set[sp.Basic]:
     """The letters, coordinates and rates that the words quote."""
     exprs = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
-    return {atom for x in exprs for atom in (x.free_symbols | x.atoms(AppliedUndef, sp.Derivative)) - {sp.Symbol("t")}}
+    return {atom for x in exprs for atom in (x.free_symbols | x.atoms(sp.Function, sp.Derivative)) - {sp.Symbol("t")}}
+
+
+def _functions(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """The sines and cosines among them."""
+    return {x for x in quoted if isinstance(x, sp.Function) and not isinstance(x, AppliedUndef)}
 
 
 def _letters(quoted: set[sp.Basic]) -> set[sp.Basic]:
