@@ -206,8 +206,10 @@ def _in_value(part: Part, d: TermDifference) -> TermDifference | None:
 
 
 def _divided(term: sp.Expr, factor: sp.Expr) -> sp.Expr:
-    quotient = cast("sp.Expr", term / factor)
-    return bounded.cancel(quotient) if factor.atoms(sp.Add) else bounded.expand(quotient)
+    """A term, or every one of a sum, by a factor of it; its other factors stay as they are written."""
+    if factor.atoms(sp.Add):
+        return bounded.cancel(cast("sp.Expr", term / factor))
+    return cast("sp.Expr", sp.Add(*[x / factor for x in sp.Add.make_args(term)]))
 
 
 def _moving(expr: sp.Expr) -> int:
