@@ -93,7 +93,8 @@ def test_nothing_is_written() -> None:
 
 def test_energy_that_is_right() -> None:
     """No mistake was made in T* if the line of T* is right."""
-    told, other = mistake("spring_sign", "spring", "One."), mistake("half_forgotten", "bob", "Two ", m, ".", step=2)
+    told = mistake("spring_sign", "spring", "One.")
+    other = mistake("half_forgotten", "bob", "The kinetic energy lacks ", m, ".", step=2)
     energy = AnsweredLine("T", x, 1)
     assert others(told, other, Finding(energy, Status.RIGHT)) == []
     assert others(told, other, Finding(energy, Status.WRONG)) == ["half_forgotten"]

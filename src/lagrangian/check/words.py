@@ -152,11 +152,11 @@ def _shown(findings: Sequence[Finding]) -> list[Finding]:
 
 
 def _which(finding: Finding, model: Model) -> tuple[str | Left, ...]:
-    """Which of several statements in a line is meant: the coordinate of an equation, or the name that is defined."""
+    """Which of several statements in a line is meant: the coordinate of an equation, or the name of a quantity."""
     kind, name = finding.line.kind, finding.line.name
     if kind not in ("definition", "identity") or not name:
         return _of(finding, model)
-    return (f" ({name})" if kind == "definition" else f" (derivative of {name})",)
+    return (f" ({name})",)
 
 
 def _word(finding: Finding, roots: Sequence[str], where: str) -> str:

@@ -57,7 +57,7 @@ def fitting(verdict: Verdict) -> Verdict:
         for m in verdict.alternatives
         if not (missing and _is_of_what_is_there(m))
         and not (signs and _is_of_what_is_there(m) and _family(m) != "sign")
-        and not right.intersection(STATED.get(m.step, ()))
+        and not (right.intersection(STATED.get(m.step, ())) and _is_of_energy(m))
     ]
     told = (_without_right(m, verdict) for m in verdict.mistakes)
     return replace(verdict, mistakes=tuple(told), alternatives=distinct(others, verdict.mistakes))
@@ -71,6 +71,11 @@ def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
     reason = str(parts[place + 1]) if place + 1 < len(parts) else ""
     contradicts = any(reason.startswith(f"In {note}") for note in notes)
     return replace(mistake, what=text(*parts[:place])) if contradicts else mistake
+
+
+def _is_of_energy(mistake: Mistake) -> bool:
+    """Whether a mistake of step 2 is made in T*, where one in a position shows in V alone."""
+    return mistake.step != 2 or any(word in str(mistake.what) for word in ("T*", "kinetic", "velocity", "speed"))
 
 
 def _is_of_what_is_there(mistake: Mistake) -> bool:

@@ -25,7 +25,7 @@ from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
 from lagrangian.check.reading.marked_names import begin
-from lagrangian.check.reading.marked_values import with_marks
+from lagrangian.check.reading.marked_values import Marks, with_marks
 from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
@@ -279,11 +279,16 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         lambda numbers: _with_said_values(reading, [], without_lines(given, numbers), model, place),
-        lambda: with_marks(given, lambda marks: _answer(given, model, place, replace(reading, values=marks), [])),
+        partial(with_marks, given, partial(_marked, given, model, place, reading)) if lines.names.own else None,
         bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
     )
+
+
+def _marked(text: str, model: Model, place: Place | None, reading: Choices, marks: Marks) -> Answer:
+    """The answer in one reading, with marks."""
+    return _answer(text, model, place, replace(reading, values=marks), [])
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:
