@@ -14,7 +14,9 @@ from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
+from lagrangian.check.explain.origins import with_origins
 from lagrangian.check.explain.put_right import with_wrong_name
+from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
@@ -175,7 +177,19 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked)
-    return _told(verdict, answer, decides.notes)
+    return _told(fitting(_with_origins(derivation, answer, verdict, hint)), answer, decides.notes)
+
+
+def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
+    """The verdict on a wrong answer with its wrong terms at the values of names in which they were made."""
+    wrong = [f for f in verdict.findings if f.line.kind == "equation" and f.status is check.Status.WRONG]
+    if not hint or answer.marked is None or all(f.follows for f in wrong):
+        return verdict
+    try:
+        read, marks = answer.marked()
+    except ParseError:
+        return verdict
+    return with_origins(truth_of(derivation), verdict, marks, filled(truth_of(derivation), check.lines_of(read)))
 
 
 def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:

@@ -59,12 +59,17 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
         return _without_derivatives(told, mistake, kinds)
     term, times = found
     row = term.site.coordinate
+    cancelled = times == -1 and row is not None and not _stands_there(pool, term, row)
     term, factor = as_it_stands(pool.truth, term, under)
     plain = say.mistake(term, times, pool.truth.model, factor)
     if told.mistake.name == "plus_potential" and "L" not in kinds:
         return plain
     said = plain.what.parts
-    if times not in (-1, -2):
+    if cancelled and row is not None:
+        left = -next(x for x in said if isinstance(x, sp.Expr))
+        of = pool.truth.derivation.coordinates[row]
+        said = ("The term ", left, " of the equation of ", of, " is left over: another term cancels it.")
+    elif times not in (-1, -2):
         right = next(x for x in said if isinstance(x, sp.Expr))
         where = (
             f"T{str(term.site.words[0])[1:]}",
@@ -78,6 +83,12 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
     if change is not None and change.kind == "part" and _is_odd(told.times):
         return replace(mistake, what=text(*said))  # nobody counts something 17/8 times
     return with_reason(text(*said), mistake)
+
+
+def _stands_there(pool: Pool, term: LocalChange, row: int) -> bool:
+    """Whether a term of a derivative is one of the right equation, and cancels with no other."""
+    own, right = pool.truth.form(pool.sites.ring.expr(term.effect.rows[row])), pool.truth.forms[row]
+    return own is None or right is None or min((right - own).size, (right + own).size) < right.size + own.size
 
 
 def _without_derivatives(told: Told, mistake: Mistake, kinds: Set[str]) -> Mistake:

@@ -60,9 +60,9 @@ MAX_CHAIN = 20
 class Lines:
     """Reads the statements of one answer."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, names: Names | None = None) -> None:
         self.model = model
-        self.names = Names(model)
+        self.names = names or Names(model)
         self.names.later = self._look_ahead
         self.budget = ReadingBudget()
         self._waiting: dict[str, int] = {}

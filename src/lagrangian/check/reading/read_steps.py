@@ -6,12 +6,26 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lagrangian.check.reading.answer import Answer
-from lagrangian.check.reading.carried_out.stated import CarriedOut
+from lagrangian.check.reading.carried_out.stated import CarriedOut, carried_out
+from lagrangian.check.reading.marked_values import Marks, with_marks
 from lagrangian.errors import ParseError
+from lagrangian.model import Model
 
 CARRIED_OUT = "The program was carried out on symbols, and what it computes was judged."
 """The note on a program whose lines are not read as they stand."""
 COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
+
+
+def stated_by_steps(program: CarriedOut, text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
+    """Return what ``read`` makes of a program and, with marks, of its ``text``; `ParseError` if it cannot be read."""
+
+    def marked(marks: Marks) -> Answer:
+        again = carried_out(text, model, marks)
+        if again is None:
+            raise ParseError("the program cannot be carried out with marks", code="E701")
+        return read_steps(again, read)
+
+    return replace(read_steps(program, read), marked=lambda: with_marks(text, marked))
 
 
 def read_steps(program: CarriedOut, read: Callable[[str], Answer]) -> Answer:
@@ -26,5 +40,6 @@ def read_steps(program: CarriedOut, read: Callable[[str], Answer]) -> Answer:
         found, unread = None, True
     if found is None or (unread and program.bare != program.text):
         found, notes = read(program.bare), (CARRIED_OUT, COMMENTS_LEFT_OUT)
-    told = tuple(x for x in found.notes if "nothing else uses " not in x)  # nor does a program that is carried out
+    used = ("nothing else uses ", "no equation uses this matrix ")  # nor does anything in a program that is carried out
+    told = tuple(x for x in found.notes if not any(y in x for y in used))
     return replace(found, notes=(*notes, *program.notes, *told), program=True)

@@ -20,6 +20,7 @@ from lagrangian.check.reading.carried_out.in_comments import equations_in_commen
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
+from lagrangian.check.reading.carried_out.marking import MarkingInterpreter
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
 from lagrangian.check.reading.carried_out.prescribed_rates import other_rates
@@ -39,6 +40,7 @@ from lagrangian.check.reading.carried_out.values import (
     scalar,
 )
 from lagrangian.check.reading.carried_out.ways import ways
+from lagrangian.check.reading.marked_values import Marks
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
@@ -94,11 +96,11 @@ class CarriedOut:
     notes: tuple[str, ...] = ()
 
 
-def carried_out(text: str, model: Model) -> CarriedOut | None:
+def carried_out(text: str, model: Model, marks: Marks | None = None) -> CarriedOut | None:
     """Return what a program in Python, MATLAB or Julia states.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
-    carried out on symbols.
+    carried out on symbols; with ``marks``, in the values that it assigns.
     """
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
     if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
@@ -123,7 +125,8 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         states = 2 * len(model.coordinates)
         said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
         given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
-        run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
+        made = Interpreter if marks is None else partial(MarkingInterpreter, marks=marks)
+        run = made(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
         behind = ((k, _COMMENTED.search(x)) for k, x in enumerate(text.split("\n"), 1))
         run.behind = {k: m.group() for k, m in behind if m is not None}
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
