@@ -59,7 +59,7 @@ _LATIN_TWINS = str.maketrans(
 
 def normal(name: str) -> str:
     """Return the name in the form in which it is looked up: NFKC."""
-    return unicodedata.normalize("NFKC", name)
+    return name if name.isascii() else unicodedata.normalize("NFKC", name)
 
 
 @lru_cache(maxsize=4_096)
@@ -81,8 +81,11 @@ def twin(name: str) -> str:
 
 def undotted(name: str) -> tuple[str, int]:
     """Remove the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); for other names the number is 0."""
-    if name.isascii():
-        return normal(name), 0
+    return (normal(name), 0) if name.isascii() else _undotted(str(name))
+
+
+@lru_cache(maxsize=4_096)
+def _undotted(name: str) -> tuple[str, int]:
     letters = unicodedata.normalize("NFD", name)
     marks = [i for i, c in enumerate(letters) if c in DOTS]
     if not marks:

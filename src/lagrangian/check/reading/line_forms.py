@@ -117,12 +117,12 @@ def _moves(line: AnswerLine) -> bool:
 
 def is_general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
-    return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
+    return any(is_placeholder(x) and not is_force(x) for x in bounded.atoms(value, AppliedUndef))
 
 
 def accelerates(value: sp.Expr) -> bool:
     """Whether an expression contains an acceleration."""
-    return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
+    return any(d.derivative_count > 1 for d in bounded.atoms(value, sp.Derivative))
 
 
 def is_rate_of(token: Token, side: Tree) -> bool:
