@@ -140,7 +140,7 @@ class CompiledExpressions:
             if isinstance(part, (sp.Symbol, AppliedUndef)):
                 names.add(part)
             elif isinstance(part, sp.Derivative):
-                names |= {part, cast("sp.Basic", part.expr)}
+                names |= {part, part.expr}
             elif isinstance(part, (sp.Rational, sp.Float, sp.NumberSymbol)):
                 if not (isinstance(part, sp.Integer) and abs(int(part)) <= EXACT_INTEGER):
                     numbers.append(part)
@@ -310,4 +310,4 @@ def _constant(number: float, size: int) -> Array:
 @lru_cache(maxsize=5_000)
 def _place(symbol: sp.Basic) -> Any:
     """The place of a symbol among others, which SymPy takes long to find."""
-    return sp.default_sort_key(symbol)
+    return cast("Any", sp.default_sort_key(symbol))

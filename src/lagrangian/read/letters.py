@@ -104,8 +104,8 @@ def unaccented(word: str) -> str:
 
 def find(name: str, known: Iterable[str]) -> list[str]:
     """Return the names among ``known`` that ``name`` can mean: the exact one alone, otherwise all equivalent ones."""
-    names = list(known)
-    exact = [k for k in names if normal(k) == normal(name)]
+    names, whole = list(known), normal(name)
+    exact = [k for k in names if normal(k) == whole]
     if exact:
         return exact[:1]
     mine = key(name)

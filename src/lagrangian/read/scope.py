@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 import sympy as sp
@@ -80,7 +80,7 @@ class Scope(Mapping[str, sp.Basic]):
         return did_you_mean(base, self._names) or did_you_mean(spelled(base), self._names)
 
 
-def rate_stems(name: str) -> Sequence[tuple[int, str]]:
+def rate_stems(name: str) -> tuple[tuple[int, str], ...]:
     """Return the orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
     return _rate_stems(str(name))
 

@@ -311,8 +311,8 @@ class QuickTest:
         """The changes with which the answer may be right, in their order; none if nothing can be compared."""
         waiting = iter(changes if self._compiled.ids else ())
         while some := list(islice(waiting, TRIED_TOGETHER)):
-            held = self._true(some).all(axis=0) if self._equations else map(self._keeps_energy, some)
-            yield from (change for change, holds in zip(some, held, strict=True) if holds)
+            true = self._true(some).all(axis=0) if self._equations else np.array([self._keeps_energy(x) for x in some])
+            yield from (some[int(k)] for k in np.flatnonzero(true))
 
     def _true(self, changes: Sequence[ProposedChange]) -> Array:
         """Which equations are true with each of the changes, in doubles: shape (equations, changes)."""

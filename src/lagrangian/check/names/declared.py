@@ -6,7 +6,7 @@ parameter of the system is taken to be: the answer is then judged under that ass
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 from itertools import permutations
 from math import isclose
@@ -113,7 +113,7 @@ def _constant(expr: sp.Expr, known: set[sp.Symbol]) -> bool:
     return not moving and bool(expr.free_symbols - known) and bounded.operations(expr) <= LONGEST
 
 
-def _first(expr: sp.Expr, known: set[sp.Symbol], used: Sequence[set[Any]]) -> tuple[sp.Basic, sp.Expr] | None:
+def _first(expr: sp.Expr, known: set[sp.Symbol], used: Sequence[Set[Any]]) -> tuple[sp.Basic, sp.Expr] | None:
     """An unknown name and its value; the name that the fewest other lines use, as zeta of 2 zeta wn."""
     unknown = sorted(expr.free_symbols - known, key=lambda s: (sum(s in u for u in used), str(s)))
     found = ((s, _value(expr, s)) for s in unknown)

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import sympy as sp
@@ -15,7 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.implied_rates import implied_rates
-from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.nodes import Node, kept, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
@@ -376,17 +377,24 @@ class Names:
         return base
 
 
-def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
+def spelled_rates(base: str) -> tuple[tuple[int, str], ...]:
     """The orders and names that a spelled-out derivative can mean: xdd is the second derivative of x or the first of
     xd."""
-    yield from rate_stems(base)
-    for suffix, order in (("dd", 2), ("d", 1)):
-        if base.endswith(suffix) and len(base) > len(suffix):
-            yield order, base.removesuffix(suffix)
+    return _spelled_rates(str(base))
 
 
-def names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
+@lru_cache(maxsize=4_096)
+def _spelled_rates(base: str) -> tuple[tuple[int, str], ...]:
+    ends = ((suffix, order) for suffix, order in (("dd", 2), ("d", 1)) if base.endswith(suffix) and base != suffix)
+    return (*rate_stems(base), *((order, base.removesuffix(suffix)) for suffix, order in ends))
+
+
+def names_in(tree: Node) -> tuple[tuple[Token, bool], ...]:
     """The names in a tree, and whether each is differentiated by time there."""
+    return kept(tree, "names", lambda of: tuple(_names_in(of))) if isinstance(tree, Tree) else ()
+
+
+def _names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
     stack: list[tuple[Node, bool]] = [(tree, False)]
     while stack:
         item, changing = stack.pop()
