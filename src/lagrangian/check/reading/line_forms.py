@@ -13,8 +13,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import inside, only_name, start_of
+from lagrangian.check.reading.names import Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source

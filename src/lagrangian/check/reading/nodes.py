@@ -8,7 +8,7 @@ power_of    sin²(x): the call, and the exponent
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypeAlias, TypeVar, cast
 
 from lark import Token, Tree
@@ -151,6 +151,25 @@ def only_name(tree: Node) -> tuple[Token, int] | None:
 def derived(trees: Sequence[Tree]) -> set[str]:
     """The letters of which partial derivatives stand in the trees: H of ∂H/∂x."""
     return {str(part.children[0]) for tree in trees for part in tree.iter_subtrees() if part.data == "partial"}
+
+
+def names_in(tree: Node) -> tuple[tuple[Token, bool], ...]:
+    """The names in a tree, and whether each is differentiated by time there."""
+    return kept(tree, "names", lambda of: tuple(_names_in(of))) if isinstance(tree, Tree) else ()
+
+
+def _names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
+    stack: list[tuple[Node, bool]] = [(tree, False)]
+    while stack:
+        item, changing = stack.pop()
+        if not isinstance(item, Tree):
+            continue
+        if item.data == "name":
+            yield item.children[0], changing or item.children[1] is not None  # type: ignore[misc]
+        elif item.data == "partial":
+            stack.append((item.children[1], False))
+        else:
+            stack.extend((child, changing or item.data == "rate") for child in item.children)
 
 
 def rates_in(tree: Tree) -> tuple[int, list[tuple[int, Sequence[Node]]]]:

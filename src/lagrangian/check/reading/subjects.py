@@ -15,12 +15,13 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
-from lagrangian.check.reading.names import Names, names_in, spelled_rates
+from lagrangian.check.reading.names import Names, spelled_rates
 from lagrangian.check.reading.nodes import (
     Node,
     called_name,
     inside,
     is_matrix,
+    names_in,
     only_name,
     rates_in,
     squared_name,
