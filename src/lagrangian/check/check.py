@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -238,13 +238,8 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: bool) -> Verdict | None:
     """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
     change, which without ``explain`` is not considered."""
-    whole, new = QuickTest(truth, spelling.lines), new_names(truth, spelling.lines)
-    found = relations(new, spelling.lines)
-    for change in candidates(truth, spelling.lines):
-        told = without_relations(found, change.put, spelling.lines) if found else spelling.lines
-        glance = QuickTest(truth, told) if found else whole
-        if not glance.may_be(change):
-            continue
+    new = new_names(truth, spelling.lines)
+    for change, told in _possible(truth, spelling.lines, new):
         judged = judged_lines(truth, told, change, compared=False)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
             continue
@@ -274,6 +269,19 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
             hint=verdict.hint,
         )
     return _put_in(truth, spelling, verdict) if new else None
+
+
+def _possible(
+    truth: Reference, lines: Sequence[AnsweredLine], new: Sequence[sp.Expr]
+) -> Iterator[tuple[ProposedChange, Sequence[AnsweredLine]]]:
+    """The changes with which an answer may be right, and its lines without those that only relate coordinates."""
+    found, tried = relations(new, lines), candidates(truth, lines)
+    if not found:
+        yield from ((change, lines) for change in QuickTest(truth, lines).possible(tried))
+        return
+    for change in tried:
+        told = without_relations(found, change.put, lines)
+        yield from ((change, told) for change in QuickTest(truth, told).possible([change]))
 
 
 def _put_in(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:

@@ -104,7 +104,7 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
 def _is_other_lagrangian(line: AnsweredLine) -> bool:
     """Whether a line says what L is in terms of T and V alone, and not T − V."""
     T, V = ENERGIES["T"], ENERGIES["V"]
-    used = line.expr.free_symbols - {time} | line.expr.atoms(AppliedUndef)
+    used = bounded.symbols(line.expr) - {time} | bounded.atoms(line.expr, AppliedUndef)
     return (line.kind, line.name) == ("statement", "L") and set() < used <= {T, V} and line.expr != T - V
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -133,6 +134,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
+    answer = replace(answer, others=tuple(map(cache, answer.others)))  # what is read to compare is read once
     own = _deciding(derivation, answer)
     wrong: set[tuple[int, str]] = set()
     for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():

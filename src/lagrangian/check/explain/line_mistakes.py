@@ -219,7 +219,7 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
     A Ξ without the dampers, which other ``lines`` hold, says nothing of these and of the springs beside them.
     """
     found: set[int] = set()
-    driven = {id(p) for p in pool.all if isinstance(p.element, Force | Torque)}
+    driven: set[int] = pool.kept("driven", lambda: {id(p) for p in pool.all if isinstance(p.element, Force | Torque)})
     for line in right:
         i = index_of(pool.truth, line.name)
         if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):

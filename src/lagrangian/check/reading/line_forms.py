@@ -13,8 +13,8 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import inside, only_name, start_of
+from lagrangian.check.reading.names import Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
 from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
@@ -117,12 +117,12 @@ def _moves(line: AnswerLine) -> bool:
 
 def is_general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
-    return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
+    return any(is_placeholder(x) and not is_force(x) for x in bounded.atoms(value, AppliedUndef))
 
 
 def accelerates(value: sp.Expr) -> bool:
     """Whether an expression contains an acceleration."""
-    return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
+    return any(d.derivative_count > 1 for d in bounded.atoms(value, sp.Derivative))
 
 
 def is_rate_of(token: Token, side: Tree) -> bool:

@@ -32,8 +32,8 @@ from lagrangian.check.reading.line_forms import (
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
-from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
+from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
