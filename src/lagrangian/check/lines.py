@@ -30,7 +30,9 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         beside = answer.beside.get(number, frozenset())
         expr, names = sp.sympify(stated.residual), stated.names
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
-        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names, pushing))
+        found.append(
+            AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names, pushing, stated.summands)
+        )
     return tuple(found)
 
 

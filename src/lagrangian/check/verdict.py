@@ -57,6 +57,8 @@ class AnsweredLine(Brief):
     beside: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     senses: frozenset[tuple[str, str, str]] = frozenset()
+    summands: tuple[tuple[tuple[sp.Expr, ...], ...], ...] = field(default=(), compare=False, repr=False)
+    """Its terms with their factors as they are written; see `reading.summands`."""
 
     @property
     def title(self) -> str:
