@@ -83,6 +83,7 @@ def of_line(
     if np.abs(values).max() <= 1e-12:
         return [], []
     found = against.pieces.allow(singles(pool, [change], values))
+    found = _of_one_force(pool, found, i, against) if line.kind == "Xi" and i is not None else found
     if found and found[0].cost <= EXOTIC:
         return found, []
     if line.kind == "T" and (level := _up_to_a_constant(pool, values) or _up_to_time(pool, line.expr - right)):
@@ -90,9 +91,7 @@ def of_line(
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
     pairs = against.pieces.allow(vectors.pairs(values))
     if line.kind == "Xi" and pairs and not against.unopposed([*found, *pairs]):
-        opposed = [
-            pool.places[k] for k in against.mistakes
-        ]  # of changes with the same effect on this line, one may be free
+        opposed = [pool.places[k] for k in against.mistakes]  # of those with the same effect here, one may be free
         kept = np.where(np.isin(np.arange(len(change)), opposed)[:, None], 0.0, change)
         pairs = Vectors(pool, kept).pairs(values) or pairs
     found = sorted([*found, *pairs], key=lambda e: e.cost)
@@ -100,6 +99,18 @@ def of_line(
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_one_force(pool: Pool, found: list[Explanation], i: int, against: Against) -> list[Explanation]:
+    """The explanations of Ξ_i, without those by which the Ξ of another coordinate that is right would be wrong."""
+
+    def elsewhere(e: Explanation) -> bool:
+        own = (t for t in e.told if against.speaks(t))
+        return any(
+            np.abs(np.delete(pool.Xi[pool.places[id(t.mistake)]], i, axis=0)).max(initial=0.0) > 1e-9 for t in own
+        )
+
+    return [e for e in found if not elsewhere(e)]
 
 
 def _up_to_a_constant(pool: Pool, values: Array) -> list[Explanation]:

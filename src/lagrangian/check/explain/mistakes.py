@@ -46,7 +46,7 @@ from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.explain.sums_written import by_sums
 from lagrangian.check.explain.taken_as import taken_as
-from lagrangian.check.explain.term_said import with_term
+from lagrangian.check.explain.term_said import beside, with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
 from lagrangian.check.explain.written_pieces import Against, WrittenPieces
@@ -367,7 +367,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
         )
         if not chosen:
             others = [e for e in group if e is not best and len(e.told) == len(best.told) == 1]
-            others = [e for e in others if reach(e) < reach(best) + SPARED]
+            others = beside(best, [e for e in others if reach(e) < reach(best) + SPARED])
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(is_part(pool, t, of) for of, _ in chosen)]
     wide = joined(pool, chosen)

@@ -43,8 +43,10 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         return True
     if _family(mistake) != _family(other):
         return False
+    if quoted and others and mistake.element == other.element:
+        return quoted <= others or others <= quoted or _without_rates(quoted) == _without_rates(others)
     if quoted and others:
-        return quoted == others or (mistake.element == other.element and (quoted <= others or others <= quoted))
+        return quoted == others
     return mistake.element is None or other.element is None or mistake.element == other.element
 
 
@@ -63,3 +65,8 @@ def _quoted(mistake: Mistake) -> set[sp.Basic]:
     """The letters, coordinates and rates that the words quote."""
     exprs = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
     return {atom for x in exprs for atom in (x.free_symbols | x.atoms(sp.Function, sp.Derivative)) - {sp.Symbol("t")}}
+
+
+def _without_rates(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """What is quoted, with coordinates in place of their rates: J φ̈ of an equation is ½ J φ̇² of T*."""
+    return {x.expr if isinstance(x, sp.Derivative) else x for x in quoted}

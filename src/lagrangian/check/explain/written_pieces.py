@@ -20,7 +20,7 @@ from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.explain.search import Explanation, Told, without_constant
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import Array, CompiledExpressions
-from lagrangian.model import RigidBody
+from lagrangian.model import RigidBody, time
 from lagrangian.records import dataclass
 
 Factors: TypeAlias = tuple[sp.Expr, ...]
@@ -44,10 +44,11 @@ LEDGERS = {"T": "kinetic", "V": "potential"}
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A right piece of T* or V, its values, and the body of which it is ½Jω²."""
+    """A right piece of T* or V, its values, the letters with which it is written, and the body of which it is ½Jω²."""
 
     ledger: str
     values: Array
+    letters: frozenset[Any]
     turning: RigidBody | None = None
 
 
@@ -98,9 +99,10 @@ class WrittenPieces:
             whole = without_constant(whole) if ledger == "V" else whole
             if np.abs(whole).max() <= NEAR:
                 continue
-            for piece in self._of(ledger, whole):
-                if any(self._stands(line, piece, times) for line in self.lines if line.kind in (ledger, "L")):
-                    return True
+            pieces = self._of(ledger, whole)
+            lines = [x for x in self.lines if x.kind in (ledger, "L")]
+            if any(self._stands(line, p, pieces, times) for line in lines for p in pieces):
+                return True
         rows = self.pool.W[place] / float(number)
         return bool(np.abs(self.pool.T[place]).max() > NEAR) and any(self._moves(x) for x in rows)
 
@@ -119,14 +121,21 @@ class WrittenPieces:
     def _pieces(self) -> list[_Piece]:
         """The energies of translations and rotations, of other elements, of springs and of weights."""
         s = ingredients_of(self.truth.derivation)
-        kinetic: list[tuple[Any, RigidBody | None]] = [(s.translation(b), None) for b in s.bodies]
-        kinetic += [(s.rotation(b), b) for b in s.bodies if isinstance(b, RigidBody)]
-        kinetic += [(s.kinetic(e), None) for e in s.model.elements if e.kind == "kinetic"]
-        stored = [V for *_, V in s.springs()] + [V for *_, V in s.weights()]
-        exprs = [self.truth.put(x) for x in (*(x for x, _ in kinetic), *stored)]
+        kinetic: list[tuple[Any, Any, RigidBody | None]] = []
+        for b in s.bodies:
+            kinetic.append((s.translation(b), (s.expand(b.mass), *s.velocity(b)), None))
+            if isinstance(b, RigidBody):
+                kinetic.append((s.rotation(b), (*map(s.expand, b.inertia), *s.omega(b)), b))
+        others = [s.kinetic(e) for e in s.model.elements if e.kind == "kinetic"]
+        kinetic += [(x, (x,), None) for x in others]
+        stored = [V for *_, V in (*s.springs(), *s.weights())]
+        exprs = [self.truth.put(x) for x in (*(x for x, *_ in kinetic), *stored)]
         values = CompiledExpressions(exprs).at(self.truth.states)
-        found = [_Piece("T", x, b) for x, (_, b) in zip(values, kinetic, strict=False)]
-        found += [_Piece("V", without_constant(x)) for x in values[len(kinetic) :]]
+        each = zip(values, kinetic, strict=False)
+        found = [_Piece("T", x, _letters(sp.Tuple(*made)), body) for x, (_, made, body) in each]
+        found += [
+            _Piece("V", without_constant(x), _letters(V)) for x, V in zip(values[len(kinetic) :], stored, strict=True)
+        ]
         return [p for p in found if np.isfinite(p.values).all() and np.abs(p.values).max() > NEAR]
 
     def _of(self, ledger: str, whole: Array) -> list[_Piece]:
@@ -164,12 +173,18 @@ class WrittenPieces:
             terms.setdefault(k, []).append((x, factors))
         return _Line(kind, tuple(map(tuple, terms.values())))
 
-    def _stands(self, line: _Line, piece: _Piece, times: Fraction) -> bool:
-        """Whether a line has a piece in full, or with its ½ beside another mass, where it should count so often."""
+    def _stands(self, line: _Line, piece: _Piece, changed: Sequence[_Piece], times: Fraction) -> bool:
+        """Whether a line has one of the pieces that are ``changed`` in full, or with its ½ beside another mass, where
+        each should count so often."""
         sign = -1.0 if line.kind == "L" and piece.ledger == "V" else 1.0
         every = self.pool.kept("right pieces", self._pieces)
         alike = [p for p in every if p.ledger == piece.ledger and _is_near(p.values, piece.values)]
-        if len(line.like(sign * piece.values)) >= len(alike):
+        others = [p for p in alike if not any(p is x for x in changed)]
+        there = line.like(sign * piece.values)
+        of_others = [x for x in there if any(_letters(sp.Tuple(*x)) <= p.letters for p in others)]
+        if others and len(of_others) < len(there):
+            return True
+        if len(there) > len(others):
             return times == 0 or not line.like(sign * float(times) * piece.values)
         if times == 0 or piece.ledger == "V":
             return False
@@ -236,6 +251,11 @@ class Against:
     def also(self, mistakes: Set[int]) -> Against:
         """The same with more mistakes that would show in a right line."""
         return Against(self.mistakes | mistakes, self.pieces)
+
+
+def _letters(expr: sp.Basic) -> frozenset[Any]:
+    """The constants in an expression."""
+    return frozenset(expr.free_symbols - {time})
 
 
 def _is_near(one: Array, other: Array) -> bool:
