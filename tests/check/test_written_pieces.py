@@ -70,8 +70,7 @@ def test_the_terms_of_an_equation_count_where_no_energy_is_written() -> None:
     assert "½Jω² of rigid body 'roller' is missing" in said and "counts half" not in said
 
 
-def test_a_piece_that_is_halved_is_told() -> None:
-    assert "counts half" in told(roller("m*r^2"), f"T = 1/4 m x'^2 + 1/2 m r^2 (x'/r)^2{V}3/2 m x'' + k x = 0")
+def test_a_piece_that_is_doubled_is_told() -> None:
     assert "The ½ of ½mv²" in told(roller("m*r^2"), f"T = m x'^2 + 1/2 m r^2 (x'/r)^2{V}3 m x'' + k x = 0")
 
 

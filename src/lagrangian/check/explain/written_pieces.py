@@ -99,12 +99,12 @@ class WrittenPieces:
             whole = without_constant(whole) if ledger == "V" else whole
             if np.abs(whole).max() <= NEAR:
                 continue
-            pieces = self._of(ledger, whole)
+            pieces = self._of(ledger, whole, _turns(told))
             lines = [x for x in self.lines if x.kind in (ledger, "L")]
             if any(self._stands(line, p, pieces, times) for line in lines for p in pieces):
                 return True
         rows = self.pool.W[place] / float(number)
-        return bool(np.abs(self.pool.T[place]).max() > NEAR) and any(self._moves(x) for x in rows)
+        return bool(np.abs(self.pool.T[place]).max() > NEAR) and any(self._moves(x, times) for x in rows)
 
     @staticmethod
     def _said(told: Told) -> tuple[Fraction, Fraction] | None:
@@ -138,9 +138,10 @@ class WrittenPieces:
         ]
         return [p for p in found if np.isfinite(p.values).all() and np.abs(p.values).max() > NEAR]
 
-    def _of(self, ledger: str, whole: Array) -> list[_Piece]:
-        """The pieces of which a part of T* or V consists: one of them, two or all."""
+    def _of(self, ledger: str, whole: Array, turns: bool) -> list[_Piece]:
+        """The pieces of which a part of T* or V consists: one of them, a rotation if it is one, two or all."""
         own = [p for p in self.pool.kept("right pieces", self._pieces) if p.ledger == ledger]
+        own.sort(key=lambda p: (p.turning is not None) != turns)
         size = NEAR * np.abs(whole).max()
         for chosen in (*([p] for p in own), *([p, q] for k, p in enumerate(own) for q in own[:k]), own):
             if chosen and np.abs(sum(p.values for p in chosen) - whole).max() <= size:
@@ -184,6 +185,8 @@ class WrittenPieces:
         of_others = [x for x in there if any(_letters(sp.Tuple(*x)) <= p.letters for p in others)]
         if others and len(of_others) < len(there):
             return True
+        if len(there) == len(others) + times:
+            return False
         if len(there) > len(others):
             return times == 0 or not line.like(sign * float(times) * piece.values)
         if times == 0 or piece.ledger == "V":
@@ -213,13 +216,13 @@ class WrittenPieces:
         a, b = CompiledExpressions(exprs).at(self.truth.states)
         return _is_near(a, b)
 
-    def _moves(self, row: Array) -> bool:
+    def _moves(self, row: Array, times: Fraction) -> bool:
         """Whether what a piece of T* adds to an equation stands in one in full, and in no other way."""
         if np.abs(row).max() <= NEAR:
             return False
         alike = self.pool.kept(("rows", row.tobytes()), lambda: len([*self._adding(row)]))
         found = (max(len(x.like(row)), len(x.like(-row))) for x in self.lines if x.kind == "equation")
-        return max(found, default=0) >= max(alike, 1)
+        return (most := max(found, default=0)) >= max(alike, 1) and most != max(alike, 1) - 1 + times
 
     def _adding(self, row: Array) -> Iterator[Any]:
         """The pieces of T* that add the same to an equation, each once."""
@@ -251,6 +254,13 @@ class Against:
     def also(self, mistakes: Set[int]) -> Against:
         """The same with more mistakes that would show in a right line."""
         return Against(self.mistakes | mistakes, self.pieces)
+
+
+def _turns(told: Told) -> bool:
+    """Whether a mistake is said of the rotation of a body."""
+    change, wrong = told.mistake.change, told.mistake.wrong
+    said = str(wrong.variant.what) if wrong is not None else "".join(map(str, change.site.words)) if change else ""
+    return "½Jω²" in said or "rotation" in said
 
 
 def _letters(expr: sp.Basic) -> frozenset[Any]:
