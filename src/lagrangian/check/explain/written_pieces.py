@@ -222,7 +222,7 @@ class WrittenPieces:
             return False
         alike = self.pool.kept(("rows", row.tobytes()), lambda: len([*self._adding(row)]))
         found = (max(len(x.like(row)), len(x.like(-row))) for x in self.lines if x.kind == "equation")
-        return (most := max(found, default=0)) >= max(alike, 1) and most != max(alike, 1) - 1 + times
+        return 0 < alike <= (most := max(found, default=0)) and most != alike - 1 + times
 
     def _adding(self, row: Array) -> Iterator[Any]:
         """The pieces of T* that add the same to an equation, each once."""
