@@ -32,7 +32,7 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
         told = (stated.kind, expr, number, stated.name, stated.text, beside, names, pushing)
         sides = None if stated.lhs is None else (sp.sympify(stated.lhs), sp.sympify(stated.rhs))
-        found.append(AnsweredLine(*told, sides))
+        found.append(AnsweredLine(*told, sides, stated.summands))
     return tuple(found)
 
 

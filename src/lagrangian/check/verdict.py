@@ -58,6 +58,8 @@ class AnsweredLine(Brief):
     names: frozenset[str] = frozenset()
     senses: frozenset[tuple[str, str, str]] = frozenset()
     sides: tuple[sp.Expr, sp.Expr] | None = field(default=None, repr=False, compare=False)
+    summands: tuple[tuple[tuple[sp.Expr, ...], ...], ...] = field(default=(), compare=False, repr=False)
+    """Its terms with their factors as they are written; see `reading.summands`."""
 
     @property
     def title(self) -> str:

@@ -18,11 +18,11 @@ from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import Senses, columns, said_of_column, senses_of
 from lagrangian.check.explain.its_body import of_its_body
-from lagrangian.check.explain.line_mistakes import stated, without_constant
+from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
-from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
+from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation, without_constant
 from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers

@@ -13,7 +13,6 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.apart import beside, folded, moving_part, rescales, told_apart
 from lagrangian.check.explain.dampers_said import damper_share
-from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_along, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import (
@@ -28,6 +27,7 @@ from lagrangian.check.explain.quantities import (
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
 from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, WHY_TERM, why_of
+from lagrangian.check.explain.search import without_constant
 from lagrangian.check.explain.sense_counted import senses, value_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere

@@ -102,6 +102,8 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
         quoted, others = (x - _functions(x) for x in (quoted, others))
         letters, told = _letters(quoted), _letters(others)
         letters, told = (letters, told) if letters and told else (quoted, others)
+        if same and _without_rates(quoted) == _without_rates(others):
+            return True
         return quoted == others or (same and (letters <= told or told <= letters))
     return same
 
@@ -139,3 +141,8 @@ def _functions(quoted: set[sp.Basic]) -> set[sp.Basic]:
 def _letters(quoted: set[sp.Basic]) -> set[sp.Basic]:
     """Those that stand for constants."""
     return {x for x in quoted if isinstance(x, sp.Symbol)}
+
+
+def _without_rates(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """What is quoted, with coordinates in place of their rates: J φ̈ of an equation is ½ J φ̇² of T*."""
+    return {x.expr if isinstance(x, sp.Derivative) else x for x in quoted}

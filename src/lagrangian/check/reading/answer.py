@@ -51,6 +51,12 @@ Kind: TypeAlias = Literal[
 """
 
 
+Factors: TypeAlias = tuple[sp.Expr, ...]
+"""The factors of a term as they are written: ½, m r² and (ẋ/r)²."""
+Summands: TypeAlias = tuple[tuple[Factors, ...], ...]
+"""The terms of a sum and, for each, behind the term as a whole, those of a bracket in it times the rest."""
+
+
 @dataclass(frozen=True)
 class AnswerLine:
     """One statement of an answer. ``lhs`` and ``rhs`` are the two sides as written; ``lhs`` is None if the left side
@@ -66,6 +72,8 @@ class AnswerLine:
     place: Place
     text: str
     names: frozenset[str] = field(default=frozenset(), compare=False)
+    summands: Summands = field(default=(), compare=False)
+    """The terms of the value, of an equation those of left minus right, as they are written; see `summands`."""
 
     @property
     def residual(self) -> sp.Expr:
