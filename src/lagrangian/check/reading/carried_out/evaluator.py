@@ -54,6 +54,7 @@ from lagrangian.check.reading.carried_out.values import (
     over,
     power,
     times,
+    transposed,
 )
 from lagrangian.records import dataclass, field
 
@@ -224,14 +225,13 @@ class Evaluator:
             return of.attribute(node.attr)
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
+        if node.attr == "T" and isinstance(of, (sp.Expr, MatrixBase, list)):
+            return transposed(of, self.known)
         free = isinstance(of, sp.Symbol) and (self.matlab or not hasattr(of, node.attr))
         if isinstance(of, Fields):
             return of.value(node.attr)  # p.m
         if free:
             return sp.Symbol(node.attr)
-        if node.attr == "T" and isinstance(of, (MatrixBase, list)):
-            flat = isinstance(of, list) and not any(isinstance(x, list) for x in of)
-            return matrix(of) if flat else matrix(of).T
         if isinstance(of, Equation) and node.attr in ("lhs", "rhs"):
             return of.left if node.attr == "lhs" else of.right
         return BoundMethod(of, node.attr)
