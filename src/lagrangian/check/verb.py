@@ -237,8 +237,8 @@ def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
         verdict = None if computed is None else _judged(derivation, computed)[1]
         if computed is None or verdict is None or verdict.status is not check.Status.WRONG:
             return None
-        if unexplained(derivation, computed, verdict):
-            return None
+        if unexplained(derivation, computed, verdict) or any(u.symbol.is_Symbol for u in computed.unknown):
+            return None  # names that its comments may explain
     except ParseError:
         return None
     return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed

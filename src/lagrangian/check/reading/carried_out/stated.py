@@ -22,7 +22,7 @@ from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
 from lagrangian.check.reading.carried_out.prescribed_rates import other_rates
-from lagrangian.check.reading.carried_out.rates_said import implied_symbols, listed_symbols
+from lagrangian.check.reading.carried_out.rates_said import symbols_said
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -70,7 +70,7 @@ _HEAD = re.compile(r"[ \t]*+(?P<name>[^\W\d]\w{0,24})[ \t]*+:(?!=)")
 """The name of the program's own for an equation, in front of it in a comment: eq1: …"""
 _COMMENTED = re.compile(r"[#%][^\n]*+")
 _MEANS = re.compile(
-    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ]"
+    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ](?:the[ ])?"
     r"(?P<of>[^\W\d]\w{0,24})(?![\w'’(*/+-])"
 )
 """What a comment says of a name: R is r."""
@@ -120,7 +120,7 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         behind = ((k, _COMMENTED.search(x)) for k, x in enumerate(text.split("\n"), 1))
         run.behind = {k: m.group() for k, m in behind if m is not None}
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
-        of_symbols = _of_symbols(text, run, names, model, scope)
+        of_symbols = _of_symbols(text, run, names, said, model, scope)
         moving = MovingNames(model, scope, of_symbols)
         found = list(_statements(run, moving, _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
@@ -140,14 +140,19 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
     foreign = {x for x in own if not _is_of_system(scope, x)}
     found = [*_renamed(of_symbols | said | run.renamed, found, scope), *_of_ways(run, found, model, scope), *found]
     lines = text.split("\n")
-    said_of = [m["said"] if (m := _COMMENT.match(x)) and _accelerates(m["said"], twice) else "" for x in lines]
-    said_of = [x[m.end() :] if (m := _HEAD.match(x)) and m["name"] in foreign else x for x in said_of]
-    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
-    comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+    comments = _comments(lines, twice, foreign)
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
     notes += tuple(told(name, of) for name, of in run.read_as.items())
     notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
     return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+
+
+def _comments(lines: Sequence[str], twice: Set[str], foreign: Set[str]) -> list[str]:
+    """What comments with accelerations say, line by line, which have no ``foreign`` names but in front of equations."""
+    said_of = [m["said"] if (m := _COMMENT.match(x)) and _accelerates(m["said"], twice) else "" for x in lines]
+    said_of = [x[m.end() :] if (m := _HEAD.match(x)) and m["name"] in foreign else x for x in said_of]
+    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
+    return [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
 
 
 def _accelerates(said: str, twice: Set[str]) -> bool:
@@ -188,18 +193,17 @@ def _renamed(
 
 
 def _of_symbols(
-    text: str, run: Interpreter, names: Mapping[str, Value], model: Model, scope: AnswerScope
+    text: str, run: Interpreter, names: Mapping[str, Value], said: Mapping[str, str], model: Model, scope: AnswerScope
 ) -> dict[str, str]:
     """What symbols are that the system does not name, as comments say or else the program's derivatives by time."""
     coordinates, used = {c.name for c in model.coordinates}, set(run.used)
-    implied = implied_symbols(
-        run,
-        names,
-        lambda name: bool(set(scope.meanings(name)[0]) & coordinates),
-        lambda name: not _is_of_system(scope, name),
-    )
+
+    def is_coordinate(name: str) -> bool:
+        return not coordinates.isdisjoint(scope.meanings(name)[0])
+
+    found = symbols_said(text, run, names, said, is_coordinate, lambda name: not _is_of_system(scope, name))
     run.used = used
-    return implied | listed_symbols(text)
+    return found
 
 
 def _is_constant(scope: AnswerScope, name: str, model: Model) -> bool:

@@ -76,6 +76,8 @@ class OwnFunction:
     body: Sequence[ast.stmt] | ast.expr
     out: str | None = None
     """The names that hold the results, in MATLAB."""
+    defaults: Sequence[ast.expr] = ()
+    """What the last arguments are if they are not given."""
 
 
 @dataclass(frozen=True, eq=False)
