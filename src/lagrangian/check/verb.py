@@ -126,6 +126,9 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
         if found.right:
             verdict = found
             break
+    if read and answer.computed is not None and verdict.right:
+        found = check.check_in_numbers(derivation, check.lines_of(answer.computed()), hint=hint)
+        verdict = found if found.status is check.Status.WRONG else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
     told = _told(verdict, answer) if read else verdict
@@ -146,6 +149,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
             needed = _of_comments(wrong) if other.program else wrong
             if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
+                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
+                    return _of_readings(derivation, computed, hint)
                 return _told(verdict, other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
@@ -250,6 +255,20 @@ def _program(answer: Answer) -> Answer | None:
         return next((x for other in answer.others[-1:] if (x := other()).program), None)
     except ParseError:
         return None
+
+
+def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
+    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say."""
+    try:
+        computed = None if answer.computed is None else answer.computed()
+        verdict = None if computed is None else _judged(derivation, computed)[1]
+        if computed is None or verdict is None or verdict.status is not check.Status.WRONG:
+            return None
+        if unexplained(derivation, computed, verdict) or any(u.symbol.is_Symbol for u in computed.unknown):
+            return None  # names that its comments may explain
+    except ParseError:
+        return None
+    return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed
 
 
 def _misread(verdict: check.Verdict) -> bool:

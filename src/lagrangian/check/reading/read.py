@@ -33,14 +33,19 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
-from lagrangian.check.reading.programs.marks import is_program, told_comments, with_comments_read
+from lagrangian.check.reading.programs.marks import (
+    is_program,
+    told_beside_comments,
+    told_comments,
+    with_comments_read,
+)
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
-from lagrangian.check.reading.read_steps import stated_by_steps
+from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
@@ -107,28 +112,13 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
+    read = partial(_declared, model=model, place=place)
     program = carried_out(text, model)
-    if program is None:
-        return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
-
-    by_steps = partial(stated_by_steps, program, text, model, partial(_declared, model=model, place=place))
-    typed: Answer | ParseError
-    try:
-        typed = _declared(text, model, place)
-    except ParseError as error:
-        typed = error
-    if isinstance(typed, ParseError) or typed.doubt is not None or not _has_equations(typed):
-        try:
-            return by_steps()
-        except ParseError:
-            if isinstance(typed, ParseError):
-                raise typed from None
-    return replace(typed, others=(*typed.others, by_steps))
-
-
-def _has_equations(answer: Answer) -> bool:
-    """Whether an equation with accelerations stands in an answer: where only a program has some, that is judged."""
-    return any(x.kind == "equation" and accelerates(sp.sympify(x.residual)) for x in answer.lines)
+    if program is not None:
+        return read_program(program, text, model, read)
+    found = without_sums_of_loops(text, read)
+    beside = told_beside_comments(text, [x.place for x in equations_of_motion(found)])
+    return replace(found, notes=(*beside, *found.notes))
 
 
 def _declared(text: str, model: Model, place: Place | None) -> Answer:
