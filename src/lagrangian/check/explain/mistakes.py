@@ -114,9 +114,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
         return NamedMistakes(_once([reasoned(pool, p, pieces) for p in blamed.said], ()), certain=True, blamed=blamed)
     shown = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
     against = Against(frozenset(shown), pieces)
-    groups: list[list[Explanation]] = []
-    own: list[Mistake] = []
-    left: list[AnsweredLine] = []
+    groups, own, left = list[list[Explanation]](), list[Mistake](), list[AnsweredLine]()
     quotable = letters_of([*(f.line for f in findings), *(x for x in lines if x.kind == "definition")])
     forces = of_forces(pool, wrong, lines)
     prescribed = {line: said for line in wrong if (said := of_prescribed(truth, line)) is not None}
