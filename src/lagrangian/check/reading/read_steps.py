@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lagrangian.check.reading.answer import Answer
 from lagrangian.check.reading.carried_out.stated import CarriedOut, carried_out
-from lagrangian.check.reading.marked_values import Marks, with_marks
+from lagrangian.check.reading.marked_values import ValueMarks, with_marks
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
 
@@ -19,7 +19,7 @@ COMMENTS_LEFT_OUT = "Its comments could not be read and were not judged."
 def stated_by_steps(program: CarriedOut, text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
     """Return what ``read`` makes of a program and, with marks, of its ``text``; `ParseError` if it cannot be read."""
 
-    def marked(marks: Marks) -> Answer:
+    def marked(marks: ValueMarks) -> Answer:
         again = carried_out(text, model, marks)
         if again is None:
             raise ParseError("the program cannot be carried out with marks", code="E701")
