@@ -24,7 +24,7 @@ from lagrangian.check.difference import differences
 from lagrangian.check.explain.in_own_names import OwnName, own_names, with_names
 from lagrangian.check.explain.numerators import multiplied
 from lagrangian.check.explain.origins_said import Made, with_made
-from lagrangian.check.reading.marked_values import MarkedValue, Marks
+from lagrangian.check.reading.marked_values import MarkedValue, ValueMarks
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, TermDifference, Verdict
@@ -39,7 +39,7 @@ _WORD = re.compile(r"[^\W\d]\w*+")
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class PartOfValue:
     """What an equation has of a value: its factor, and the terms of factor times value."""
 
     of: MarkedValue
@@ -52,7 +52,7 @@ class Part:
         return bool(self.factor.free_symbols - {time})
 
 
-def with_origins(truth: Reference, verdict: Verdict, marks: Marks, lines: Sequence[AnsweredLine]) -> Verdict:
+def with_origins(truth: Reference, verdict: Verdict, marks: ValueMarks, lines: Sequence[AnsweredLine]) -> Verdict:
     """The verdict, with the wrong terms of equations at the values in which they were made; ``lines`` are those of the
     answer that was read with marks."""
     rows = [replace(x, expr=truth.expand(x.expr)) for x in lines if x.kind == "equation"]
@@ -89,7 +89,7 @@ def _named(d: TermDifference, names: Sequence[OwnName]) -> TermDifference:
     return replace(d, term=with_names(d.term, names), written=with_names(d.written, names))
 
 
-def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, Part]]) -> bool:
+def _fits(made: Made, found: Sequence[Made], uses: Sequence[tuple[Finding, PartOfValue]]) -> bool:
     """Whether every equation that has the value shows the same mistake in it, and the value rather than its use is
     wrong: a sign or a factor that is wrong in all of what a name adds may be that of the equation."""
     shown = {id(x.finding) for x in found if x.of is made.of}
@@ -113,7 +113,7 @@ def _is_moving(factor: sp.Expr) -> bool:
     return any(isinstance(x, (AppliedUndef, sp.Derivative)) for x in (factor, -factor))
 
 
-def _names_only(truth: Reference, marks: Marks, number: int) -> bool:
+def _names_only(truth: Reference, marks: ValueMarks, number: int) -> bool:
     """Whether a line of a program has nothing of the system but names to which values were given before."""
     said = _COMMENT.sub("", marks.lines[number - 1]) if 0 < number <= len(marks.lines) else ""
     own = {key(x.name) for x in marks.values}
@@ -122,7 +122,9 @@ def _names_only(truth: Reference, marks: Marks, number: int) -> bool:
     return bool(words & own) and not words & given
 
 
-def _with_marks(truth: Reference, marks: Marks, line: AnsweredLine, rows: Sequence[AnsweredLine]) -> sp.Expr | None:
+def _with_marks(
+    truth: Reference, marks: ValueMarks, line: AnsweredLine, rows: Sequence[AnsweredLine]
+) -> sp.Expr | None:
     """An equation as it was read with marks; what it has of forces with names of the answer's own is not compared."""
     for expr in (x.expr for x in rows if x.number == line.number):
         if bounded.operations(expr) > LONGEST or not bounded.letters(expr) & marks.plain.keys():
@@ -138,20 +140,20 @@ def _foreign(truth: Reference, expr: sp.Expr) -> set[sp.Basic]:
     return {x for x in bounded.letters(expr) if isinstance(x, (sp.Symbol, AppliedUndef)) and x not in truth.names}
 
 
-def _parts(marks: Marks, expr: sp.Expr) -> list[Part]:
+def _parts(marks: ValueMarks, expr: sp.Expr) -> list[PartOfValue]:
     """The parts of an equation that come from marked values."""
     used = bounded.letters(expr)
-    found: list[Part] = []
+    found: list[PartOfValue] = []
     for of in marks.values:
         if of.added in used and not {of.added, of.scale} & marks.lost:
             factor, whole = (cast("sp.Expr", bounded.diff(expr, x).xreplace(marks.plain)) for x in (of.added, of.scale))
             if factor != 0:
-                found.append(Part(of, factor, frozenset(sp.Add.make_args(bounded.expand(whole)))))
+                found.append(PartOfValue(of, factor, frozenset(sp.Add.make_args(bounded.expand(whole)))))
     return found
 
 
 def _multiplied(
-    truth: Reference, marks: Marks, expr: sp.Expr, coordinate: str | None
+    truth: Reference, marks: ValueMarks, expr: sp.Expr, coordinate: str | None
 ) -> tuple[sp.Expr, sp.Expr, tuple[TermDifference, ...]]:
     """An equation that is solved for its acceleration, times the denominator, this, and the terms that differ in it."""
     whole, under = map(cast("Any", sp.sympify), sp.fraction(bounded.together(expr)))
@@ -174,7 +176,7 @@ def _is_second(rate: sp.Derivative) -> bool:
     return bool(rate.derivative_count > 1)
 
 
-def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tuple[MarkedValue, TermDifference]]:
+def _made_in(parts: Sequence[PartOfValue], d: TermDifference, alone: bool) -> list[tuple[MarkedValue, TermDifference]]:
     """The values in which a wrong term was made, with what is wrong in them; none if it was made in the equation.
 
     ``alone``: the equation has only names, so that a term which is missing was left out of one of them.
@@ -196,7 +198,7 @@ def _made_in(parts: Sequence[Part], d: TermDifference, alone: bool) -> list[tupl
     return found
 
 
-def _in_value(part: Part, d: TermDifference) -> TermDifference | None:
+def _in_value(part: PartOfValue, d: TermDifference) -> TermDifference | None:
     """What is wrong in a value, of a term that is wrong in the equation; None if its factor is not in the term."""
     term, written = (_divided(x, part.factor) for x in (d.term, d.written))
     for x in (term, written):

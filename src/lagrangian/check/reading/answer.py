@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 
 import sympy as sp
 
-from lagrangian.check.reading.marked_values import Marks
+from lagrangian.check.reading.marked_values import ValueMarks
 from lagrangian.errors import ParseError, Place
 from lagrangian.records import dataclass, field
 
@@ -133,7 +133,7 @@ class Answer:
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
     read_without: Callable[[frozenset[int]], Answer] | None = field(default=None, repr=False, compare=False)
     """The answer as it is read without some of its lines, by number; the others keep theirs."""
-    marked: Callable[[], tuple[Answer, Marks]] | None = field(default=None, repr=False, compare=False)
+    marked: Callable[[], tuple[Answer, ValueMarks]] | None = field(default=None, repr=False, compare=False)
     """The answer as it is read with marks in the values of its names."""
     commented: bool = field(default=False, repr=False, compare=False)
     """Whether comments hold equations of motion."""

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from lagrangian.check.reading.answer import MarkedRow
 from lagrangian.check.reading.marked_names import MarkedNames
-from lagrangian.check.reading.marked_values import Marks
+from lagrangian.check.reading.marked_values import ValueMarks
 from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.prose.marks import readings, told_without
@@ -41,7 +41,7 @@ class Choices:
     put: bool | None = None
     driven: bool = False
     marks: tuple[tuple[int, int], ...] = ()
-    values: Marks | None = None
+    values: ValueMarks | None = None
     """With which marks the values of names are read."""
 
     def names(self, model: Model) -> Names:

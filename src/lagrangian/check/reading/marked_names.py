@@ -9,15 +9,16 @@ import sympy as sp
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.line_forms import Statement
-from lagrangian.check.reading.marked_values import Marks, is_formula
+from lagrangian.check.reading.marked_values import ValueMarks, is_formula
 from lagrangian.check.reading.names import Names, Value
+from lagrangian.errors import ParseError
 from lagrangian.model import Model
 
 
 class MarkedNames(Names):
     """Names whose values are marked; ``statements`` are those of the answer."""
 
-    def __init__(self, model: Model, marks: Marks) -> None:
+    def __init__(self, model: Model, marks: ValueMarks) -> None:
         super().__init__(model)
         self.marks, self.statements = marks, list[Statement]()
         self.derivatives = _Derivatives(marks)
@@ -36,7 +37,7 @@ class MarkedNames(Names):
 class _Derivatives(dict[tuple[Any, sp.Expr], Any]):
     """The derivatives that an answer takes; the marks in what is differentiated are lost."""
 
-    def __init__(self, marks: Marks) -> None:
+    def __init__(self, marks: ValueMarks) -> None:
         super().__init__()
         self.marks = marks
 
@@ -45,7 +46,10 @@ class _Derivatives(dict[tuple[Any, sp.Expr], Any]):
         super().__setitem__(of, value)
 
 
-def begin(names: Names, statements: Sequence[Statement]) -> None:
-    """Tell marked names the statements in which they are given their values."""
+def begun(
+    names: Names, statements: Sequence[Statement], errors: list[ParseError], aside: list[str]
+) -> tuple[Sequence[Statement], list[ParseError], list[str]]:
+    """The statements of an answer as they were parsed; marked names are told in which of them they get their values."""
     if isinstance(names, MarkedNames):
         names.statements = list(statements)
+    return statements, errors, aside

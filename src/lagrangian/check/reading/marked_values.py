@@ -37,7 +37,7 @@ class MarkedValue:
     added: sp.Symbol
 
 
-class Marks:
+class ValueMarks:
     """The marks of one answer, in the order in which it gives names their values."""
 
     def __init__(self, text: str) -> None:
@@ -81,9 +81,9 @@ class Marks:
         return first + at[0] if at is not None and last - first + 1 == rows else first
 
 
-def with_marks(text: str, read: Callable[[Marks], T]) -> tuple[T, Marks]:
+def with_marks(text: str, read: Callable[[ValueMarks], T]) -> tuple[T, ValueMarks]:
     """What ``read`` makes of an answer with marks, and these."""
-    marks = Marks(text)
+    marks = ValueMarks(text)
     return read(marks), marks
 
 

@@ -24,8 +24,8 @@ from lagrangian.check.reading.latex.variants import with_variants_apart
 from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
-from lagrangian.check.reading.marked_names import begin
-from lagrangian.check.reading.marked_values import Marks, with_marks
+from lagrangian.check.reading.marked_names import begun
+from lagrangian.check.reading.marked_values import with_marks
 from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
@@ -161,6 +161,8 @@ def _with_said_values(reading: Choices, choices: list[Choices], text: str, model
     """The answer in one reading, with names that only its sentences explain; where they leave it open, with ``others``
     that are possible."""
     answer = _answer(text, model, place, reading, choices)
+    again = partial(with_marks, text, lambda x: _answer(text, model, place, replace(reading, values=x), []))
+    answer = replace(answer, marked=again if "[" in text or any(x.name for x in answer.lines) else None)
     if not answer.unknown:
         return answer
     typed, lines = plainer(text), Lines(model)
@@ -245,8 +247,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     in_text: Callable[[Source], Parser] = partial(PlainParser, words=words)
     in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
-    statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
-    begin(lines.names, statements)
+    statements, errors, aside = begun(lines.names, *parsed(source, parsers, written, words, lines, reading))
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
@@ -255,8 +256,8 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     finally:
         others += _seen_when_read(lines, marked) if reading == LIKELIEST else ()
     _check_number(rows if _states_anything(made, lines) else [], source, written)
-    doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     aside += told_remarks(remarks.lines) if reading.bare else []
+    doubtful = changing_words(given if latex else with_spoken_signs(given, words))
     notes = (*aside, *words.notes(), *reading.told(), *lines.names.notes, *comments, *doubtful)
     return Answer(
         made,
@@ -272,16 +273,10 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         lambda numbers: _with_said_values(reading, [], without_lines(given, numbers), model, place),
-        partial(with_marks, given, partial(_marked, given, model, place, reading)) if lines.names.own else None,
-        bool(comments),
+        commented=bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
     )
-
-
-def _marked(text: str, model: Model, place: Place | None, reading: Choices, marks: Marks) -> Answer:
-    """The answer in one reading, with marks."""
-    return _answer(text, model, place, replace(reading, values=marks), [])
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:

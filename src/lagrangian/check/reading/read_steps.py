@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian.check.reading.answer import Answer, AnswerLine
 from lagrangian.check.reading.carried_out.stated import CarriedOut, carried_out
 from lagrangian.check.reading.line_forms import accelerates
-from lagrangian.check.reading.marked_values import Marks, with_marks
+from lagrangian.check.reading.marked_values import ValueMarks, with_marks
 from lagrangian.check.reading.programs.marks import in_comment
 from lagrangian.errors import ParseError
 from lagrangian.model import Model
@@ -55,7 +55,7 @@ def equations_of_motion(answer: Answer) -> list[AnswerLine]:
 def _stated_by_steps(program: CarriedOut, text: str, model: Model, read: Callable[[str], Answer]) -> Answer:
     """Return what ``read`` makes of a program and, with marks, of its ``text``; `ParseError` if it cannot be read."""
 
-    def marked(marks: Marks) -> Answer:
+    def marked(marks: ValueMarks) -> Answer:
         again = carried_out(text, model, marks)
         if again is None:
             raise ParseError("the program cannot be carried out with marks", code="E701")

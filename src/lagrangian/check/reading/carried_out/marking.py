@@ -10,7 +10,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.values import Value, called_name
-from lagrangian.check.reading.marked_values import Marks, is_formula
+from lagrangian.check.reading.marked_values import ValueMarks, is_formula
 from lagrangian.records import dataclass, field
 
 DIFFERENTIATING = frozenset(
@@ -23,7 +23,7 @@ DIFFERENTIATING = frozenset(
 class MarkingInterpreter(Interpreter):
     """Carries out a program; formulas that it assigns to names, and the entries of its matrices, are marked."""
 
-    marks: Marks = field(default_factory=lambda: Marks(""))
+    marks: ValueMarks = field(default_factory=lambda: ValueMarks(""))
     nodes: dict[int, ast.expr] = field(default_factory=dict)
     """What is assigned to a target, by the identity of this."""
 

@@ -40,7 +40,7 @@ from lagrangian.check.reading.carried_out.values import (
 )
 from lagrangian.check.reading.carried_out.ways import in_own_coordinates, ways
 from lagrangian.check.reading.carried_out.written import LONGEST_LINE, written
-from lagrangian.check.reading.marked_values import Marks
+from lagrangian.check.reading.marked_values import ValueMarks
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
@@ -89,7 +89,7 @@ class CarriedOut:
     notes: tuple[str, ...] = ()
 
 
-def carried_out(text: str, model: Model, marks: Marks | None = None) -> CarriedOut | None:
+def carried_out(text: str, model: Model, marks: ValueMarks | None = None) -> CarriedOut | None:
     """Return what a program in Python, MATLAB or Julia states.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
