@@ -23,7 +23,7 @@ def read_program(program: CarriedOut, text: str, read: Callable[[str], Answer]) 
     """Return what ``read`` makes of the text of a program, or of what it states when it is carried out, where it states
     an equation of motion in comments at most."""
     by_steps = partial(_read_steps, program, read)
-    computed = partial(read, program.bare)
+    computed = partial(read, program.motion)
     typed: Answer | ParseError
     try:
         typed = read(text)
