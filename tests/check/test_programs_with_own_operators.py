@@ -240,3 +240,16 @@ def test_a_coordinate_of_the_system_that_is_made_of_another_one_is_told() -> Non
     assert right(program, "cart-pole")
     assert not right(program.replace("l**2*w**2", "l*w**2"), "cart-pole")
     assert not right(program.replace("2*(F - b*v)", "F - b*v"), "cart-pole")
+
+
+def test_a_table_of_parameters_is_given_by_name() -> None:
+    program = """par = dict(L=1.0, m=0.5, b=0.1, g=9.81)
+def acc(theta, omega, L, m, b, g):
+    return -g/L*np.sin(theta) - b/(m*L**2)*omega
+def rhs(t, z):
+    theta, omega = z
+    return [omega, acc(theta, omega, **par)]
+"""
+    assert right(program, "pendulum")
+    assert not right(program.replace("(theta, omega, **", "(omega, theta, **"), "pendulum")
+    assert not right(program.replace("dict(L", "dict(omega=2, L"), "pendulum")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -127,8 +128,11 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
             verdict = found
             break
     if read and answer.computed is not None and verdict.right:
-        found = check.check_in_numbers(derivation, check.lines_of(answer.computed()), hint=hint)
-        verdict = found if found.status is check.Status.WRONG else verdict
+        with suppress(ParseError):
+            computed = answer.computed()
+            found = check.check_in_numbers(derivation, check.lines_of(computed), hint=hint)
+            wrong = found.status is check.Status.WRONG and not computed.unknown
+            verdict = found if wrong else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
     told = _told(verdict, answer) if read else verdict

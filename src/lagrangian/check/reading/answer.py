@@ -140,7 +140,7 @@ class Answer:
     program: bool = field(default=False, repr=False, compare=False)
     """Whether these are the statements of a program that was carried out."""
     computed: Callable[[], Answer] | None = field(default=None, repr=False, compare=False)
-    """What the program computes that this answer is when it is carried out, without its comments."""
+    """The equations of motion that the program computes which this answer is, without its comments."""
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 

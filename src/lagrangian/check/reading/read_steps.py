@@ -25,7 +25,7 @@ def read_program(program: CarriedOut, text: str, model: Model, read: Callable[[s
     """Return what ``read`` makes of the text of a program, or of what it states when it is carried out, where it states
     an equation of motion in comments at most."""
     by_steps = partial(_stated_by_steps, program, text, model, read)
-    computed = partial(read, program.bare)
+    computed = partial(read, program.motion)
     typed: Answer | ParseError
     try:
         typed = read(text)

@@ -20,6 +20,7 @@ from lagrangian.check.reading.carried_out.values import (
     UNKNOWN,
     AbandonedError,
     BoundMethod,
+    Fields,
     Mechanical,
     Outside,
     OwnFunction,
@@ -67,8 +68,10 @@ class Calling(Evaluator):
         given = [y for x in node.args for y in self.unpacked(x, names)]
         options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
         if isinstance(of, OwnFunction):
-            if len(options) < len(node.keywords):
-                raise AbandonedError  # f(**p)
+            for table in (self.value(k.value, names) for k in node.keywords if not k.arg):  # f(**p)
+                if not isinstance(table, (Fields, dict, sp.Symbol)):
+                    raise AbandonedError
+                options |= table.values if isinstance(table, Fields) else table if isinstance(table, dict) else {}
             return self.function(of, self._bound_to(of, given, options), called)
         if isinstance(of, BoundMethod):
             own = isinstance(of.of, Mechanical)

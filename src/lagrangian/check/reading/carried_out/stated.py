@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from functools import partial
 from itertools import chain
@@ -86,6 +86,8 @@ class CarriedOut:
     text: str
     """With the comments that hold accelerations, as they are."""
     bare: str
+    motion: str
+    """The equations of motion alone, with what names in them mean."""
     notes: tuple[str, ...] = ()
 
 
@@ -141,13 +143,22 @@ def carried_out(text: str, model: Model, marks: ValueMarks | None = None) -> Car
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
     own -= {TIME.name, *of_symbols, *(x for x, q in names.items() if isinstance(q, AppliedUndef) and str(q.func) == x)}
     foreign = {x for x in own if not _is_of_system(scope, x)}
-    found = [*_renamed(of_symbols | said | run.renamed, found, scope), *_of_ways(run, found, model, scope), *found]
+    meant = list(_renamed(of_symbols | said | run.renamed, found, scope))
+    meant += _assigned(in_own_coordinates(run, found, model, scope))
+    motion = [*meant, *(x for x in found if _accelerates(x[1], twice))]
+    found = [*meant, *_assigned(ways(run, MovingNames(model, scope), partial(_is_place_of_system, scope))), *found]
     lines = text.split("\n")
     comments = _comments(lines, twice, foreign)
-    notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
-    notes += tuple(told(name, of) for name, of in run.read_as.items())
-    notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
-    return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+    bare, motion_alone = (_laid_out([""] * len(lines), x) for x in (found, motion))
+    return CarriedOut(_laid_out(comments, found), bare, motion_alone, tuple(_notes(run, driven)))
+
+
+def _notes(run: Interpreter, driven: str | None) -> Iterator[str]:
+    """What names of the program were read as, and what was not carried out."""
+    if run.drives is not None and driven is not None:
+        yield told(f"{run.drives}(t)", driven)
+    yield from (told(name, of) for name, of in run.read_as.items())
+    yield from (_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
 
 
 def _comments(lines: Sequence[str], twice: Set[str], foreign: Set[str]) -> list[str]:
@@ -169,15 +180,17 @@ def _left_out(first: int, last: int) -> str:
     return f"{said} not carried out: nothing is known of what changes there."
 
 
-def _of_ways(
-    run: Interpreter, found: Sequence[tuple[int, str]], model: Model, scope: AnswerScope
-) -> Iterator[tuple[int, str]]:
-    """The places and velocities of bodies that have names of the program's own, and coordinates made of its own."""
-    told_ways = ways(run, MovingNames(model, scope), partial(_is_of_system, scope))
-    for line, name, value in chain(told_ways, in_own_coordinates(run, found, model, scope)):
+def _assigned(values: Iterable[tuple[int, str, list[sp.Expr]]]) -> Iterator[tuple[int, str]]:
+    """What names stand for, with their lines."""
+    for line, name, value in values:
         with suppress(AbandonedError):
             entries = ", ".join(map(written, value))
             yield line, f"{name} = ({entries})" if len(value) > 1 else f"{name} = {entries}"
+
+
+def _is_place_of_system(scope: AnswerScope, name: str) -> bool:
+    """Whether a name of a place is one of the system, or of a momentum: px of x."""
+    return _is_of_system(scope, name) or (name.startswith("p") and _is_of_system(scope, name[1:].lstrip("_")))
 
 
 def _is_of_system(scope: AnswerScope, name: str) -> bool:
