@@ -52,11 +52,13 @@ def _of_one(s: Ingredients, table: Mapping[Any, sp.Expr]) -> Iterator[Variant]:
 
 
 def _said(where: str, s: Ingredients) -> Text:
-    """What was done, with the first angle of the system."""
-    angle = next((q for q in s.q if any(a.has(q) for a in (*s.angles(s.V), *s.angles(s.T)))), s.q[0])
-    return text(
-        *((where,) if where else ()), sp.sin(angle), " was replaced by ", angle, ", as if the motion were small."
-    )
+    """What was done, with the angle if the system has one alone."""
+    angles = [q for q in s.q if any(a.has(q) for a in (*s.angles(s.V), *s.angles(s.T)))]
+    if len(angles) != 1:
+        what = "a sine was replaced by its angle, as if the motion were small."
+        return text(where + what if where else what.capitalize())
+    begins = (where,) if where else ()
+    return text(*begins, sp.sin(angles[0]), " was replaced by ", angles[0], ", as if the motion were small.")
 
 
 def small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
