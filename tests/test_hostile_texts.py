@@ -17,10 +17,11 @@ from effort import at_most
 from lagrangian.check.explain import beside_lengths
 from lagrangian.check.names import amounts_said
 from lagrangian.check.reading import Answer, labels, parse_answer, read
+from lagrangian.check.reading.carried_out import rates_said
 from lagrangian.check.reading.file_text import decode_answer
 from lagrangian.check.reading.latex.macros import written_out
 from lagrangian.check.reading.plain.ends import defines_behind
-from lagrangian.check.reading.programs import sessions, templates
+from lagrangian.check.reading.programs import marks, sessions, templates
 from lagrangian.check.reading.programs import spellings as programs
 from lagrangian.check.reading.prose import sketches, spoken_words
 from lagrangian.check.reading.prose import words_or_mathematics as prose
@@ -165,6 +166,8 @@ FORMS = {
     "_NUMBER of an amount": (amounts_said._NUMBER, "a" + "1" * LONGEST),
     "_TWICE": (beside_lengths._TWICE, "2" + BLANKS + "y 2" + "y" * LONGEST),
     "_HALF": (beside_lengths._HALF, "y" * LONGEST + BLANKS + r"/3 \frac{y" + BLANKS),
+    "_RATED": (rates_said._RATED, "y" * LONGEST + " = " + "y" * LONGEST),
+    "_SOLVES": (marks._SOLVES, "solve" + BLANKS + "y\n" + BLANKS),
     "_NUMBER_ALONE": (prose._NUMBER_ALONE, BLANKS + "yy"),
 }
 

@@ -165,3 +165,76 @@ def test_a_name_for_a_force_that_is_another_one() -> None:
         told(built_in.derivation("cart-pole"), wrong)
         == "Line 1 is not right: the force of damper 'b' is b*x', not 3*b*x'."
     )
+
+
+def law_of(answer: str) -> dict[int, tuple[bool, bool]]:
+    """Whether each line is right, and follows from another."""
+    verdict = check_answer(lift(), answer)
+    assert not verdict.right and verdict.first_wrong is not None and verdict.first_wrong.line.number == 4
+    return {f.line.number: (f.status.right, f.follows) for f in verdict.findings}
+
+
+@pytest.mark.parametrize("law", ["k (y + x)", "k y", "k (x - y)/2"])
+def test_what_is_wrong_by_a_wrong_law_follows_from_it(law: str) -> None:
+    found = law_of(LIFT.replace("F = k (y - x)", f"F = {law}").replace("k (y - x)", law))
+    assert all(found.get(k, (False, True)) == (False, True) for k in (2, 3, 6, 7)), found
+    assert found[4] == (False, False)
+
+
+def test_a_line_with_a_mistake_of_its_own_does_not_follow_from_a_wrong_law() -> None:
+    wrong = LIFT.replace("F = k (y - x)", "F = k y").replace("k (y - x)", "k y").replace("m y'' + k y", "m y'' - k y")
+    assert law_of(wrong)[7] == (False, False)
+
+
+@cache
+def hoist() -> lg.Derivation:
+    """One coordinate: a load m on a drum J of radius R, which pulls a car M on a level track against a spring k."""
+    s = lg.System("hoist")
+    x = s.coordinate("x")
+    M, m, J, R, k, c, g = s.parameters("M m J R k c g")
+    car = s.point("car", (x, 0))
+    s.particle(m, at=s.point("load", (R, -x)), name="load")
+    s.particle(M, at=car, name="car")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(-x / R, name="drum"), name="drum")
+    s.gravity((0, -1), g)
+    s.spring(k, between=(car, s.point("wall", (-5 * R, 0))), rest=5 * R)
+    s.damper(b=c, deflection=x / R)
+    return s.derive()
+
+
+HOIST = """m x'' = m g - S
+J x''/R = S R - Z R - c x'/R
+M x'' = Z - k x
+S = m g - m x''
+Z = M x'' + k x
+(m + M + J/R^2) x'' + c x'/R^2 + k x = m g"""
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize(
+    ("line", "old", "new", "said"),
+    [
+        (1, "m x'' = m g", "m x'' = -m g", "-g*m has the wrong sign"),
+        (2, "S R - Z R", "Z R - S R", "has the wrong sign"),
+        (2, "S R - Z R", "S - Z", "should be"),
+        (2, "S R - Z R", "S R + Z R", "R*Z has the wrong sign"),
+        (2, "- c x'/R\n", "- c x'\n", "-c*x' should be -c*x'/R"),
+        (2, "J x''/R =", "J x'' =", "J*x'' should be J*x''/R"),
+        (3, "Z - k x", "Z + k x", "the force of spring 'k' has the wrong sign"),
+    ],
+)
+def test_balances_of_a_system_with_one_coordinate(line: int, old: str, new: str, said: str) -> None:
+    assert check_answer(hoist(), HOIST).right
+    verdict = check_answer(hoist(), HOIST.replace(old, new, 1))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [line]
+    assert f"n line {line}" in str(verdict.mistakes[0].what) and said in str(verdict.mistakes[0].what)
+
+
+def test_a_final_equation_follows_from_a_wrong_balance_of_one_coordinate() -> None:
+    wrong = (
+        HOIST.replace("S R - Z R", "S R + Z R")
+        .replace("(m + M + J", "(m - M + J")
+        .replace("+ k x = m g", "- k x = m g")
+    )
+    verdict = check_answer(hoist(), wrong)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(2, False), (6, True)]

@@ -165,3 +165,26 @@ def test_a_potential_of_apparent_forces_is_right_beside_right_equations(sign: st
 m l^2 theta'' + m g l sin(theta) - m l a Omega^2 cos(theta - Omega t) = 0
 """
     assert s.derive().check(sheet, hint=0).right is right
+
+
+def test_constants_are_not_what_is_told_of_a_wrong_energy() -> None:
+    """A constant that belongs to another term, and what moves as prescribed alone, are in no term that is told."""
+    sys = lg.System("shaken")
+    x, y = sys.coordinates("x y")
+    m, J, g, l, e, Omega, alpha = sys.parameters("m J g l e Omega alpha")
+    sys.kinetic(J * sympy.diff(y, time) ** 2 / 2, name="wheel")
+    place = (e * sympy.cos(Omega * time), x + y + e * sympy.sin(Omega * time))
+    sys.particle(m, at=sys.point("P", place), name="bob")
+    sys.potential(m * g * (x * sympy.sin(alpha) + l * (1 - sympy.cos(y))), name="weight")
+    shaken = sys.derive()
+    kinetic, potential = (
+        "T = J y'^2/2 + m (x' + y' + e Omega cos(Omega t))^2/2",
+        "V = m g x sin(alpha) + m g l (1 - cos(y))",
+    )
+    assert shaken.check(f"{kinetic}\n{potential}").right
+    found = shaken.check(f"{kinetic}\nV = m g l (1 - cos(y))")
+    assert not found.right
+    assert [(d.kind, d.written) for f in found.findings for d in f.differences] == [("missing", 0)]
+    found = shaken.check(kinetic.replace("x' + y'", "x'") + f"\n{potential}")
+    assert not found.right
+    assert not any(d.term.has(sympy.sin) for f in found.findings for d in f.differences)

@@ -3,22 +3,28 @@
 from __future__ import annotations
 
 import gc
+from dataclasses import replace
 from functools import _lru_cache_wrapper
 from typing import Any
 
+import numpy as np
 import pytest
+import sympy as sp
 
 import built_in
 import lagrangian as lg
 from lagrangian import check
 from lagrangian.bounded import questions
 from lagrangian.bounded.effort import CallCount
-from lagrangian.check import hardness
+from lagrangian.check import hardness, reference
 from lagrangian.check.check import check as check_lines
+from lagrangian.check.coordinates import tried
 from lagrangian.check.judged import judged_lines
-from lagrangian.check.reading import parse_answer
+from lagrangian.check.reading import Answer, parse_answer
+from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.check.reference import truth_of
 from lagrangian.errors import ModelError
+from lagrangian.read.scope import Scope
 from size import rest_slow
 
 ANSWERS = {
@@ -97,3 +103,53 @@ def test_in_which_terms_a_line_differs_is_only_said_where_it_is_asked(line: str)
     assert told.findings[0].differences and not plain.findings[0].differences
     assert (told.status, without_terms(told)) == (plain.status, without_terms(plain))
     assert check_lines(made, lines).findings[0].differences
+
+
+@pytest.mark.parametrize("energy", ["T", "L"])
+def test_changes_that_are_tried_together_are_those_that_hold_alone(
+    energy: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    truth = truth_of(built_in.derivation("double-pendulum"))
+    opposite = {q: -q for q in truth.derivation.coordinates}
+    rows = [check.AnsweredLine("equation", row.xreplace(opposite).doit(), 1) for row in truth.rows]
+    wrong = [replace(rows[0], expr=rows[0].expr + 1)]
+    for lines in (rows, rows[1:], wrong, [check.AnsweredLine(energy, getattr(truth, energy), 1)]):
+        every = list(tried.candidates(truth, lines))
+        together = list(tried.QuickTest(truth, lines).possible(every))
+        assert together == [x for x in every for _ in tried.QuickTest(truth, lines).possible([x])]
+        monkeypatch.setattr(tried, "TRIED_TOGETHER", 3)
+        assert together == list(tried.QuickTest(truth, lines).possible(iter(every)))
+        monkeypatch.undo()
+        assert bool(together) == (lines is not wrong)
+
+
+def test_values_that_are_kept_are_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reference, "MAX_KEPT", 2)
+    truth = reference.Reference(built_in.derivation("lecture-3b"))
+    found = [truth.kept(k, lambda k=k: np.array([float(k)])) for k in (1, 2, 3, 1, 1)]
+    assert [float(x[0]) for x in found] == [1, 2, 3, 1, 1]
+    assert len(truth._kept) == 2 and found[3] is found[4]
+
+
+def test_a_name_gets_a_new_meaning_whenever_the_answer_gives_it_one() -> None:
+    scope = AnswerScope(Scope(built_in.derivation("cart-pole").model.symbols))
+    assert scope.meanings("th") == (["theta"], 0) == scope.meanings("th")
+    scope.meanings("th")[0].clear()
+    assert scope.meanings("th") == (["theta"], 0)
+    scope.learn(["th"], (), "")
+    assert scope.meanings("th") == ([], 0)
+    assert scope.meanings("al") == ([], 0)
+    scope.add("al", sp.Symbol("al"))
+    assert scope.meanings("al") == (["al"], 0)
+
+
+def test_another_reading_is_read_once() -> None:
+    made, count = built_in.derivation("lecture-3b"), [0]
+    answer = parse_answer(ANSWERS["lecture-3b"][0], made.model)
+
+    def other() -> Answer:
+        count[0] += 1
+        return replace(answer, program=True)
+
+    assert not made.check(replace(answer, others=(other,))).right
+    assert count == [1]

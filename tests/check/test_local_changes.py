@@ -148,6 +148,6 @@ def test_lengths_and_ratios_are_known_by_their_units() -> None:
     """Without them no arm, no radius and no gear ratio is ever named as wrong."""
     p = pool("cart-pole")
     letters = LetterChanges(p.sites)
-    assert [str(x) for x in letters.lengths] == ["l"] and p.sites.of.ratios == []
+    assert [str(x) for x in letters.lengths] == ["l"] and not p.sites.of.ratios
     kinds = {x.change.kind for x in p.all if x.change is not None}
     assert {"foreign_factor", "divided_by", "arm_added", "inertia_form"} <= kinds

@@ -9,7 +9,7 @@ import sympy as sp
 
 from built_in import derivation
 from lagrangian import Derivation, System
-from lagrangian.check.explain.said_wrongly import turned_to
+from lagrangian.check.explain.sense_counted import turned_to
 from lagrangian.check.reference import truth_of
 from lagrangian.model import time
 
@@ -20,7 +20,7 @@ T = "T = 1/2 m (r'^2 + r^2 theta'^2)"
 def test_components_along_turning_axes_are_right(said: str) -> None:
     verdict = derivation("elastic-pendulum").check(f"{said}\n{T}")
     assert verdict.right
-    assert "axes turned by θ" in " ".join(verdict.to_text().split())
+    assert "axis turned by θ" in " ".join(verdict.to_text().split())
 
 
 @pytest.mark.sampled(2)
@@ -44,7 +44,7 @@ def test_along_x_it_is_the_fixed_axis_that_is_meant() -> None:
     """r θ̇ is right across the spring; along x the cosine is missing."""
     wrong = "v_x = r theta', v_y = r' cos(theta)\nT = 1/2 m (r^2 theta'^2 + r'^2 cos(theta)^2)"
     verdict = derivation("elastic-pendulum").check(wrong)
-    assert not verdict.right and "along axes turned" not in str(verdict.findings)
+    assert not verdict.right and "axis turned" not in str(verdict.findings)
 
 
 @cache
@@ -67,7 +67,7 @@ def test_the_sign_of_a_part_is_told_of_the_component_that_has_it() -> None:
     )
     assert not verdict.right
     (mistake,) = verdict.mistakes
-    assert "along axes turned by φ is h φ̇ + ṡ, not ṡ − h φ̇" in " ".join(verdict.to_text().split())
+    assert "axis turned by φ is h φ̇ + ṡ, not ṡ − h φ̇" in " ".join(verdict.to_text().split())
     assert mistake.element is not None and "cellar" in mistake.element
 
 
@@ -107,7 +107,7 @@ def test_components_x_and_y_without_an_angle_are_along_the_axes_that_turn() -> N
 def test_where_one_of_them_has_the_angle_the_axes_are_fixed() -> None:
     wrong = COMPONENTS.format(x="s' - h psi'", y="s psi' cos(psi)")
     verdict = table().check(wrong)
-    assert not verdict.right and "along axes turned" not in verdict.to_text()
+    assert not verdict.right and "axis turned" not in verdict.to_text()
 
 
 def test_a_part_along_axes_that_turn_in_space_is_told_as_one() -> None:

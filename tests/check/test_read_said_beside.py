@@ -81,6 +81,14 @@ def test_comments_that_name_coordinates_are_read(mark: str) -> None:
     assert right(f"{mark} m = l, M = b\n{CART}\n{POLE}")  # a comment about constants stays one
 
 
+def test_brackets_say_which_letter_of_the_system_another_one_is() -> None:
+    cart = "(M + m) x'' + m h theta'' cos(theta) - m h theta'^2 sin(theta) + b x' = F     (h is l)"
+    pole = "(J + m h^2) theta'' + m h x'' cos(theta) - m g h sin(theta) = 0"
+    assert right(f"{cart}\n{pole}")
+    assert not right(f"{cart}\n{pole.replace('- m g', '+ m g')}")
+    assert not right(f"{cart.replace('is l', 'is b')}\n{pole}")
+
+
 @pytest.mark.slow
 def test_a_sentence_says_what_a_letter_stands_for() -> None:
     cart = r"$$(M+m)\ddot x+ml\ddot\psi\cos\psi-ml\dot\psi^2\sin\psi+b\dot x=F$$"

@@ -121,7 +121,7 @@ def test_the_equations_of_a_matrix_are_named() -> None:
     rows = rows.replace("M = ", "A = ").replace("M [", "A [").replace("; 0]", "; m g (R - r) sin(phi)]")
     found = told(drum(), rows)
     assert found == [
-        "2, the equation of φ: m (R − r)² φ̈ should be (3/2) m (R − r)² φ̈",
+        "1: m (R − r)² should be (3/2) m (R − r)²",
         "2, the equation of φ, on the right-hand side: m g (R − r) sin φ has the wrong sign",
     ]
 

@@ -35,3 +35,17 @@ def test_an_expression_that_was_seen_before_is_not_looked_through_again() -> Non
     with at_most(40):
         assert compiled.node(T) == compiled.ids[0]
         assert (bounded.size(T), sizes.slope_size(T)) == (size, slope_size)
+
+
+def test_several_values_of_a_symbol_at_once_are_as_one_after_the_other() -> None:
+    model = derivation("cart-pole").model
+    q, w = model.coordinates
+    states = States(model, 2)
+    compiled = CompiledExpressions(
+        [sp.sin(w.symbol) * q.rate + sp.Rational(1, 3), w.symbol**3, sp.Integer(2), q.symbol]
+    )
+    own = [{w.symbol: states.of(w.symbol) * k} for k in (1.5, -2.0)] + [{}, {q.rate: states.of(w.symbol)}]
+    found = compiled.at_each(states, own)
+    assert found.shape == (4, 4, states.size)
+    for k, instead in enumerate(own):
+        assert np.array_equal(found[:, k], compiled.at(states, instead))

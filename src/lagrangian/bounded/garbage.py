@@ -10,7 +10,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-YOUNG = 20_000
+YOUNG = 100_000
 """The number of new objects after which Python looks for garbage among them while a question is answered."""
 
 _lock = threading.Lock()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, cast
 
 import sympy as sp
@@ -13,6 +14,11 @@ def operations(*exprs: sp.Basic) -> int:
 
     A part that occurs in many places, or in several expressions, is examined once; SymPy examines it in every place.
     """
+    return _operations(exprs)
+
+
+@lru_cache(maxsize=5_000)
+def _operations(exprs: tuple[sp.Basic, ...]) -> int:
     known: dict[sp.Basic, int] = {}
     stack: list[sp.Basic] = list(exprs)
     parts: dict[sp.Basic, tuple[int, list[Any]]] = {}

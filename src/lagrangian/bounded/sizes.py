@@ -101,7 +101,19 @@ def letters(expr: sp.Basic) -> set[Any]:
 @lru_cache(maxsize=5_000)
 def _letters(expr: sp.Basic) -> frozenset[Any]:
     """The same, kept: every reader of a line asks for them."""
-    return frozenset((*expr.free_symbols, *expr.atoms(AppliedUndef)))
+    return symbols(expr) | atoms(expr, AppliedUndef)
+
+
+@lru_cache(maxsize=20_000)
+def atoms(expr: sp.Basic, *kinds: type) -> frozenset[Any]:
+    """Return the parts of an expression that are of one of these kinds, which is asked of every line many times."""
+    return frozenset(expr.atoms(*kinds))
+
+
+@lru_cache(maxsize=5_000)
+def symbols(expr: sp.Basic) -> frozenset[Any]:
+    """Return the symbols in an expression, with time, kept as well."""
+    return frozenset(expr.free_symbols)
 
 
 def terms(expr: sp.Basic) -> int:

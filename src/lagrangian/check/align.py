@@ -155,21 +155,19 @@ def agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, flo
     blocks = SETS * PLACES
     with np.errstate(all="ignore"):
         quotient = mine / right
+        shaped = quotient.reshape(len(quotient), blocks, -1)
+        middle = shaped.mean(axis=2, keepdims=True)
+        spread = (np.abs(shaped - middle) > CONSTANT * np.abs(middle)).any(axis=(1, 2))
+    held = np.isfinite(quotient).all(axis=1) & ~(np.abs(quotient) < 1e-12).any(axis=1) & ~spread
     found: list[tuple[Array, float]] = [(np.ones(size), 1.5), (-np.ones(size), 0.4)]
-    for f in quotient:
-        if not np.isfinite(f).all() or (np.abs(f) < 1e-12).any():
-            continue
-        shaped = f.reshape(blocks, -1)
-        middle = shaped.mean(axis=1, keepdims=True)
-        if (np.abs(shaped - middle) > CONSTANT * np.abs(middle)).any():
-            continue
+    for f, own in zip(quotient[held], middle[held, :, 0], strict=True):
         for place, (other, votes) in enumerate(found):
             if (np.abs(f - other) <= CONSTANT * np.abs(other)).all():
                 found[place] = (other, votes + 1.0)
                 break
         else:
-            spread = np.ptp(middle) <= CONSTANT * np.abs(middle).max()
-            found.append((np.repeat(middle[:, 0], size // blocks), 1.0 + (0.2 if spread else 0.0)))
+            same = np.ptp(own) <= CONSTANT * np.abs(own).max()
+            found.append((np.repeat(own, size // blocks), 1.0 + (0.2 if same else 0.0)))
     return sorted(found, key=lambda x: -x[1])[:MOST_FACTORS]
 
 

@@ -21,6 +21,7 @@ from lagrangian.check.places import (
     only_places,
     place_or_approximation,
     prescribed_angles,
+    relates_freedoms,
     rests,
 )
 from lagrangian.check.reference import Reference
@@ -66,6 +67,9 @@ def beside(
     held = _small_ones(truth, [line.expr for line in others]) if others else []
     aside |= {id(line): "it is about small motions" for line, holds in zip(others, held, strict=True) if holds}
     aside |= {id(line): why for line in wrong if id(line) not in aside and (why := _remark(truth, line))}
+    special = [line for line in placed if "aside" in line.beside and relates_freedoms(truth, line.expr)]
+    if complete and all(id(line) in aside or line in special for line in wrong):
+        aside |= {id(line): "it holds in special motions alone" for line in special}
     left = _of_motion(truth, [line for line in equations if id(line) not in aside])
     if not complete and (len(left) < truth.n or all(id(line) in aside for line in wrong)):
         return lines, ()

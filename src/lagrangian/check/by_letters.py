@@ -1,4 +1,7 @@
-"""Calls elements without a name by the letters of their value: torque P a, and not torque 1, which no student knows."""
+"""Calls elements as a student knows them: torque P a, and not torque 1; the reel, and not kinetic 'reel'.
+
+Of two of one kind it says: one of the springs 'left' and 'right', and not one of spring 'left' and spring 'right'.
+"""
 
 from __future__ import annotations
 
@@ -10,38 +13,73 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.model import Model
+from lagrangian.model.elements.raw import Kinetic
 from lagrangian.page.formula import Item, Left, Text, Verbatim, text
 
 MOST = 6
 """The most operations of a value by which an element is called."""
+MOST_OF_ENERGY = 20
+"""The same for a kinetic energy."""
+PLURALS = {"rigid body": "rigid bodies"}
+_SEVERAL = re.compile(
+    r"\b(?P<one>[Oo]ne of )(?P<kind>[a-z]{1,20}(?: body)?) (?P<a>'[^']{1,60}') and (?P=kind) (?P<b>'[^']{1,60}')"
+)
+"""Two elements of one kind, of which one is told."""
 VALUES = ("value", "b", "k")
 """What holds the value of a force, a damper and a spring."""
 
 
 def called_by_letters(items: Iterable[Item], model: Model) -> tuple[Item, ...]:
     """The items of a report, in whose sentences elements that were numbered have the letters of their values."""
-    table = _letters(model)
-    if not table:
-        return tuple(items)
-    titles = "|".join(map(re.escape, table))
-    form = re.compile(rf"\b({titles})\b(?![\d'])", re.IGNORECASE)
-    return tuple(_put(x, form, table) if isinstance(x, Text) else x for x in items)
+    energies = {e.title: e for e in model.elements if isinstance(e, Kinetic)}
+    table = _letters(model) | {title: e.value for title, e in energies.items() if not _is_named(e) and _is_short(e)}
+    named = {title: f"the {e.name}" for title, e in energies.items() if _is_named(e)}
+    titles = "|".join(rf"\b{re.escape(x)}(?![\w'])" for x in (*table, *named))
+    form = re.compile(rf"(?P<of>\b(?:kinetic )?energy of )?(?P<title>{titles or '(?!)'})", re.IGNORECASE)
+    return tuple(_put(x, form, table, named) if isinstance(x, Text) else x for x in items)
 
 
-def _put(item: Text, form: re.Pattern[str], table: dict[str, sp.Expr]) -> Text:
+def _is_named(element: Kinetic) -> bool:
+    """Whether the name of an energy is that of a thing: words, and no letter of an energy."""
+    words = element.name.split() if element.name != element.title else []
+    return bool(words) and all(w.isalpha() and w.isascii() and len(w) > 2 for w in words)
+
+
+def _is_short(element: Kinetic) -> bool:
+    return bounded.operations(element.value) <= MOST_OF_ENERGY
+
+
+def _put(item: Text, form: re.Pattern[str], table: dict[str, sp.Expr], named: dict[str, str]) -> Text:
+    """A sentence with elements called by other words, and by their values."""
+    own = {title.lower(): words for title, words in named.items()}
+    values = {title.lower(): value for title, value in table.items()}
+
     def parts() -> Iterator[str | Verbatim | Left]:
         for part in item.parts:
             if not isinstance(part, str):
                 yield part
                 continue
-            at = 0
-            for match in form.finditer(part):
-                yield f"{part[at : match.start()]}{match[1].rpartition(' ')[0]} "
-                yield table[match[1].lower()]
+            at, said = 0, _SEVERAL.sub(_together, part)
+            for match in form.finditer(said):
+                title, of = match["title"].lower(), match["of"] or ""
+                before = said[at : match.start()]
+                if title in own:
+                    yield f"{before}{of}{own[title]}"
+                elif title.startswith("kinetic "):
+                    yield f"{before}{of.removesuffix('of ') or 'the kinetic energy '}"
+                    yield values[title]
+                else:
+                    yield f"{before}{of}{match['title'].rpartition(' ')[0]} "
+                    yield values[title]
                 at = match.end()
-            yield part[at:]
+            yield said[at:]
 
     return text(*(x for x in parts() if x != ""), brief=item.brief)
+
+
+def _together(match: re.Match[str]) -> str:
+    """Two elements of one kind with the word for both: one of the springs 'left' and 'right'."""
+    return f"{match['one']}the {PLURALS.get(match['kind'], match['kind'] + 's')} {match['a']} and {match['b']}"
 
 
 def _letters(model: Model) -> dict[str, sp.Expr]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -16,6 +16,7 @@ from lagrangian.check.constraints.new_angles import check_in_any_angle
 from lagrangian.check.constraints.on_branch import on_branch
 from lagrangian.check.constraints.own_angle import without_own_angles
 from lagrangian.check.constraints.own_constraints import unfolded
+from lagrangian.check.constraints.own_counted import without_own_counts
 from lagrangian.check.constraints.without_constraints import without_constraints
 from lagrangian.check.coordinates.chart import chart, region, system_coordinates, with_own_quantities
 from lagrangian.check.coordinates.relations import relations, without_relations
@@ -30,6 +31,7 @@ from lagrangian.check.explain.mistakes import mistakes
 from lagrangian.check.explain.mistakes_beside_multipliers import named_beside_multipliers
 from lagrangian.check.explain.other_forces import without_other_forces
 from lagrangian.check.explain.rows_put_in import energies_on_rows, with_rows_put_in
+from lagrangian.check.explain.said_again import as_said_of_others
 from lagrangian.check.explain.sides_said import with_sides
 from lagrangian.check.explain.special_cases import with_special_case
 from lagrangian.check.explain.virtual_displacements import with_virtual_displacements
@@ -119,7 +121,7 @@ def _assuming(truth: Reference, said: Declared, hint: int, explain: bool) -> Ver
 
 def _filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines with names written out, and what they state for coordinates of their own."""
-    written = filled(truth, lines)
+    written = as_said_of_others(truth, filled(truth, lines))
     return with_own_quantities(truth, written, chart(truth, written))
 
 
@@ -147,7 +149,7 @@ def _checked(
 
 def _on_constraints(truth: Reference, written: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
     """The verdict on an answer for a system with constraints."""
-    read = unfolded(truth, without_own_angles(truth, written))
+    read = unfolded(truth, without_own_angles(truth, without_own_counts(truth, written)))
     judge = partial(check_in_any_angle, truth, hint=hint)
     verdict = read.judged(judge)
     verdict = energies_on_rows(truth, read.lines, verdict, hint)
@@ -236,13 +238,8 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: bool) -> Verdict | None:
     """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
     change, which without ``explain`` is not considered."""
-    whole, new = QuickTest(truth, spelling.lines), new_names(truth, spelling.lines)
-    found = relations(new, spelling.lines)
-    for change in candidates(truth, spelling.lines):
-        told = without_relations(found, change.put, spelling.lines) if found else spelling.lines
-        glance = QuickTest(truth, told) if found else whole
-        if not glance.may_be(change):
-            continue
+    new = new_names(truth, spelling.lines)
+    for change, told in _possible(truth, spelling.lines, new):
         judged = judged_lines(truth, told, change, compared=False)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
             continue
@@ -272,6 +269,19 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: 
             hint=verdict.hint,
         )
     return _put_in(truth, spelling, verdict) if new else None
+
+
+def _possible(
+    truth: Reference, lines: Sequence[AnsweredLine], new: Sequence[sp.Expr]
+) -> Iterator[tuple[ProposedChange, Sequence[AnsweredLine]]]:
+    """The changes with which an answer may be right, and its lines without those that only relate coordinates."""
+    found, tried = relations(new, lines), candidates(truth, lines)
+    if not found:
+        yield from ((change, lines) for change in QuickTest(truth, lines).possible(tried))
+        return
+    for change in tried:
+        told = without_relations(found, change.put, lines)
+        yield from ((change, told) for change in QuickTest(truth, told).possible([change]))
 
 
 def _put_in(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:

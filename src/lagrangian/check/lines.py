@@ -30,7 +30,9 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         beside = answer.beside.get(number, frozenset())
         expr, names = sp.sympify(stated.residual), stated.names
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
-        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names, pushing))
+        told = (stated.kind, expr, number, stated.name, stated.text, beside, names, pushing)
+        sides = None if stated.lhs is None else (sp.sympify(stated.lhs), sp.sympify(stated.rhs))
+        found.append(AnsweredLine(*told, sides, stated.summands))
     return tuple(found)
 
 
@@ -67,7 +69,7 @@ def _named(key: object, value: object, number: int) -> AnsweredLine:
 def _equation(thing: object, number: int) -> AnsweredLine:
     if isinstance(thing, sp.Equality):
         lhs, rhs = (_expression(side) for side in (thing.lhs, thing.rhs))
-        return AnsweredLine("equation", lhs - rhs, number, None, str(thing))
+        return AnsweredLine("equation", lhs - rhs, number, None, str(thing), sides=(lhs, rhs))
     return AnsweredLine("equation", _expression(thing), number, None, str(thing))
 
 
@@ -102,7 +104,7 @@ def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLin
 def _is_other_lagrangian(line: AnsweredLine) -> bool:
     """Whether a line says what L is in terms of T and V alone, and not T − V."""
     T, V = ENERGIES["T"], ENERGIES["V"]
-    used = line.expr.free_symbols - {time} | line.expr.atoms(AppliedUndef)
+    used = bounded.symbols(line.expr) - {time} | bounded.atoms(line.expr, AppliedUndef)
     return (line.kind, line.name) == ("statement", "L") and set() < used <= {T, V} and line.expr != T - V
 
 

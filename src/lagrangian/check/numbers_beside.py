@@ -9,6 +9,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.names.spelling import in_numbers, values_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rounded import unrounded
@@ -45,7 +46,7 @@ def with_numbers_beside(truth: Reference, lines: Sequence[AnsweredLine], judge: 
         or not lettered
         or not (whole or moved)
         or not values
-        or any(x.expr.free_symbols - {time} - truth.prescribed for x in numbers)
+        or any(bounded.symbols(x.expr) - {time} - truth.prescribed for x in numbers)
     ):
         return None
     first = judge(truth, [lines[k] for k in lettered])
@@ -87,7 +88,7 @@ def _in_values(
     found = judge(truth.with_values(values), numbers)
     every = values_of(truth, ())
     named = truth.prescribed & every.keys()
-    if found.status is not Status.WRONG or not any(x.expr.free_symbols & named for x in numbers):
+    if found.status is not Status.WRONG or not any(bounded.symbols(x.expr) & named for x in numbers):
         return found
     put = [replace(x, expr=x.expr.xreplace(every)) for x in numbers]
     again = judge(truth.with_values(every), put)
@@ -138,7 +139,11 @@ def _relates(truth: Reference, line: AnsweredLine) -> bool:
 
 def _is_constant(line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> bool:
     """Whether a line equates letters of which all values are known with a number."""
-    return line.kind == "equation" and line.expr.free_symbols <= values.keys() and not line.expr.atoms(AppliedUndef)
+    return (
+        line.kind == "equation"
+        and bounded.symbols(line.expr) <= values.keys()
+        and not bounded.atoms(line.expr, AppliedUndef)
+    )
 
 
 def _is_worked_out(truth: Reference, line: AnsweredLine, values: Mapping[sp.Symbol, sp.Expr]) -> bool:
@@ -147,5 +152,5 @@ def _is_worked_out(truth: Reference, line: AnsweredLine, values: Mapping[sp.Symb
         return False
     put: dict[sp.Basic, Array] = {p: np.full(truth.states.size, float(v)) for p, v in values.items()}
     terms = CompiledExpressions(sp.Add.make_args(line.expr)).at(truth.states, put)[:, 0]
-    near = ROUNDED if len(line.expr.free_symbols) > 1 else EXACT
+    near = ROUNDED if len(bounded.symbols(line.expr)) > 1 else EXACT
     return bool(abs(terms.sum()) <= near * np.abs(terms).max())

@@ -78,6 +78,30 @@ def is_rate(truth: Reference, expr: sp.Expr) -> bool:
     return bool(expr.diff(rate).is_number) and (rest.is_number or (-rest).is_Symbol or rest.is_Symbol)
 
 
+def relates_freedoms(truth: Reference, expr: sp.Expr) -> bool:
+    """Whether a line only says that coordinates, or rates, which are independent, are proportional to each other by
+    lengths and numbers: y = R φ, θ′ = −x′/R. No stiffness is in it, nor a mass: k1 x = k2 z is meant at rest."""
+    model = truth.model
+    if truth.derivation.multipliers or bounded.hard([expr], LONG):
+        return False
+    letters = {x for x in expr.free_symbols if isinstance(x, sp.Symbol)} - {time}
+    if any(_is_amount(truth, x) for x in letters):
+        return False
+    for kind in ([c.rate for c in model.coordinates], [c.symbol for c in model.coordinates]):
+        slopes = {q: bounded.diff(expr, q) for q in kind if expr.has(q)}
+        if not slopes:
+            continue
+        rest = bounded.expand(expr - sp.Add(*(slope * q for q, slope in slopes.items())))
+        moves = any(slope.atoms(AppliedUndef, sp.Derivative) for slope in slopes.values())
+        return len(slopes) > 1 and rest == 0 and not moves
+    return False
+
+
+def _is_amount(truth: Reference, letter: sp.Symbol) -> bool:
+    """Whether a letter may be no length: all equations are linear in it, as in masses and stiffnesses."""
+    return not any(bounded.diff(row, letter).has(letter) for row in truth.rows)
+
+
 def rests(truth: Reference, expr: sp.Expr, given: Sequence[sp.Expr] = (), *, said: bool = False) -> bool | None:
     """Whether a line about positions at rest is right, s = m g/k; None if it need not be about these, or is not clear.
 

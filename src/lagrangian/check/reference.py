@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property, lru_cache
 from typing import Any, cast
 
@@ -25,6 +25,9 @@ LONGEST = 4000
 MAX_VALUED = 8
 """The number of sets of values for which the reference is kept."""
 
+MAX_KEPT = 500
+"""The number of arrays of values that are kept."""
+
 
 class Reference:
     """The right equations of a derivation, ready for comparison; ``values`` are substituted for parameters.
@@ -38,6 +41,7 @@ class Reference:
         self.values = dict(values or {})
         self.others: dict[object, Reference | None] = {}
         self.tried_all = True
+        self._kept: dict[Hashable, Array] = {}
         self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Reference] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
@@ -121,6 +125,14 @@ class Reference:
             own = {p: cast("sp.Expr", v.xreplace(dict(values))) for p, v in self.values.items()}
             self._valued[key] = Reference(self.derivation, own | dict(values))
         return self._valued[key].within(self.region)
+
+    def kept(self, of: Hashable, found: Callable[[], Array]) -> Array:
+        """Values at the states, which are found once; the last ones are kept, for all answers."""
+        if of not in self._kept:
+            while len(self._kept) >= MAX_KEPT:
+                del self._kept[next(iter(self._kept))]
+            self._kept[of] = found()
+        return self._kept[of]
 
     @cached_property
     def algebra(self) -> Algebra:

@@ -42,7 +42,7 @@ def unrounded(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[tuple[An
     """The lines with rounded numbers replaced by the coefficients that they stand for, and a note about them."""
     if not truth.values:
         return tuple(lines), ()
-    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational)}
+    numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational)}
     rounded = {x: unit for x in numbers if (unit := _last_digit(x, FEWEST_DIGITS)) is not None}
     table: dict[sp.Basic, sp.Expr] = {}
     known = coefficients(truth) if rounded else ()

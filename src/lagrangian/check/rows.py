@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
+from math import gcd
 from typing import Any
 
 import mpmath
@@ -286,32 +287,37 @@ def terms_of(expr: sp.Expr) -> int:
     return bounded.operations(expr)
 
 
+_ONES = ((1, 1), (-1, 1))
+
+
 def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int] | None:
     """Return the factor c, a number times a monomial, for which most terms of ``form`` are c times a term of ``right``.
 
     Also return how many terms agree; None if no terms do. A term with a factor other than ±1 counts only ``unlike``.
     """
-    votes: Counter[tuple[Fraction, int]] = Counter()
+    votes: Counter[tuple[int, int, int]] = Counter()
     for h, mine in form.parts.items():
         theirs = right.parts.get(h)
         if theirs is None or len(mine) * len(theirs) > 250_000:
             continue
         for m, c in mine.items():
             for o, d in theirs.items():
-                votes[Fraction(c * right.den, d * form.den), m - o] += 1
+                above, below = c * right.den, d * form.den
+                shared = gcd(above, below) if below > 0 else -gcd(above, below)
+                votes[above // shared, below // shared, m - o] += 1
     if not votes:
         return None
-    (number, monomial), count = max(
+    (above, below, monomial), count = max(
         votes.items(),
         key=lambda v: (
-            v[1] * (1.0 if v[0][1] == 0 and abs(v[0][0]) == 1 else unlike),
-            v[0][1] == 0,
-            v[0][0] == 1,
-            abs(v[0][0]) == 1,
-            -abs(v[0][1]),
+            v[1] * (1.0 if v[0][2] == 0 and v[0][:2] in _ONES else unlike),
+            v[0][2] == 0,
+            v[0][:2] == (1, 1),
+            v[0][:2] in _ONES,
+            -abs(v[0][2]),
         ),
     )
-    factor = sp.Rational(number.numerator, number.denominator) * form.algebra.generators.expr(monomial)
+    factor = sp.Rational(above, below) * form.algebra.generators.expr(monomial)
     return factor, count
 
 

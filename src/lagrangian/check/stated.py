@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -18,7 +18,8 @@ from lagrangian.check.held import OnConstraints, held, vanishes_on_constraints
 from lagrangian.check.reading import OwnCoordinates
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
-from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status, TermDifference
+from lagrangian.check.terms.constants import without_constants
+from lagrangian.check.verdict import OWN_DERIVATIVES, AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
@@ -150,24 +151,8 @@ def judge(
         return Finding(line, Status.WRONG, None, coordinate, (), follows)
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i, line.expr) if mine is not None and own is not None else ()
-    differing = tuple(_without_constants(truth, differing)) if line.kind in ("T", "V", "L") else differing
+    differing = tuple(without_constants(truth, differing)) if line.kind in ("T", "V", "L") else differing
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
-
-
-def _without_constants(truth: Reference, differing: Sequence[TermDifference]) -> Iterator[TermDifference]:
-    """The differences of an energy but for constants, which are nobody's mistake: −m g l cos ψ is m g (h − l cos ψ)."""
-    moving = [x for c in truth.model.coordinates for x in (c.symbol, c.rate)]
-    for d in differing:
-        right, written = (bounded.expand(x) for x in (sp.S.Zero if d.kind == "extra" else d.term, d.written))
-        if not bounded.expand(right - written).has(*moving):
-            continue
-        constant = sp.Add(*[x for x in sp.Add.make_args(right) if not x.has(*moving)])
-        kept = written != 0 and not all(x.has(*moving) for x in sp.Add.make_args(written))
-        if constant in (0, right) or kept or any(isinstance(x.base, sp.Add) for x in d.term.atoms(sp.Pow)):
-            yield d  # ½ k (s − s₀)² stays as it is
-            continue
-        term = cast("sp.Expr", sp.factor_terms(right - constant))
-        yield replace(d, term=term, kind="sign" if bounded.expand(term + written) == 0 else d.kind)
 
 
 By = tuple[OwnCoordinates, str]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,9 @@ from lagrangian import bounded, check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check import AnsweredLine
 from lagrangian.check.coordinates.auxiliary import turning_alone, with_auxiliary
+from lagrangian.check.explain.origins import with_origins
+from lagrangian.check.explain.put_right import with_wrong_name
+from lagrangian.check.explain.second_choices import fitting
 from lagrangian.check.explain.wrong_balance import with_forces_of_below, with_wrong_balance
 from lagrangian.check.lines import filled
 from lagrangian.check.names.needless import WITHOUT, Needed, needed, unused_in_motion, without_constants
@@ -122,6 +126,9 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
         if found.right:
             verdict = found
             break
+    if read and answer.computed is not None and verdict.right:
+        found = check.check_in_numbers(derivation, check.lines_of(answer.computed()), hint=hint)
+        verdict = found if found.status is check.Status.WRONG else verdict
     if read and answer.doubt is not None and not verdict.right:
         raise answer.doubt
     told = _told(verdict, answer) if read else verdict
@@ -130,6 +137,7 @@ def _in_numbers(derivation: Derived, answer: Answer | tuple[AnsweredLine, ...], 
 
 def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdict:
     """The verdict on an answer as it is most likely meant or, if only that is right, in one of its other readings."""
+    answer = replace(answer, others=tuple(map(cache, answer.others)))  # what is read to compare is read once
     own = _deciding(derivation, answer)
     wrong: set[tuple[int, str]] = set()
     for reading in (lambda: answer, *answer.others) if answer.others or len(own) > 1 else ():
@@ -141,6 +149,8 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
             verdict = check.check(derivation, decides.lines, hint=hint, explain=False)
             needed = _of_comments(wrong) if other.program else wrong
             if verdict.right and needed <= {(line.number, line.text) for line in decides.lines}:
+                if not other.program and (computed := _contradicting(derivation, answer)) is not None:
+                    return _of_readings(derivation, computed, hint)
                 return _told(verdict, other, decides.notes)
             wrong |= _wrong_beside(derivation, verdict) if other is answer else set()
             wrong |= _wrong_together(verdict) if other is answer and decides.together else set()
@@ -154,6 +164,7 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = replace(verdict, hint=hint)
     if not verdict.right and not answer.program:
         verdict = _with_balances(derivation, answer, decides, verdict)
+        verdict = _with_names(derivation, answer, decides, verdict)
     asked = unexplained(derivation, answer, verdict)
     unsure = asked or _misread(verdict) or (answer.doubt is not None and not verdict.right)
     program = None if verdict.right and not unsure else _program(answer)
@@ -173,7 +184,19 @@ def _of_readings(derivation: Derived, answer: Answer, hint: int) -> check.Verdic
         verdict = verdict if lines is None else check.check(derivation, lines, hint=hint)
         if not verdict.right:
             raise question(asked)
-    return _told(verdict, answer, decides.notes)
+    return _told(fitting(_with_origins(derivation, answer, verdict, hint)), answer, decides.notes)
+
+
+def _with_origins(derivation: Derived, answer: Answer, verdict: check.Verdict, hint: int) -> check.Verdict:
+    """The verdict on a wrong answer with its wrong terms at the values of names in which they were made."""
+    wrong = [f for f in verdict.findings if f.line.kind == "equation" and f.status is check.Status.WRONG]
+    if not hint or answer.marked is None or all(f.follows for f in wrong):
+        return verdict
+    try:
+        read, marks = answer.marked()
+    except ParseError:
+        return verdict
+    return with_origins(truth_of(derivation), verdict, marks, filled(truth_of(derivation), check.lines_of(read)))
 
 
 def _needs_mistakes(answer: Answer, lines: Sequence[AnsweredLine]) -> bool:
@@ -202,6 +225,15 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
     return with_forces_of_below(truth, lines, read, verdict)
 
 
+def _with_names(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:
+    """The verdict on a wrong answer in which the definition is the mistake whose right value puts the others right."""
+    if answer.read_without is None or verdict.status is not check.Status.WRONG:
+        return verdict
+    truth = truth_of(derivation)
+    lines = filled(truth, decides.lines)
+    return with_wrong_name(truth, lines, answer, lambda put: _judged(derivation, put)[1], verdict)
+
+
 def _wrong_beside(derivation: Derived, verdict: check.Verdict) -> set[tuple[int, str]]:
     """The lines of remarks that are wrong beside right equations: no reading without these is taken.
 
@@ -223,6 +255,20 @@ def _program(answer: Answer) -> Answer | None:
         return next((x for other in answer.others[-1:] if (x := other()).program), None)
     except ParseError:
         return None
+
+
+def _contradicting(derivation: Derived, answer: Answer) -> Answer | None:
+    """The reading of a program that is carried out, if it computes a wrong motion, whatever its comments say."""
+    try:
+        computed = None if answer.computed is None else answer.computed()
+        verdict = None if computed is None else _judged(derivation, computed)[1]
+        if computed is None or verdict is None or verdict.status is not check.Status.WRONG:
+            return None
+        if unexplained(derivation, computed, verdict) or any(u.symbol.is_Symbol for u in computed.unknown):
+            return None  # names that its comments may explain
+    except ParseError:
+        return None
+    return replace(answer, others=(), computed=None) if answer.program else _program(answer) or computed
 
 
 def _misread(verdict: check.Verdict) -> bool:

@@ -44,9 +44,9 @@ class AnsweredLine(Brief):
     """One line of an answer: what kind it is and what it states. ``expr`` is the energy, the force, or left minus
     right.
 
-    ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
+    ``beside``: what the words around it say that it is, "rest", "check", "case" or "aside"; see `reading.side_remarks`.
     ``names``: the keys of the names in it as it is written. ``senses``: what words say of forces in it; see
-    `reading.said.senses`.
+    `reading.said.senses`. ``sides``: left and right of an equation as they were read.
     """
 
     kind: str
@@ -57,6 +57,9 @@ class AnsweredLine(Brief):
     beside: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     senses: frozenset[tuple[str, str, str]] = frozenset()
+    sides: tuple[sp.Expr, sp.Expr] | None = field(default=None, repr=False, compare=False)
+    summands: tuple[tuple[tuple[sp.Expr, ...], ...], ...] = field(default=(), compare=False, repr=False)
+    """Its terms with their factors as they are written; see `reading.summands`."""
 
     @property
     def title(self) -> str:

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.explain.meant import kinds_of
 from lagrangian.check.verdict import AnsweredLine, Status, Verdict
 from lagrangian.page.formula import Name, text
@@ -33,6 +34,6 @@ def only_parts(verdict: Verdict, lines: Sequence[AnsweredLine], *, unjudged: boo
 
 def _is_part(line: AnsweredLine) -> bool:
     """Whether a definition may be a part of T*: by its name, or as it has the square of a rate."""
-    rates = line.expr.atoms(sp.Derivative) if line.kind == "definition" else set[sp.Basic]()
-    squares = (p.base for p in line.expr.atoms(sp.Pow) if p.exp.is_number and p.exp % 2 == 0)
+    rates = bounded.atoms(line.expr, sp.Derivative) if line.kind == "definition" else set[sp.Basic]()
+    squares = (p.base for p in bounded.atoms(line.expr, sp.Pow) if p.exp.is_number and p.exp % 2 == 0)
     return bool(rates) and (kinds_of(line.name or "") == ("kinetic",) or any(base.has(*rates) for base in squares))

@@ -71,8 +71,9 @@ def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
 def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
     if not verdict.findings:
         return ("Nothing is stated that can be checked: write equations, T = …, V = …, L = … or a Ξ.",)
-    wrong = sum(not f.status.right for f in verdict.findings)
-    lines = len(verdict.findings)
+    shown = _shown(verdict.findings)
+    wrong = sum(not f.status.right for f in shown)
+    lines = len(shown)
     match verdict.status:
         case Status.RIGHT:
             return ("Right.",)
@@ -119,25 +120,49 @@ def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
 
 def _lines(verdict: Verdict, model: Model) -> Table:
     """A row for every line; of several equations in one line, as of matrices, each with its coordinate."""
-    often = Counter(f.line.title for f in verdict.findings)
+    shown = _shown(verdict.findings)
+    often = Counter(f.line.title for f in shown)
     rows: list[tuple[Text, ...]] = []
-    every = list(dict.fromkeys(f.line.title for f in verdict.findings if f.status is Status.WRONG and not f.follows))
+    every = list(dict.fromkeys(f.line.title for f in shown if f.status is Status.WRONG and not f.follows))
     roots: list[str] = []
-    for f in verdict.findings:
-        words: list[str | Left] = [_word(f, roots or every)]
+    for f in shown:
+        words: list[str | Left] = [_word(f, roots or every, "above" if roots else "below")]
         if (note := f.told(verdict.hint)) is not None:
             words += [": ", *note.parts]
-        of = _of(f, model) if often[f.line.title] > 1 else ()
+        of = _which(f, model) if often[f.line.title] > 1 else ()
         rows.append((text(f.line.title, *of), text(*words)))
         if f.status is Status.WRONG and not f.follows and f.line.title not in roots:
             roots.append(f.line.title)
     return Table((text("line"), text("verdict")), tuple(rows))
 
 
-def _word(finding: Finding, roots: Sequence[str]) -> str:
-    """The verdict on a line; ``roots`` are the titles of lines that are wrong and follow from none."""
+def _shown(findings: Sequence[Finding]) -> list[Finding]:
+    """The findings without those that say no more than another of the same line: a left-hand side whose equation has
+    the same verdict, and what follows from a mistake in the same line."""
+    alone = [f for f in findings if f.coordinate is None]
+    roots = {(f.line.number, f.line.kind) for f in alone if f.status is Status.WRONG and not f.follows}
+    equations = {(f.line.number, f.status, f.follows) for f in findings if f.line.kind == "equation"}
+
+    def repeats(f: Finding) -> bool:
+        if f.line.kind == "left":
+            return (f.line.number, f.status, f.follows) in equations
+        return f.follows and f.coordinate is None and (f.line.number, f.line.kind) in roots
+
+    return [f for f in findings if not repeats(f)]
+
+
+def _which(finding: Finding, model: Model) -> tuple[str | Left, ...]:
+    """Which of several statements in a line is meant: the coordinate of an equation, or the name of a quantity."""
+    kind, name = finding.line.kind, finding.line.name
+    if kind not in ("definition", "identity") or not name:
+        return _of(finding, model)
+    return (f" ({name})",)
+
+
+def _word(finding: Finding, roots: Sequence[str], where: str) -> str:
+    """The verdict on a line; ``roots`` are the titles of lines ``where`` something is wrong that follows from none."""
     if finding.follows:
-        return f"not right, but only because of {roots[0] if len(roots) == 1 else 'the lines above'}"
+        return f"not right, but only because of {roots[0] if len(roots) == 1 else f'the lines {where}'}"
     if finding.status is Status.WRONG:
         return f"not right together with {finding.clash}" if finding.clash else "not right"
     return {Status.INCOMPLETE: "says nothing", Status.SAME_MOTION: "true"}.get(finding.status, "right")
@@ -161,7 +186,7 @@ def _why(verdict: Verdict) -> Iterator[Item]:
         yield text(*_where(mistake, verdict))
     if verdict.mistakes:
         first = verdict.first_wrong
-        row = first is not None and first.line.kind == "equation"
+        row = first is not None and first.line.kind in ("equation", "definition")
         others = [m for m in verdict.alternatives if not any(_repeats(m, told, row) for told in verdict.mistakes)]
         if others and verdict.hint >= 3:
             yield text("It could also be this: ", *others[0].what.parts)

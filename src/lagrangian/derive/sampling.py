@@ -111,33 +111,44 @@ class CompiledExpressions:
         self.table: dict[sp.Basic, int] = {}
         self._memo: dict[Any, int] = {}
         self.ids = [self.node(e) for e in exprs]
-        self._order: tuple[tuple[int, ...], list[int]] = (), []
+        self._walked: tuple[tuple[int, ...], list[_Step]] = (), []
 
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
         expr = sp.sympify(expr)
         if expr in self._memo:
             return self._memo[expr]
-        parts = self._fresh(expr)
-        names = {x for x in parts if isinstance(x, (sp.Symbol, AppliedUndef, sp.Derivative))}
-        names |= {x.expr for x in names if isinstance(x, sp.Derivative)}
-        expr, exact = self._without_fractions(expr, parts)
-        for s in sorted((names | exact) - self.table.keys(), key=sp.default_sort_key):
+        names, numbers, roots = self._fresh(expr)
+        expr, exact = self._without_fractions(expr, numbers, roots)
+        for s in sorted((names | exact) - self.table.keys(), key=_place):
             self.input(s)
         return from_sympy(self.graph, expr, self.table, self._memo)
 
-    def _fresh(self, expr: sp.Basic) -> set[sp.Basic]:
-        """The parts of an expression that are in no expression before it: those have neither fractions nor new
-        symbols."""
-        found: set[sp.Basic] = set()
-        stack = [expr]
+    def _fresh(self, expr: sp.Basic) -> tuple[set[sp.Basic], list[Any], list[Any]]:
+        """What is in an expression and in none before it, whose parts have neither fractions nor new symbols: its
+        symbols, its numbers that may be no doubles, and the powers and functions of whole numbers."""
+        found, names = set[sp.Basic](), set[sp.Basic]()
+        numbers: list[Any] = []
+        roots: list[Any] = []
+        stack: list[Any] = [expr]
+        memo = self._memo
         while stack:
             part = stack.pop()
-            if part not in found and part not in self._memo:
-                found.add(part)
-                if not isinstance(part, (AppliedUndef, sp.Derivative)):
-                    stack += part.args
-        return found
+            if part in found or part in memo:
+                continue
+            found.add(part)
+            if isinstance(part, (sp.Symbol, AppliedUndef)):
+                names.add(part)
+            elif isinstance(part, sp.Derivative):
+                names |= {part, part.expr}
+            elif isinstance(part, (sp.Rational, sp.Float, sp.NumberSymbol)):
+                if not (isinstance(part, sp.Integer) and abs(int(part)) <= EXACT_INTEGER):
+                    numbers.append(part)
+            else:
+                stack += part.args
+                if part.args and isinstance(part.args[0], sp.Integer) and isinstance(part, (sp.Pow, sp.Function)):
+                    roots.append(part)
+        return names, numbers, roots
 
     def input(self, symbol: sp.Basic) -> int:
         """The node of a symbol."""
@@ -146,28 +157,26 @@ class CompiledExpressions:
             self.symbols.append(symbol)
         return self.table[symbol]
 
-    def _without_fractions(self, expr: sp.Expr, parts: set[sp.Basic]) -> tuple[sp.Expr, set[sp.Basic]]:
-        """An expression with symbols for fractions, and these symbols; ``parts`` are all parts of the expression."""
+    def _without_fractions(
+        self, expr: sp.Expr, numbers: Sequence[Any], roots: Sequence[Any]
+    ) -> tuple[sp.Expr, set[sp.Basic]]:
+        """An expression with symbols for its fractions ``numbers`` and for whole numbers in its ``roots``, and these
+        symbols."""
         table: dict[sp.Basic, sp.Expr] = {}
-        for number in parts:
-            if not isinstance(number, (sp.Rational, sp.Float, sp.NumberSymbol)):
-                continue
-            if isinstance(number, sp.Integer) and abs(int(number)) <= EXACT_INTEGER:
-                continue
+        for number in numbers:
             if number in (sp.S.Half, -sp.S.Half):  # roots: x^(1/2) is the graph's square root
                 continue
             exact = sp.Rational(str(number)) if isinstance(number, sp.Float) else number
             dummy = sp.Symbol(f"number {exact}")
             self._numbers[dummy] = exact
             table[number] = dummy
-        for root in parts:  # the graph would evaluate √15 and sin 2 as doubles
-            known = isinstance(root, (sp.Pow, sp.Function)) and not isinstance(root, AppliedUndef)
-            whole, others = (root.args[0], root.args[1:]) if known and root.args else (None, ())
-            if isinstance(whole, sp.Integer) and all(isinstance(x, sp.Rational) and x.q > 1 for x in others):
+        for root in roots:  # the graph would evaluate √15 and sin 2 as doubles
+            whole, *others = root.args
+            if all(isinstance(x, sp.Rational) and x.q > 1 for x in others):
                 dummy = table.get(whole, sp.Symbol(f"number {whole}"))
                 self._numbers[dummy] = whole
                 more: list[Any] = [table.get(x, x) for x in others]
-                table[root] = cast("Any", root).func(dummy, *more)
+                table[root] = root.func(dummy, *more)
         symbols = set[sp.Basic]().union(*(x.free_symbols for x in table.values()))
         return (cast("sp.Expr", expr.xreplace(table)) if table else expr), symbols
 
@@ -181,16 +190,23 @@ class CompiledExpressions:
 
     def at(self, states: States, instead: Mapping[sp.Basic, Array] | None = None) -> Array:
         """The values at every state, shape (expressions, size); ``instead`` overrides symbols."""
-        instead = instead or {}
+        return self.at_each(states, [instead or {}])[:, 0]
+
+    def at_each(self, states: States, instead: Sequence[Mapping[sp.Basic, Array]]) -> Array:
+        """The values at every state, once with each of the values in ``instead``: shape (expressions, times, size)."""
+        times = len(instead)
         inputs: list[Array] = []
         for s in self.symbols:
             if s in self._numbers:
-                inputs.append(np.full(states.size, float(self._numbers[s])))
+                inputs.append(_constant(float(self._numbers[s]), states.size * times))
+            elif times == 1:
+                inputs.append(instead[0][s] if s in instead[0] else states.of(s))
             else:
-                inputs.append(instead[s] if s in instead else states.of(s))
-        if self._order[0] != tuple(self.ids):
-            self._order = tuple(self.ids), reached(self.graph, self.ids)
-        return _walk(self.graph, self.ids, self._order[1], inputs, states.size)
+                inputs.append(np.concatenate([x[s] if s in x else states.of(s) for x in instead]))
+        if self._walked[0] != tuple(self.ids):
+            self._walked = tuple(self.ids), _steps(self.graph, reached(self.graph, self.ids))
+        found = _walk(self._walked[1], self.ids, inputs, states.size * times)
+        return found.reshape(len(self.ids), times, states.size)
 
     def exactly(self, states: States, index: int, instead: Mapping[sp.Basic, Any] | None = None) -> list[Any]:
         """The values at one state, with 50 digits."""
@@ -251,20 +267,47 @@ _NUMPY: dict[str, Any] = {
 }
 
 
-def _walk(graph: Graph, ids: Sequence[int], order: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
-    """The values of nodes as arrays over the states, by all nodes that they need in ``order``; NaN if there is no
-    value."""
+_Step = tuple[int, Any, tuple[Any, ...]]
+"""A node, how its values are found (a function, or the kind of a leaf), and from what."""
+
+
+def _steps(graph: Graph, order: Sequence[int]) -> list[_Step]:
+    """What there is to do, one after the other, for the values of the nodes in ``order``."""
+    steps: list[_Step] = []
+    for i in order:
+        node = graph.nodes[i]
+        op = node[0]
+        steps.append((i, op, node[1:]) if op in ("const", "input", "powi") else (i, _NUMPY[op], node[1:]))
+    return steps
+
+
+def _walk(steps: Sequence[_Step], ids: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
+    """The values of nodes as arrays over the states, step by step; NaN if there is no value."""
     value: dict[int, Any] = {}
     with np.errstate(all="ignore"):
-        for i in order:
-            node = graph.nodes[i]
-            op = node[0]
-            if op == "const":
-                value[i] = np.full(size, node[1])
-            elif op == "input":
-                value[i] = inputs[node[2]]
+        for i, op, parts in steps:
+            if op == "input":
+                value[i] = inputs[parts[1]]
+            elif op == "const":
+                value[i] = _constant(parts[0], size)
             elif op == "powi":
-                value[i] = np.power(value[node[1]], float(node[2]))
+                value[i] = np.power(value[parts[0]], float(parts[1]))
+            elif len(parts) == 2:
+                value[i] = op(value[parts[0]], value[parts[1]])
             else:
-                value[i] = _NUMPY[op](*(value[k] for k in node[1:]))
+                value[i] = op(*[value[k] for k in parts])
     return np.array([value[i] for i in ids], dtype=float).reshape(len(ids), size)
+
+
+@lru_cache(maxsize=1_000)
+def _constant(number: float, size: int) -> Array:
+    """A number at every state; to be read only."""
+    found = np.full(size, number)
+    found.flags.writeable = False
+    return found
+
+
+@lru_cache(maxsize=5_000)
+def _place(symbol: sp.Basic) -> Any:
+    """The place of a symbol among others, which SymPy takes long to find."""
+    return cast("Any", sp.default_sort_key(symbol))

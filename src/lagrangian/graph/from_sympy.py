@@ -106,24 +106,22 @@ def from_sympy(
     names an unknown symbol or function.
     """
     done: MutableMapping[Any, int] = {} if memo is None else memo
-    stack: list[sp.Basic] = [sp.sympify(expr, strict=True)]
+    stack: list[tuple[sp.Basic, bool]] = [(sp.sympify(expr, strict=True), False)]
     while stack:
-        e = stack[-1]
+        e, ready = stack.pop()
         if e in done:
-            stack.pop()
             continue
-        if e in symbols:
+        if ready:
+            done[e] = _operation(graph, e, done)
+        elif e in symbols:
             done[e] = symbols[e]
         elif not e.args or isinstance(e, (AppliedUndef, sp.Derivative)):
             done[e] = _leaf(graph, e, symbols)
+        elif waiting := [(p, False) for p in _parts(e) if p not in done]:
+            stack.append((e, True))
+            stack.extend(waiting)
         else:
-            parts = _parts(e)
-            waiting = [p for p in parts if p not in done]
-            if waiting:
-                stack.extend(waiting)
-                continue
             done[e] = _operation(graph, e, done)
-        stack.pop()
     return done[expr]
 
 

@@ -204,7 +204,7 @@ class ExpressionReader:
             self.fail(f"more than {MAX_ROOTS} roots of numbers", node, fix="write the numbers as decimals", code="E703")
 
     def _bounded(self, value: sp.Expr, node: Node) -> sp.Expr:
-        if value in (sp.nan, sp.zoo, sp.oo, -sp.oo):
+        if value.is_Atom and value in (sp.nan, sp.zoo, sp.oo, -sp.oo):
             self.fail("the value is not finite", node, fix="check it for a pole or a division by zero", code="E705")
         factors: Any = sp.Mul.make_args(value)
         for factor in factors:

@@ -59,7 +59,7 @@ _LATIN_TWINS = str.maketrans(
 
 def normal(name: str) -> str:
     """Return the name in the form in which it is looked up: NFKC."""
-    return unicodedata.normalize("NFKC", name)
+    return name if name.isascii() else unicodedata.normalize("NFKC", name)
 
 
 @lru_cache(maxsize=4_096)
@@ -81,8 +81,11 @@ def twin(name: str) -> str:
 
 def undotted(name: str) -> tuple[str, int]:
     """Remove the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); for other names the number is 0."""
-    if name.isascii():
-        return normal(name), 0
+    return (normal(name), 0) if name.isascii() else _undotted(str(name))
+
+
+@lru_cache(maxsize=4_096)
+def _undotted(name: str) -> tuple[str, int]:
     letters = unicodedata.normalize("NFD", name)
     marks = [i for i, c in enumerate(letters) if c in DOTS]
     if not marks:
@@ -101,8 +104,8 @@ def unaccented(word: str) -> str:
 
 def find(name: str, known: Iterable[str]) -> list[str]:
     """Return the names among ``known`` that ``name`` can mean: the exact one alone, otherwise all equivalent ones."""
-    names = list(known)
-    exact = [k for k in names if normal(k) == normal(name)]
+    names, whole = list(known), normal(name)
+    exact = [k for k in names if normal(k) == whole]
     if exact:
         return exact[:1]
     mine = key(name)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 
 import sympy as sp
 
@@ -79,8 +80,17 @@ class Scope(Mapping[str, sp.Basic]):
         return did_you_mean(base, self._names) or did_you_mean(spelled(base), self._names)
 
 
-def rate_stems(name: str) -> Iterator[tuple[int, str]]:
-    """Yield the orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
+def rate_stems(name: str) -> tuple[tuple[int, str], ...]:
+    """Return the orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
+    return _rate_stems(str(name))
+
+
+@lru_cache(maxsize=4_096)
+def _rate_stems(name: str) -> tuple[tuple[int, str], ...]:
+    return tuple(_found_rate_stems(name))
+
+
+def _found_rate_stems(name: str) -> Iterator[tuple[int, str]]:
     for suffix, order in _RATE_SUFFIXES:
         if name.endswith(suffix) and len(name) > len(suffix):
             yield order, name.removesuffix(suffix)

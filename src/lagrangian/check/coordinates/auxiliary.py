@@ -41,10 +41,10 @@ def with_auxiliary(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[Ans
 
     Each name must be one that changes with time, alone in its line, and linear there.
     """
-    found = {x for line in lines for x in line.expr.atoms(AppliedUndef) if x.args == (time,)}
+    found = {x for line in lines for x in bounded.atoms(line.expr, AppliedUndef) if x.args == (time,)}
     known = truth.names | {d.symbol for d in truth.model.definitions}
     unknown: set[Any] = {x for x in found if x not in known and not is_placeholder(x)}
-    unknown |= {x for line in lines for x in line.expr.free_symbols - known if _SPEED.fullmatch(key(str(x)))}
+    unknown |= {x for line in lines for x in bounded.symbols(line.expr) - known if _SPEED.fullmatch(key(str(x)))}
     if truth.derivation.multipliers or len(unknown) > MOST:
         return tuple(lines)
     while True:
@@ -94,7 +94,7 @@ def turning_alone(lines: Sequence[AnsweredLine], out: Sequence[AnsweredLine]) ->
     solved = {
         name: k
         for k, (x, y) in enumerate(zip(lines, out, strict=True))
-        for name in x.expr.free_symbols
+        for name in bounded.symbols(x.expr)
         if x.kind != y.kind == "definition" and str(name) == y.name
     }
     return [lines[solved[x]] for x in solved.keys() - _needed(lines, out, solved, set())]
@@ -129,7 +129,7 @@ def _determined(lines: Sequence[AnsweredLine], k: int, unknown: set[Any]) -> tup
     """The name that a line determines, and its value."""
     line = lines[k]
     inside = bounded.letters(line.expr) & unknown
-    rates = line.expr.atoms(sp.Derivative)
+    rates = bounded.atoms(line.expr, sp.Derivative)
     if line.kind not in ("equation", "identity") or len(inside) != 1 or bounded.operations(line.expr) > LONGEST:
         return None
     name: Any = inside.pop()

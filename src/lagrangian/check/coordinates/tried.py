@@ -6,7 +6,7 @@ and η̈ in every line; a line that is then right was right in the other coordin
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from functools import lru_cache
 from itertools import islice, product
 from typing import Any, cast
@@ -33,6 +33,9 @@ from lagrangian.viewed import Brief
 
 MAX_CHANGES = 200
 """The largest number of changes that are tried."""
+
+TRIED_TOGETHER = 32
+"""The number of changes that are tried at once."""
 
 MOST_CHOSEN = 3
 """The largest number of new names for which all meanings are tried; more are renamed coordinates, in their order."""
@@ -301,38 +304,42 @@ class QuickTest:
     def true_lines(self, change: ProposedChange) -> int:
         """The number of equations that are true with this change, in doubles."""
         if not self._equations:
-            return int(self.may_be(change))
-        return int(self._true(change).sum())
+            return int(self._keeps_energy(change))
+        return int(self._true([change]).sum())
 
-    def _true(self, change: ProposedChange) -> Array:
-        states = self.truth.states
-        truly = self._compiled.at(states, self._values(change, truly=True))
-        off = self._compiled.at(states, self._values(change, truly=False))
+    def possible(self, changes: Iterable[ProposedChange]) -> Iterator[ProposedChange]:
+        """The changes with which the answer may be right, in their order; none if nothing can be compared."""
+        waiting = iter(changes if self._compiled.ids else ())
+        while some := list(islice(waiting, TRIED_TOGETHER)):
+            true = self._true(some).all(axis=0) if self._equations else np.array([self._keeps_energy(x) for x in some])
+            yield from (some[int(k)] for k in np.flatnonzero(true))
+
+    def _true(self, changes: Sequence[ProposedChange]) -> Array:
+        """Which equations are true with each of the changes, in doubles: shape (equations, changes)."""
+        instead = [self._values(change, truly=x) for x in (True, False) for change in changes]
+        truly, off = np.split(self._compiled.at_each(self.truth.states, instead), 2, axis=1)
         good = np.isfinite(truly) & np.isfinite(off)
-        scale = np.where(good, np.abs(off), 0).max(axis=1)
-        small = np.where(good, np.abs(truly), 0).max(axis=1) <= DOUBLE_TOLERANCE * scale
-        return np.logical_and(good.any(axis=1), small)
+        scale = np.where(good, np.abs(off), 0).max(axis=2)
+        small = np.where(good, np.abs(truly), 0).max(axis=2) <= DOUBLE_TOLERANCE * scale
+        return np.logical_and(good.any(axis=2), small)
 
-    def may_be(self, change: ProposedChange) -> bool:
-        """Whether the answer may be right with this change; False if nothing can be compared."""
+    def _keeps_energy(self, change: ProposedChange) -> bool:
+        """Whether the energy differs with this change from the right one by a constant, or not at all."""
         if not self._compiled.ids:
             return False
-        states = self.truth.states
-        if not self._equations:
-            moved = self._compiled.at(states, self._values(change, truly=False))[0]
-            own = self._own.at(states)[0]
-            rest = (moved - own).reshape(2, -1)
-            with np.errstate(invalid="ignore"):  # what is infinite at every state is no constant
-                rest = rest - rest[:, :1]
-            return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
-        return bool(self._true(change).all())
+        moved = self._compiled.at(self.truth.states, self._values(change, truly=False))[0]
+        own = self._own.at(self.truth.states)[0]
+        rest = (moved - own).reshape(2, -1)
+        with np.errstate(invalid="ignore"):  # what is infinite at every state is no constant
+            rest = rest - rest[:, :1]
+        return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
 
     def _values(self, change: ProposedChange, *, truly: bool) -> dict[sp.Basic, Array]:
         accelerations = self.truth.accelerations if truly else {}
         out: dict[sp.Basic, Array] = dict(accelerations)
         for eta, psi in change.table.items():
-            symbols = (eta, sp.Derivative(eta, time), sp.Derivative(eta, (time, 2)))
-            out.update(zip(symbols, _motion(psi).at(self.truth.states, accelerations), strict=True))
+            values = self.truth.kept((psi, truly), lambda psi=psi: _motion(psi).at(self.truth.states, accelerations))
+            out.update(zip(_with_rates(eta), values, strict=True))
         return out
 
 
@@ -341,6 +348,12 @@ def _motion(psi: sp.Expr) -> CompiledExpressions:
     """ψ, ψ̇ and ψ̈ as one graph, which is made once for the changes of all answers."""
     rate = bounded.diff(psi, time)
     return CompiledExpressions([psi, rate, bounded.diff(rate, time)])
+
+
+@lru_cache(maxsize=1024)
+def _with_rates(eta: sp.Expr) -> tuple[sp.Expr, ...]:
+    """η, η̇ and η̈."""
+    return eta, sp.Derivative(eta, time), sp.Derivative(eta, (time, 2))
 
 
 # -- the system in the answer's coordinates ---------------------------------------------------------------------------

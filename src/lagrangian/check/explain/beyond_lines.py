@@ -14,11 +14,12 @@ from lagrangian.check.align import alignments
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, SMALL, Explanation, in_rows
+from lagrangian.check.explain.written_pieces import Against
 from lagrangian.check.verdict import AnsweredLine
 
 
 def beyond(
-    pool: Pool, equations: Sequence[AnsweredLine], groups: Sequence[Sequence[Explanation]], against: set[int]
+    pool: Pool, equations: Sequence[AnsweredLine], groups: Sequence[Sequence[Explanation]], against: Against
 ) -> list[Explanation] | None:
     """The single mistakes that lead to equations beside known ones of lines, the first of each group, together or one
     of them; none if the known ones suffice, and None if they lead nowhere."""
@@ -37,6 +38,6 @@ def beyond(
             if np.abs(rest).max() <= SMALL * (np.abs(a.rest).max() + np.abs(pool.truth.W).max()):
                 return []
             [singles] = in_rows(pool, [rest], [a], a.rows)
-            more = [e for e in singles if e.cost <= EXOTIC and id(e.told[0].mistake) not in against]
+            more = [e for e in singles if e.cost <= EXOTIC and not against.speaks(e.told[0])]
             explained += [e for e in more if e.told[0].mistake.element not in elements]
     return sorted(explained, key=lambda e: e.cost) or None

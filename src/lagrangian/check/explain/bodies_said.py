@@ -18,11 +18,11 @@ from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.changes.pool import Pool
 from lagrangian.check.explain.columns_said import Senses, columns, said_of_column, senses_of
 from lagrangian.check.explain.its_body import of_its_body
-from lagrangian.check.explain.line_mistakes import stated, without_constant
+from lagrangian.check.explain.line_mistakes import stated
 from lagrangian.check.explain.quantities import quantities_of
 from lagrangian.check.explain.quoted import letters_in
-from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of, said_of_rate
-from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation
+from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of, said_of_rate
+from lagrangian.check.explain.search import MOST_FOR_PAIRS, SMALL, Explanation, without_constant
 from lagrangian.check.explain.sheets import sheets
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import index_of, right_value, without_dampers
@@ -127,8 +127,9 @@ class BodiesSaid:
         ordered = sorted(open_ones, key=lambda x: x[0].number)[:MOST_DEFINITIONS]
         turned = along_turned_axes(self.truth, self.lines)
         senses = senses_of(self.truth, held)
-        every = (p for x in ordered for p in _parts(self.truth, x, turned, senses))
-        return list(islice(every, MOST_PARTS))
+        ordered.sort(key=lambda x: len(x) == 1 and bool(right_quantities(self.truth, x[0], turned=id(x[0]) in turned)))
+        every = (p for x in ordered for p in _parts(self.truth, x, turned, senses))  # what is right comes last
+        return sorted(islice(every, MOST_PARTS), key=lambda p: p.number)
 
     def of_all(self, findings: Sequence[Finding], every: Sequence[AnsweredLine]) -> Blamed | None:
         """The fewest wrong definitions from which all lines follow that are wrong; None if there are none.
@@ -200,7 +201,7 @@ class BodiesSaid:
                     firsts.setdefault(id(self.parts[k].line), self.parts[k])
                 first = _first_of(sorted(firsts.values(), key=lambda p: p.number))
                 same = [p for k in chosen for p in [self.parts[k[0]]] if p.line is first.line]
-                said = (of_its_body(self.truth, self.lines, same),)
+                said = self._used_by(first, effects, good, rest) or (of_its_body(self.truth, self.lines, same),)
             places, lines = [self._place(p) for p in said], [p.line for p in said]
             wholes = [*(effects[k] for k in places), rest]
             alike = [k for k in good if any(np.abs(effects[k] - x).max() <= SMALL for x in wholes)]
@@ -208,6 +209,16 @@ class BodiesSaid:
             later = [self.parts[k].line for k in alike if not any(self.parts[k].line is x for x in lines)]
             return Blamed(said, tuple(wrong), tuple({id(x): x for x in later}.values()))
         return None
+
+    def _used_by(self, said: SaidWrongly, effects: Array, good: Sequence[int], rest: Array) -> tuple[SaidWrongly, ...]:
+        """The several definitions that one uses, and that add up to the same: T₂ is wrong by its ẋ₂ and its ẏ₂."""
+        names = said.line.names - {key(said.line.name or "")}
+        own = [k for k in good if key(self.parts[k].line.name or "") in names]
+        for count in range(2, min(len(own), MOST_TOGETHER) + 1 if len(own) <= MOST_FOR_THREE else 3):
+            for chosen in combinations(own, count):
+                if self._leads_to(effects, chosen, rest) and self._differ(chosen):
+                    return tuple(self.parts[k] for k in chosen)
+        return ()
 
     def _place(self, said: SaidWrongly) -> int:
         """The place of what has the same effect among what the definitions may have wrong."""

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
 
-from lagrangian.check.explain.apart import folded
+from lagrangian import bounded
+from lagrangian.check.explain.apart import folded, told_apart
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import Effect, Sayable, quantities_of, weight_along
-from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told, turned_to
+from lagrangian.check.explain.said_wrongly import NEAR, InWords, SaidWrongly, in_names_of, put, told
+from lagrangian.check.explain.sense_counted import turned_to
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.verdict import AnsweredLine
@@ -82,7 +85,9 @@ def said_of_column(truth: Reference, column: Column, senses: Senses) -> Iterator
 def _in_words(s: Ingredients, q: Sayable, right: Sequence[sp.Expr], said: Sequence[sp.Expr]) -> InWords:
     """What is wrong in a column."""
     shown, written = (_shown([folded(s, x) for x in xs]) for xs in (right, said))
-    return told(q, right, said, shown, written)
+    differ = [(x, y) for x, y in zip(right, said, strict=True) if bounded.expand(x - y) != 0]
+    apart = told_apart(s, *differ[0]) if len(differ) == 1 else ()
+    return replace(told(q, right, said, shown, written), apart=apart)
 
 
 def _said(truth: Reference, column: Column) -> list[sp.Expr] | None:

@@ -9,14 +9,11 @@ from lagrangian.check.explain.axes_meant import along_turned_axes
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.columns_said import columns, right_columns, senses_of
 from lagrangian.check.explain.quantities import Sayable
-from lagrangian.check.explain.said_wrongly import right_quantities
+from lagrangian.check.explain.said_wrongly import PLACED, right_quantities
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, inserted
 from lagrangian.page.formula import text
 from lagrangian.read.letters import key
-
-PLACED = ("position", "height")
-"""The kinds of quantities that are counted from a place of the answer's own."""
 
 
 def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -> tuple[Finding, ...]:
@@ -38,6 +35,8 @@ def with_wrong_definitions(findings: Sequence[Finding], blamed: Blamed | None) -
     ]
     for line in blamed.later:
         lines.setdefault((line.number, line.text), Finding(line, Status.WRONG, follows=True))
+    of_value = {(p.line.number, p.line.text) for p in blamed.said if p.line.kind == "definition"}
+    found = [replace(f, differences=()) if (f.line.number, f.line.text) in of_value else f for f in found]
     for at, new in lines.items():
         if at not in [(f.line.number, f.line.text) for f in found if f.status is Status.WRONG]:
             found = inserted(found, new)

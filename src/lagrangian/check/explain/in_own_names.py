@@ -193,12 +193,13 @@ class _Told:
             words = each_formula(words, lambda x: x.xreplace(dict(self.unused)) if isinstance(x, sp.Expr) else x)
         spoken = list(_spoken(words))
         kept = [x for x in self.names if not any(x.value.has(letter) for letter in spoken)]
-        kept = [
-            x
-            for x in kept
-            if not any(isinstance(part, sp.Expr) and part in (x.value, -x.value) for part in words.parts)
-        ]
-        return each_formula(words, lambda x: self._put(cast("sp.Expr", x), kept) if isinstance(x, sp.Expr) else x)
+        formulas = [x for x in words.parts if isinstance(x, sp.Expr)]
+        whole = [x for x in kept if any(part in (x.value, -x.value) for part in formulas)]
+        kept = [x for x in kept if x not in whole or (x.given and any(with_names(y, [x]) != y for y in formulas))]
+        alone = {sign * x.value: sign * x.symbol for x in whole if x in kept for sign in (1, -1)}  # φ̇ − u̇, and u̇ in it
+        return each_formula(
+            words, lambda x: self._put(cast("sp.Expr", alone.get(x, x)), kept) if isinstance(x, sp.Expr) else x
+        )
 
     def _put(self, expr: sp.Expr, names: Sequence[OwnName]) -> sp.Expr:
         return in_order(with_names(expr, names), self.differences)

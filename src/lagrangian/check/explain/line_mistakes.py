@@ -14,11 +14,20 @@ from lagrangian.check.align import LARGEST, alignments
 from lagrangian.check.explain.changes.pool import Pool, Possible
 from lagrangian.check.explain.derivative_lines import elsewhere, slip_in
 from lagrangian.check.explain.own_terms import LINES, own_term
-from lagrangian.check.explain.search import EXOTIC, MOST_FOR_PAIRS, Explanation, Vectors, reproduces, singles
+from lagrangian.check.explain.search import (
+    EXOTIC,
+    MOST_FOR_PAIRS,
+    Explanation,
+    Vectors,
+    reproduces,
+    singles,
+    without_constant,
+)
+from lagrangian.check.explain.written_pieces import Against
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.stated import dissipation, index_of, right_value, without_dampers
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake
-from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
+from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Force, Torque
 
 ENERGIES = ("T", "V", "L", "Xi")
@@ -32,13 +41,8 @@ UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
 
 
-def unopposed(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
-    """The explanations that no right line speaks against."""
-    return [e for e in found if not any(id(t.mistake) in against for t in e.told)]
-
-
 def of_line(
-    pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine], against: set[int]
+    pool: Pool, line: AnsweredLine, lines: Sequence[AnsweredLine], against: Against
 ) -> tuple[list[Explanation], list[Mistake]]:
     """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own.
 
@@ -56,11 +60,11 @@ def of_line(
             found += of_dampers.pairs(values)
         return [e for e in found if all(_of_whole_damper(t.mistake) for t in e.told)], []
     if line.kind in DERIVED and i is not None:
-        found = unopposed(_of_derivative(pool, line, i), against) if line.kind != "T-p" else []
+        found = against.unopposed(_of_derivative(pool, line, i)) if line.kind != "T-p" else []
         slip = None if found else slip_in(truth, line, lines)
         return found, [slip] if slip is not None else []
     if line.kind == "p" and i is not None:
-        return unopposed(_of_momentum(pool, line, i), against), []
+        return against.unopposed(_of_momentum(pool, line, i)), []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -78,15 +82,16 @@ def of_line(
     values = without_constant(values) if line.kind in ("V", "L") else values
     if np.abs(values).max() <= 1e-12:
         return [], []
-    found = singles(pool, [change], values)
+    found = against.pieces.allow(singles(pool, [change], values))
+    found = _of_one_force(pool, found, i, against) if line.kind == "Xi" and i is not None else found
     if found and found[0].cost <= EXOTIC:
         return found, []
     if line.kind == "T" and (level := _up_to_a_constant(pool, values) or _up_to_time(pool, line.expr - right)):
         return level, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
-    pairs = vectors.pairs(values)
-    if line.kind == "Xi" and pairs and not unopposed([*found, *pairs], against):
-        opposed = [pool.places[k] for k in against]  # of changes with the same effect on this line, one may be free
+    pairs = against.pieces.allow(vectors.pairs(values))
+    if line.kind == "Xi" and pairs and not against.unopposed([*found, *pairs]):
+        opposed = [pool.places[k] for k in against.mistakes]  # of those with the same effect here, one may be free
         kept = np.where(np.isin(np.arange(len(change)), opposed)[:, None], 0.0, change)
         pairs = Vectors(pool, kept).pairs(values) or pairs
     found = sorted([*found, *pairs], key=lambda e: e.cost)
@@ -94,6 +99,18 @@ def of_line(
     if own is not None and (not found or own.cost < found[0].cost):
         return [], [own.mistake(truth)]
     return [e for e in found if e.cost <= UNNATURAL], []
+
+
+def _of_one_force(pool: Pool, found: list[Explanation], i: int, against: Against) -> list[Explanation]:
+    """The explanations of Ξ_i, without those by which the Ξ of another coordinate that is right would be wrong."""
+
+    def elsewhere(e: Explanation) -> bool:
+        own = (t for t in e.told if against.speaks(t))
+        return any(
+            np.abs(np.delete(pool.Xi[pool.places[id(t.mistake)]], i, axis=0)).max(initial=0.0) > 1e-9 for t in own
+        )
+
+    return [e for e in found if not elsewhere(e)]
 
 
 def _up_to_a_constant(pool: Pool, values: Array) -> list[Explanation]:
@@ -188,12 +205,6 @@ def _changes(pool: Pool, kind: str, i: int | None) -> Array:
     return pool.kept(("line", kind), lambda: without_constant(pool.V if kind == "V" else pool.L))
 
 
-def without_constant(values: Array) -> Array:
-    """Values minus the value at the first state with the same parameters."""
-    shaped = values.reshape(*values.shape[:-1], SETS, -1)
-    return (shaped - shaped[..., :1]).reshape(values.shape)
-
-
 def followed(pool: Pool, groups: list[list[Explanation]], equations: Sequence[AnsweredLine]) -> list[list[Explanation]]:
     """The explanations of lines from which equations follow: those that lead to these equations as well, if any do.
 
@@ -219,7 +230,7 @@ def contradicted(pool: Pool, right: Sequence[AnsweredLine], lines: Sequence[Answ
     A Ξ without the dampers, which other ``lines`` hold, says nothing of these and of the springs beside them.
     """
     found: set[int] = set()
-    driven = {id(p) for p in pool.all if isinstance(p.element, Force | Torque)}
+    driven: set[int] = pool.kept("driven", lambda: {id(p) for p in pool.all if isinstance(p.element, Force | Torque)})
     for line in right:
         i = index_of(pool.truth, line.name)
         if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):

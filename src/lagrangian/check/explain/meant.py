@@ -8,13 +8,14 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.check.reading.said.quantity_words import kinds_of_words
-from lagrangian.model import Body, Model
+from lagrangian.model import Body, Model, RigidBody
 from lagrangian.read.letters import spelled, unaccented
 
 STEMS = {
     "omega": ("turning",),
     "Omega": ("turning",),
     "w": ("turning",),
+    "om": ("turning",),
     "v": ("speed", "component", "along", "rate"),
     "T": ("kinetic",),
     "K": ("kinetic",),
@@ -59,6 +60,12 @@ def is_meant(kind: str, name: str) -> bool:
     if kind in ("rotation", "translation"):
         return kind[:3] in name.lower()
     return kind not in ("along", "apart") or not _is_along_fixed_axes(name)
+
+
+def is_along(axis: int | None, name: str) -> bool:
+    """Whether a name may be that of a component along the ``axis`` of a body: w1 or ω_x is along no other than 0."""
+    ends = _split(name)[1][-1:]
+    return axis is None or not ends or ends not in "123xyz" or ends in ("123"[axis], "xyz"[axis])
 
 
 def _is_along_fixed_axes(name: str) -> bool:
@@ -134,4 +141,7 @@ def _is_called(index: str, body: Any) -> bool:
 
 
 def _has_index(index: str, body: Any) -> bool:
-    return isinstance(body.mass, sp.Symbol) and _split(str(body.mass))[1] == index
+    """Whether a mass or a moment of inertia in those of a body has this index: m_w or J_w of four wheels, 4 m_w."""
+    letters = sp.sympify(body.mass).free_symbols
+    letters |= body.inertia.free_symbols if isinstance(body, RigidBody) else set()
+    return any(_split(str(x))[1] == index for x in letters)

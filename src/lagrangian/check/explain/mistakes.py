@@ -29,7 +29,6 @@ from lagrangian.check.explain.line_mistakes import (
     of_forces,
     of_line,
     stated,
-    unopposed,
 )
 from lagrangian.check.explain.narrowed import narrowed
 from lagrangian.check.explain.numerators import by_numerators, said_of
@@ -47,9 +46,10 @@ from lagrangian.check.explain.solved import denominator, solved_from_wrong
 from lagrangian.check.explain.spoken import in_words, moved_elsewhere, of_either
 from lagrangian.check.explain.sums_written import by_sums
 from lagrangian.check.explain.taken_as import taken_as
-from lagrangian.check.explain.term_said import with_term
+from lagrangian.check.explain.term_said import beside, with_term
 from lagrangian.check.explain.undivided import undivided
 from lagrangian.check.explain.without_energies import of_equations
+from lagrangian.check.explain.written_pieces import Against, WrittenPieces
 from lagrangian.check.prescribed import of_prescribed
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Finding, Mistake, Status
@@ -108,10 +108,12 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
         return NamedMistakes()
     true = [f.line for f in findings if f.status.right]
     bodies = BodiesSaid(truth, lines, (*true, *right), _rates(truth, wrong))
-    if (blamed := bodies.of_all(findings, wrong)) is not None:
-        return NamedMistakes(_once([reasoned(pool_of(truth), p) for p in blamed.said], ()), certain=True, blamed=blamed)
     pool = pool_of(truth)
-    against = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
+    pieces = WrittenPieces(pool, lines)
+    if (blamed := bodies.of_all(findings, wrong)) is not None:
+        return NamedMistakes(_once([reasoned(pool, p, pieces) for p in blamed.said], ()), certain=True, blamed=blamed)
+    shown = contradicted(pool, true, lines) | against_derivatives(pool, true) | against_bodies(pool, lines)
+    against = Against(frozenset(shown), pieces)
     groups: list[list[Explanation]] = []
     own: list[Mistake] = []
     left: list[AnsweredLine] = []
@@ -127,10 +129,10 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
             found, more = of_line(pool, line, lines, against)
             if said := bodies.of_line(line):
                 likely = [e for e in found[:MOST_TOLD] if agrees(e, said) and _is_said(truth, e, quotable)]
-                found, more, blamed = _with_definitions(pool, line, said, (found, likely, more), blamed)
+                found, more, blamed = _with_definitions(pieces, line, said, (found, likely, more), blamed)
             found, more = (found, more) if said else taken_as(truth, line, found, more)
             more = more or (of_differences(line, findings) if not found else [])
-            groups.append(unopposed(found, against) or found)  # a slip in one of two lines shows in that one
+            groups.append(against.unopposed(found) or found)  # a slip in one of two lines shows in that one
             own, left = [*own, *more], [*left, *([] if found or more else [line])]
     powers = [line for line in wrong if line.kind == "equation" and is_energy_theorem(truth, line.expr)]
     groups += [of_energy_theorem(pool, line.expr) for line in powers]
@@ -138,7 +140,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     groups = followed(pool, groups, [f.line for f in of_equation if f.follows or f.status.right]) if not own else groups
     combined = {id(f.line) for f in of_equation if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
-        against |= _changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined])
+        against = against.also(_changing(pool, [f.line.expr for f in of_equation if id(f.line) in combined]))
     of_sheets: list[tuple[list[Explanation], list[Mistake]]] = []
     rows = {id(f.line): f.coordinate for f in of_equation if f.status.right and f.coordinate is not None}
     below = below_right_equations(truth, findings)
@@ -159,7 +161,7 @@ def _of_lines(truth: Reference, lines: Lines, findings: Sequence[Finding], right
     told = (*prescribed.values(), *in_written_terms(of_first, findings), *_once(own, named.told))
     open_first = any(x is wrong[0] or foreign_names(truth, x.expr) for x in left) and not truth.derivation.multipliers
     certain, sure = named.certain and not own and not left, named.sure and not open_first
-    told, others = of_equations(as_defined(pool, told, blamed, wrong), lines), of_equations(others, lines)
+    told, others = of_equations(as_defined(pool, told, blamed, wrong, pieces), lines), of_equations(others, lines)
     return NamedMistakes(told, others, certain, sure, tuple(x for x in left if x.kind == "equation"), blamed)
 
 
@@ -169,7 +171,7 @@ def _rates(truth: Reference, wrong: Sequence[AnsweredLine]) -> list[AnsweredLine
 
 
 def _with_definitions(
-    pool: Pool,
+    pieces: WrittenPieces,
     line: AnsweredLine,
     said: Sequence[SaidWrongly],
     explained: tuple[list[Explanation], list[Explanation], list[Mistake]],
@@ -180,7 +182,7 @@ def _with_definitions(
     found, likely, more = explained
     if any(p.elsewhere for p in said):
         return (likely if likely and likely[0].cost <= EXOTIC else []) or found, more, blamed
-    return [], [reasoned(pool, p) for p in said], blamed_also(blamed, said, line)
+    return [], [reasoned(pieces.pool, p, pieces) for p in said], blamed_also(blamed, said, line)
 
 
 def _is_unclear(finding: Finding, findings: Sequence[Finding]) -> bool:
@@ -229,7 +231,7 @@ def _of_sheet(
     sheet: Sequence[AnsweredLine],
     wrong: Sequence[AnsweredLine],
     combined: set[int],
-    against: set[int],
+    against: Against,
     right: Sequence[str],
     left: list[AnsweredLine],
     groups: Sequence[Sequence[Explanation]],
@@ -250,7 +252,7 @@ def _of_sheet(
     if found or more:
         yield found, more
         return
-    felt = against | _felt_in(pool, right)
+    felt = against.also(_felt_in(pool, right))
     for line in own if len(sheet) > 1 else ():
         found, more = _of_equations(pool, [line], [line], felt)
         found = _of_rows_alone(pool, found)
@@ -291,7 +293,7 @@ def _changing(pool: Pool, exprs: Sequence[sp.Expr]) -> set[int]:
 
 
 def _of_equations(
-    pool: Pool, equations: Sequence[AnsweredLine], every: Sequence[AnsweredLine], against: set[int]
+    pool: Pool, equations: Sequence[AnsweredLine], every: Sequence[AnsweredLine], against: Against
 ) -> tuple[list[Explanation], list[Mistake]]:
     """The explanations of all equations together; if there is none, the terms of their own that are wrong.
 
@@ -302,7 +304,7 @@ def _of_equations(
     found = alignments(pool.truth, exprs, P)
     if any(np.abs(a.rest).max() <= 1e-9 for a in found):
         return [], []  # what is wrong is too small to be seen in doubles
-    explained = unopposed(first_explained(pool, found), against) or unopposed(by_rows(pool, found), against)
+    explained = against.unopposed(first_explained(pool, found)) or against.unopposed(by_rows(pool, found))
     cost = explained[0].cost if explained else np.inf
     forgotten = undivided(pool, found)
     if forgotten is not None and forgotten.cost < cost:
@@ -310,7 +312,7 @@ def _of_equations(
     if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
         return explained, []
     solved, Q = stated(pool.truth, every)
-    more = unopposed(solved_from_wrong(pool, solved, Q), against)
+    more = against.unopposed(solved_from_wrong(pool, solved, Q))
     if more and more[0].cost < cost:
         explained, cost = more, more[0].cost
     if (numerators := by_numerators(pool, solved)) and sum(x.cost + 1 for _, x in numerators) - 1 < cost:
@@ -365,7 +367,7 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]], kinds: Set[str])
         )
         if not chosen:
             others = [e for e in group if e is not best and len(e.told) == len(best.told) == 1]
-            others = [e for e in others if reach(e) < reach(best) + SPARED]
+            others = beside(best, [e for e in others if reach(e) < reach(best) + SPARED])
         new = [t for t in best.told if key(t) not in known]
         chosen += [(t, best.under) for t in new if not any(is_part(pool, t, of) for of, _ in chosen)]
     wide = joined(pool, chosen)

@@ -6,26 +6,27 @@ one mistake, from which the energies and the equations with this name follow.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import Any, TypeAlias, cast
+from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.check.explain.accelerations_said import sayable_accelerations
 from lagrangian.check.explain.candidates import ingredients_of
 from lagrangian.check.explain.changes.deflections import struts
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.misconceptions.inertia_about_pivot import arms
+from lagrangian.check.explain.sayable import Adds, Effect, Sayable, pushing
 from lagrangian.check.explain.shafts import shafts
 from lagrangian.check.explain.turned_axes import turned_places, turned_velocities
 from lagrangian.check.explain.twins import twins
 from lagrangian.check.reference import Reference
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.model import Body, Damper, Force, Gravity, RigidBody
-from lagrangian.page.formula import Left
-from lagrangian.records import dataclass
 
 SIGNED = frozenset(
     [
@@ -37,46 +38,16 @@ SIGNED = frozenset(
 LEVEL = frozenset(["position", "height", "deflection", "potential"])
 """Kinds that a constant does not change."""
 EACH = frozenset(
-    ["speed", "component", "along", "turning", "height", "kinetic", "translation", "rotation", "potential", "inertia"]
-)
+    [
+        "speed", "component", "along", "apart", "turning", "height", "kinetic", "translation", "rotation", "potential",
+        "inertia",
+    ]
+)  # fmt: skip
 """Kinds of quantities that are said of each of two equal bodies at once."""
 MOST = 100
 """The largest number of quantities of a system."""
-LONGEST_VELOCITY = 120
-"""The largest number of operations of a velocity whose acceleration is held against what an answer says."""
-
-
-@dataclass(frozen=True, eq=False)
-class Effect:
-    """What another value of a quantity adds to T*, to V, to every Ξ_i, to the left-hand sides and to D."""
-
-    T: sp.Expr = sp.S.Zero
-    V: sp.Expr = sp.S.Zero
-    Xi: tuple[sp.Expr, ...] = ()
-    left: tuple[sp.Expr, ...] = ()
-    D: sp.Expr = sp.S.Zero
-
-
-Adds: TypeAlias = Callable[[sp.Expr], Effect]
-
-
-@dataclass(frozen=True, eq=False)
-class Sayable:
-    """A quantity of a body, of another element or of a coordinate, and what another value in its place adds.
-
-    ``words`` are those of a sentence, without an article. ``adds`` takes what is written, counted as ``right`` is.
-    """
-
-    kind: str
-    owner: Any
-    words: tuple[str | Left, ...]
-    right: sp.Expr
-    adds: Adds
-    coordinate: str | None = None
-    parts: tuple[tuple[tuple[str | Left, ...], sp.Expr], ...] = ()
-    """The words and the values of forces of which it is the sum."""
-    also: tuple[str, ...] = ()
-    """The other elements of which it is, too."""
+AXES = ("first", "second", "third")
+"""What the axes of a body are called, in which its moments of inertia are given."""
 
 
 class Sayables:
@@ -85,9 +56,9 @@ class Sayables:
     def __init__(self, truth: Reference, *, accelerations: bool = False) -> None:
         s = ingredients_of(truth.derivation)
         self.of = s
-        every: tuple[Sayable, ...] = tuple(_accelerations(s)) if accelerations else _all_of(s)
-        self.all = [q for q in every if q.right != 0]
-        self.all = [*self.all, *of_twins(s, self.all)][:MOST]
+        every: tuple[Sayable, ...] = tuple(sayable_accelerations(s)) if accelerations else _all_of(s)
+        own = [q for q in every if q.right != 0]
+        self.all = [*own[:MOST], *of_twins(s, own)][: MOST + MOST // 2]
         self.rights = [truth.put(q.right) for q in self.all]
         self.values: Array = CompiledExpressions(self.rights).at(truth.states)
 
@@ -112,13 +83,15 @@ def _all_of(s: Ingredients) -> tuple[Sayable, ...]:
 def of_twins(s: Ingredients, every: Sequence[Sayable]) -> Iterator[Sayable]:
     """The quantities of two equal bodies that are the same for both, but for a sense: "of a panel" is said of each."""
     for one, other in twins(s):
+        seen: Counter[tuple[str, sp.Expr]] = Counter()
         for q in (x for x in every if x.owner is one and x.kind in EACH):
             same = [x for x in every if x.owner is other and x.kind == q.kind and x.right in (q.right, -q.right)]
             if same:
-                senses = [x for x in same if x.words == q.words] or same
+                senses = same[min(seen[q.kind, q.right], len(same) - 1) :]  # a distance is a place, or an arm
                 words = tuple(
                     x.replace(one.title, f"{one.title} and {other.title}") if isinstance(x, str) else x for x in q.words
                 )
+                seen[q.kind, q.right] += 1
                 yield replace(q, words=words, adds=partial(_of_both, q, senses[0]), also=(other.title,))
 
 
@@ -150,32 +123,24 @@ def _turned(s: Ingredients) -> Iterator[Sayable]:
     """The components of velocities and positions along axes that turn."""
     for b in s.bodies:
         m = s.expand(b.mass)
+        every = list(turned_velocities(s, b))
         for axes, x, placed in turned_places(s, b):
             words = (f"component of the position of {b.title}", *axes)
             yield Sayable("apart", b, words, x, partial(_elsewhere, s, b, placed))
-        for axes, x in turned_velocities(s, b):
+            for w in _turning_with(s, x, [v for _, v in every]):
+                yield Sayable("apart", b, words, x, lambda said, f=m * w**2, x=x: Effect(T=f * (said**2 - x**2) / 2))
+        for axes, x in every:
             words = (f"component of the velocity of {b.title}", *axes)
             yield Sayable("along", b, words, x, lambda said, m=m, x=x: Effect(T=m * (said**2 - x**2) / 2))
 
 
-def _accelerations(s: Ingredients) -> Iterator[Sayable]:
-    """The components of accelerations, and angular accelerations: another one adds m (a − a₀) ∂r/∂ξ_i to each row."""
-    for b in s.bodies:
-        if bounded.operations(*s.velocity(b)) > LONGEST_VELOCITY:
-            continue
-        for c, (x, v) in enumerate(zip(s.position(b), s.velocity(b), strict=True)):
-            right, slopes = s.rate(v), [s.expand(b.mass) * bounded.diff(x, q) for q in s.q]
-            words = (f"{'xyz'[c]} component of the acceleration of {b.title}",)
-            yield Sayable("acceleration", b, words, right, partial(_accelerated, right, slopes))
-        omega = s.omega(b) if isinstance(b, RigidBody) else ()
-        for w in omega if len(omega) == 1 else ():
-            right, slopes = s.rate(w), [s.expand(b.inertia[0]) * bounded.diff(w, v) for v in s.v]
-            words = (f"angular acceleration of {b.title}",)
-            yield Sayable("acceleration", b, words, right, partial(_accelerated, right, slopes))
-
-
-def _accelerated(right: sp.Expr, slopes: Sequence[sp.Expr], said: sp.Expr) -> Effect:
-    return _pushing(sp.Add(said, -right), slopes)
+def _turning_with(s: Ingredients, arm: sp.Expr, velocities: Sequence[sp.Expr]) -> Iterator[sp.Expr]:
+    """The rates at which a distance turns: φ̇ of the velocity ρ φ̇ across it."""
+    names = {v: sp.Dummy() for v in s.v}
+    for v in velocities:
+        rate = bounded.cancel(cast("sp.Expr", v.xreplace(names)) / arm)
+        if rate.has(*names.values()) and not s.moves(rate) and not sp.fraction(rate)[1].has(*names.values()):
+            yield cast("sp.Expr", rate.xreplace({x: v for v, x in names.items()}))
 
 
 def _elsewhere(s: Ingredients, b: Any, placed: Callable[[sp.Expr], list[sp.Expr]], said: sp.Expr) -> Effect:
@@ -188,6 +153,9 @@ def _elsewhere(s: Ingredients, b: Any, placed: Callable[[sp.Expr], list[sp.Expr]
 
 def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
     omega = s.omega(b) if isinstance(b, RigidBody) else ()
+    for k, w in enumerate(omega if len(omega) > 1 else ()):
+        words = (f"component of the angular velocity of {b.title} along its {AXES[k]} axis",)
+        yield Sayable("turning", b, words, w, partial(_turning, s, b, k), axis=k)
     if len(omega) != 1:
         return
     J, w, words = s.expand(b.inertia[0]), omega[0], f"moment of inertia of {b.title}"
@@ -198,6 +166,12 @@ def _inertias(s: Ingredients, b: Any) -> Iterator[Sayable]:
         whole = J + s.expand(b.mass) * square
         about = (f"{words} about its pivot",)
         yield Sayable("axis", b, about, whole, lambda said, whole=whole: Effect(T=(said - whole) * w**2 / 2))
+
+
+def _turning(s: Ingredients, b: Any, k: int, said: sp.Expr) -> Effect:
+    """What a body adds that has another component of its angular velocity."""
+    omega = tuple(said if i == k else w for i, w in enumerate(s.omega(b)))
+    return Effect(T=s.rotating(b, omega) - s.rotation(b))
 
 
 def _positions(s: Ingredients, b: Any) -> Iterator[Sayable]:
@@ -249,13 +223,13 @@ def _of_springs(s: Ingredients) -> Iterator[Sayable]:
 
         def pulled(said: sp.Expr, k: sp.Expr = k, b: sp.Expr = b, way: sp.Expr = way, slopes: Any = slopes) -> Effect:
             more = sp.Add(said, -way)
-            return _pushing(k * more + b * s.rate(more), slopes)
+            return pushing(k * more + b * s.rate(more), slopes)
 
         words, whole = (f"deflection of {strut.title}",), k * way + b * rate
         yield Sayable("deflection", strut.spring, words, way, stored)
         yield Sayable("deflection", strut.spring, words, way, pulled)
-        parts: Any = [((f"force of {e.title}",), s.expand(e.k) * way) for e in strut.springs]
-        parts += [((f"force of {d.title}",), s.expand(d.b) * rate) for d in strut.dampers]
+        parts: Any = [(e, s.expand(e.k) * way) for e in strut.springs]
+        parts += [(d, s.expand(d.b) * rate) for d in strut.dampers]
         own = (f"force of {strut.title}",)
         yield Sayable("force", strut.spring, own, whole, _force(whole, slopes), None, tuple(parts))
 
@@ -269,7 +243,7 @@ def _of_dampers(s: Ingredients) -> Iterator[Sayable]:
             return _damped(s, b, _rate(s, said), rate)
 
         def pulled(said: sp.Expr, b: sp.Expr = b, rate: sp.Expr = rate, slopes: Any = slopes) -> Effect:
-            return _pushing(b * (_rate(s, said) - rate), slopes)
+            return pushing(b * (_rate(s, said) - rate), slopes)
 
         words = (f"velocity of {d.title}",)
         yield Sayable("rate", d, words, rate, worked)
@@ -288,12 +262,11 @@ def _of_shafts(s: Ingredients) -> Iterator[Sayable]:
             Xi = [sp.Add(x, *[b.Xi[i] for b in braked]) for i, x in enumerate(Xi)]
             return Effect(T=J * (said**2 - w**2) / 2, Xi=tuple(Xi), D=sp.Add(*[b.D for b in braked]))
 
-        words = (f"angular velocity of {owner.title.replace('kinetic ', '')}",)
-        yield Sayable("turning", owner, words, w, turned)
+        yield Sayable("turning", owner, (f"angular velocity of {owner.title.replace('kinetic ', '')}",), w, turned)
 
 
 def _force(right: sp.Expr, slopes: Sequence[sp.Expr], by: sp.Expr = sp.S.One) -> Adds:
-    return lambda said: _pushing(said * by - right, slopes)
+    return lambda said: pushing(said * by - right, slopes)
 
 
 def _half_square(right: sp.Expr, rate: sp.Expr) -> Adds:
@@ -302,11 +275,6 @@ def _half_square(right: sp.Expr, rate: sp.Expr) -> Adds:
 
 def _pulling(right: sp.Expr, only: Sequence[sp.Expr]) -> Adds:
     return lambda said: Effect(Xi=tuple((said - right) * x for x in only))
-
-
-def _pushing(force: sp.Expr, slopes: Sequence[sp.Expr]) -> Effect:
-    """What a force adds to the left-hand sides, that has these lever arms."""
-    return Effect(left=tuple(force * x for x in slopes))
 
 
 def _rate(s: Ingredients, said: sp.Expr) -> sp.Expr:

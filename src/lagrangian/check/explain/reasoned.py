@@ -10,14 +10,14 @@ import numpy as np
 from lagrangian.check.align import LARGEST
 from lagrangian.check.explain.bodies_said import Blamed
 from lagrangian.check.explain.changes.pool import Pool, Possible, pool_of
-from lagrangian.check.explain.line_mistakes import without_constant
 from lagrangian.check.explain.meant import owner_of
 from lagrangian.check.explain.said_wrongly import SaidWrongly, said_of
-from lagrangian.check.explain.search import singles
+from lagrangian.check.explain.search import singles, without_constant
 from lagrangian.check.explain.second_choices import distinct
 from lagrangian.check.explain.spoken import in_words
 from lagrangian.check.explain.taken_as import taken_in
 from lagrangian.check.explain.term_said import with_reason
+from lagrangian.check.explain.written_pieces import WrittenPieces
 from lagrangian.check.reference import Reference, without_time
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -54,8 +54,9 @@ ALIKE = 0.1
 """The largest difference of the costs of two reasons of which neither is the likelier."""
 
 
-def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
-    """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one."""
+def reasoned(pool: Pool, said: SaidWrongly, pieces: WrittenPieces) -> Mistake:
+    """What a definition has wrong, in words; with the likely mistake in this body that leads to it, if there is one
+    that none of the ``pieces`` contradicts which are written."""
     mistake = said.mistake
     if mistake.name not in REASONED or mistake.element is None or said.words.of.kind in SHOWN:
         return mistake
@@ -66,7 +67,7 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
         return mistake
     V: Array = pool.kept("V but constants", lambda: without_constant(pool.V))
     found = [e for k in range(len(of_T)) for e in singles(pool, [pool.T, V], every[[k, -1]])]
-    told = [t for e in found for t in e.told if t.cost <= MOST_LIKELY]
+    told = [t for e in pieces.allow(found) for t in e.told if t.cost <= MOST_LIKELY]
     reasons = [(t.cost, in_words(pool.truth, t, None)) for t in told if not _is_term(t.mistake)]
     own = [(cost, x) for cost, x in reasons if _is_of(x, mistake.element)]  # an element of gravity: its weight
     if not own:
@@ -79,7 +80,11 @@ def reasoned(pool: Pool, said: SaidWrongly) -> Mistake:
 
 
 def as_defined(
-    pool: Pool, told: Sequence[Mistake], blamed: Blamed | None, wrong: Sequence[AnsweredLine]
+    pool: Pool,
+    told: Sequence[Mistake],
+    blamed: Blamed | None,
+    wrong: Sequence[AnsweredLine],
+    pieces: WrittenPieces,
 ) -> tuple[Mistake, ...]:
     """The mistakes in the place or the speed of a body in the words of the definition that has it wrong, from which the
     line with this mistake follows: several pieces may have the same effect, and the definition shows which it is.
@@ -89,11 +94,11 @@ def as_defined(
     if blamed is not None:
         because = {id(x) for x in blamed.because}
         other = min((x.number for x in wrong if id(x) not in because), default=None)
-        above = {str(reasoned(pool, p).what) for p in blamed.said if other is None or p.number <= other}
+        above = {str(reasoned(pool, p, pieces).what) for p in blamed.said if other is None or p.number <= other}
         told = sorted(told, key=lambda m: str(m.what) not in above)
     said = [p for p in blamed.said if not p.elsewhere and p.words.of.kind in PLACES] if blamed is not None else []
     own = {p.mistake.element: p for p in said}
-    return tuple(reasoned(pool, own[m.element]) if m.element in own and m.name in OF_A_WAY else m for m in told)
+    return tuple(reasoned(pool, own[m.element], pieces) if m.element in own and m.name in OF_A_WAY else m for m in told)
 
 
 def _is_of(mistake: Mistake, title: str) -> bool:
@@ -109,7 +114,9 @@ def with_bodies(truth: Reference, findings: Sequence[Finding], told: Sequence[Mi
     pairs = [(p, owner) for x in wrong if (owner := owner_of(x.name or "", truth.model)) for p in said_of(truth, x)]
     said = [p for p, owner in pairs if (p.mistake.name, p.mistake.element) == (KINETIC, owner.title)]
     titles = [p.mistake.element for p in said]
-    own = (reasoned(pool_of(truth), p) for p in said)
+    pool = pool_of(truth)
+    pieces = WrittenPieces(pool, [f.line for f in findings] if said else [])
+    own = (reasoned(pool, p, pieces) for p in said)
     return (*own, *(m for m in told if m.step != STEP or m.element not in titles))
 
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import sympy as sp
+
 from lagrangian.check.explain.meant import PART_OF
 from lagrangian.check.explain.say import WHY_PART
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Left, Text, text
 
 _SPEED = "The velocity is the derivative of the position; every coordinate that moves the body adds to it."
 _WAY = "Go along the way from the fixed point to the body: every piece of it counts."
@@ -61,6 +65,25 @@ CALLED = {
 NAMES = {"place": "position", "height": "position", "apart": "position", "rate": "deflection", **PART_OF}
 NAMES |= dict.fromkeys(["component", "along", "velocity"], "speed")
 """What mistakes of some kinds are called."""
+WHY_SIGN = text("Every piece counts in the direction in which it points: plus along the axis, minus against it.")
+WHY_SIGN_OF_RATE = text(
+    "Differentiate the position by time, term by term: the derivative of a sine is the cosine, that of a cosine is "
+    "minus the sine."
+)
 OF_MANY_TERMS = ("speed", "kinetic", "mass", "potential")
 """Kinds in which two formulas in different arrangements do not show at once in which term they differ."""
+OF_WAYS, OF_TURNED = ("position", "apart", "height", "place"), ("component", "acceleration", "velocity")
+SIGN = " has the wrong sign."
+"""How the words for a wrong sign of a term end."""
+
+
+def why_of(kind: str, apart: Sequence[str | Left]) -> Text:
+    """Why a quantity is wrong that differs in these words from what is right."""
+    sign = bool(apart) and str(apart[-1]) == SIGN
+    if sign and kind in OF_WAYS:
+        return WHY_SIGN
+    turned = any(isinstance(x, sp.Expr) and x.has(sp.sin, sp.cos) for x in apart)
+    return WHY_SIGN_OF_RATE if sign and turned and kind in OF_TURNED else WHY[kind]
+
+
 STEPS = {"deflection": 3, "potential": 3, "height": 3, "restoring": 3, "rate": 6, "Xi": 6, "damping": 6, "force": 6}

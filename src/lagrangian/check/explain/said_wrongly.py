@@ -13,8 +13,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.explain.apart import beside, folded, moving_part, rescales, told_apart
 from lagrangian.check.explain.dampers_said import damper_share
-from lagrangian.check.explain.line_mistakes import without_constant
-from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_meant, kinds_of, owner_of
+from lagrangian.check.explain.meant import PART_OF, TRIVIAL, is_about_centre, is_along, is_meant, kinds_of, owner_of
 from lagrangian.check.explain.misconceptions import Ingredients
 from lagrangian.check.explain.quantities import (
     LEVEL,
@@ -27,7 +26,9 @@ from lagrangian.check.explain.quantities import (
 )
 from lagrangian.check.explain.quoted import letters_in
 from lagrangian.check.explain.rates_apart import carried_apart, rates_apart, turned
-from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY, WHY_RELATIVE, WHY_TERM
+from lagrangian.check.explain.said_words import CALLED, NAMES, OF_MANY_TERMS, STEPS, WHY_RELATIVE, WHY_TERM, why_of
+from lagrangian.check.explain.search import without_constant
+from lagrangian.check.explain.sense_counted import senses, value_of
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import zero_everywhere
 from lagrangian.check.stated import left_values
@@ -41,6 +42,8 @@ LONGEST = 60
 """The largest number of operations of such a definition."""
 OF_RATES = frozenset(["turning", "speed", "component", "along", "rate"])
 """Kinds of what holds rates."""
+PLACED = ("position", "height")
+"""The kinds of quantities that are counted from a place of the answer's own."""
 NEAR = 1e-9
 """The relative difference of values that is rounding."""
 
@@ -73,6 +76,8 @@ class SaidWrongly:
     """Whether what is written is right for another quantity."""
     others: tuple[str, ...] = ()
     """The other elements of which the same may be said."""
+    right: sp.Expr | None = None
+    """The value that the name should have, where it is known."""
 
     @cached_property
     def words(self) -> InWords:
@@ -121,7 +126,7 @@ class SaidWrongly:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
-        return WHY_TERM if whole else WHY[of.kind]
+        return WHY_TERM if whole else why_of(of.kind, self.words.apart)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:
@@ -189,7 +194,9 @@ def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool
     every, name = _quantities(truth, said).all, line.name or ""
     owner = owner_of(name, truth.model)
     if _accelerates(truth, said):
-        return [k for k, q in enumerate(every) if owner in (None, q.owner)]
+        own = [k for k, q in enumerate(every) if owner in (None, q.owner)]
+        known = set[sp.Basic]().union(*(every[k].right.free_symbols for k in own))
+        return own if said.free_symbols <= known else list(range(len(every)))  # a1 may be along the first axis
     kinds = kinds_of(name)
     kinds = None if kinds is not None and set(kinds) <= OF_RATES and _is_place(truth, line) else kinds
     found = [
@@ -199,6 +206,7 @@ def _plausible(truth: Reference, line: AnsweredLine, said: sp.Expr, turned: bool
         if is_about_centre(name, b, truth.model):  # no other axis, nor all that moves with a coordinate
             found = [k for k in found if every[k].kind != "mass" and (every[k].kind, every[k].owner) != ("axis", b)]
     found = [k for k in found if (every[k].kind == "along" if turned else is_meant(every[k].kind, name))]
+    found = [k for k in found if is_along(every[k].axis, name)]
     own = [k for k in found if owner is None or every[k].owner is owner or not isinstance(every[k].owner, Body)]
     return own or found  # J_P is the moment of inertia about P
 
@@ -221,8 +229,8 @@ def right_quantities(truth: Reference, line: AnsweredLine, *, but: bool = False,
     found: list[Sayable] = []
     for k in _plausible(truth, line, said, turned) if np.isfinite(values).all() else ():
         q, right = every.all[k], every.values[k]
-        if trivial and q.kind not in TRIVIAL:
-            continue
+        if (trivial and q.kind not in TRIVIAL) or (q.kind == "restoring" and not every.of.moves(said)):
+            continue  # M g may be a weight, or what a rope is said to pull
         for x, expr in _readings(q, values, said):
             rest = x - right
             rest = without_constant(rest) if but and q.kind in LEVEL else rest
@@ -256,15 +264,17 @@ def said_of(truth: Reference, line: AnsweredLine, *, turned: bool = False) -> It
     if said is None or (_is_trivial(said) and kinds_of(line.name or "") is None):
         return
     every, right = _quantities(truth, said), right_quantities(truth, line, but=True, turned=turned)
-    s, elsewhere = every.of, bool(right)
+    placed = all(q.kind in PLACED for q in right)  # R + s sin θ is the height s sin θ from another place, if it is that
+    s, elsewhere = every.of, bool(right_quantities(truth, line, turned=turned) if placed else right)
     for k in _plausible(truth, line, said, turned):
         q = every.all[k]
         if not _alike(s, q, said) or any(q is x for x in right):
             continue
-        for written, sign in _senses(truth, q, said):
+        for written, sign in senses(truth, q, said):
             effect = put(truth, q.adds(sign * written))
             if effect.T != 0 or effect.V != 0 or any(effect.Xi) or any(effect.left):
-                yield SaidWrongly(line, effect, partial(in_words, s, q, written, sign), elsewhere)
+                words, value = partial(in_words, s, q, written, sign), value_of(q, said, written, sign)
+                yield SaidWrongly(line, effect, words, elsewhere, right=None if value is None else truth.put(value))
 
 
 def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords:
@@ -279,7 +289,8 @@ def in_words(s: Ingredients, q: Sayable, written: sp.Expr, sign: int) -> InWords
     right = folded(s, right)
     apart = rates_apart(right, own) if q.kind in OF_RATES else ()
     carried = carried_apart(right, own) if q.kind in ("component", "along") and not apart else ()
-    apart = told_apart(s, right, own) if q.kind in OF_MANY_TERMS else apart
+    if not apart and not carried and (q.kind in OF_MANY_TERMS or own.is_Add or right.is_Add):
+        apart = told_apart(s, right, own)
     right = beside(s, right, own) if q.kind in ("speed", "kinetic") and not rescales(apart) else right
     why = WHY_RELATIVE if carried else None
     return replace(told(of, [right], [own], (right,), (own,)), apart=apart or carried, why=why)
@@ -311,18 +322,23 @@ def said_of_rate(truth: Reference, line: AnsweredLine) -> Iterator[SaidWrongly]:
         for sign in (1, -1):
             written = bounded.expand(sign * q.right - rest)
             effect = put(truth, q.adds(sign * written))
-            right = (bounded.expand(sign * q.right),)
-            yield SaidWrongly(line, effect, partial(told, q, [q.right], [written], right, (written,)))
+            yield SaidWrongly(line, effect, partial(_of_rate, every.of, q, bounded.expand(sign * q.right), written))
+
+
+def _of_rate(s: Ingredients, q: Sayable, right: sp.Expr, written: sp.Expr) -> InWords:
+    """What is wrong in the rate of a place."""
+    return replace(told(q, [right], [written], (right,), (written,)), apart=told_apart(s, right, written))
 
 
 def _narrowed(q: Sayable, right: sp.Expr, written: sp.Expr, sign: int) -> tuple[Sayable, sp.Expr, sp.Expr]:
     """Of a sum of forces, the only one that is wrong, with what is right and what is written of it."""
-    for k, (words, part) in enumerate(q.parts):
+    for k, (element, part) in enumerate(q.parts):
         others = sp.Add(*[sign * x for j, (_, x) in enumerate(q.parts) if j != k])
         factor = sp.Mul(*[x for x in sp.Mul.make_args(part) if x.is_Symbol])
         way = bounded.expand(bounded.expand(written - others) / factor)
         if way.free_symbols <= (part / factor).free_symbols:
-            return replace(q, words=words), sign * part, cast("sp.Expr", factor * way)
+            own = replace(q, owner=element, words=(f"force of {element.title}",))
+            return own, sign * part, cast("sp.Expr", factor * way)
     return q, right, written
 
 
@@ -351,41 +367,3 @@ def _alike(s: Ingredients, q: Sayable, said: sp.Expr) -> bool:
         return True
     common = letters_in(said) & letters_in(q.right)
     return q.kind == "Xi" or any(x.is_Symbol for x in common)
-
-
-def _senses(truth: Reference, q: Sayable, said: sp.Expr) -> Iterator[tuple[sp.Expr, int]]:
-    """What is written, and the sense in which it is counted; the sense that leaves fewer motions different first."""
-    if q.kind == "speed":
-        yield said**2, 1
-        yield said, 1
-        return
-    s = quantities_of(truth).of
-    said = s.rate(said) if q.kind == "rate" and not said.has(*s.v) else said
-    if q.kind not in SIGNED:
-        yield said, 1
-        return
-    outwards = -1 if q.right.could_extract_minus_sign() else 1
-    first = outwards if q.kind == "apart" else turned_to(truth, q.right, said)
-    yield said, first
-    yield said, -first
-
-
-def turned_to(truth: Reference, right: sp.Expr, said: sp.Expr) -> int:
-    """The sense in which what is written is counted: that which leaves fewer motions different, or less."""
-    moving = [x for c in truth.model.coordinates for x in (c.rate, c.symbol) if right.has(x) or said.has(x)]
-    rests = [bounded.expand(said - sign * right) for sign in (-1, 1)]
-    back, forth = (sum(rest.has(x) for x in moving) for rest in rests)
-    if back != forth:
-        return -1 if back < forth else 1
-    back, forth = (any(_is_bare(rest, x) for x in moving) for rest in rests)
-    if back != forth:  # of ṡ − r θ̇ for ṡ + r θ̇ the sense of ṡ is that in which it is counted
-        return 1 if back else -1
-    values = CompiledExpressions([truth.put(right), truth.put(said)]).at(truth.states)
-    back, forth = (float(np.abs(values[1] - sign * values[0]).sum()) for sign in (-1, 1))
-    return -1 if back < forth else 1
-
-
-def _is_bare(rest: sp.Expr, x: sp.Expr) -> bool:
-    """Whether a rate or a coordinate stands in a sum with nothing but a number."""
-    factor = cast("sp.Expr", rest.coeff(x))
-    return bool(factor.is_number and factor != 0)

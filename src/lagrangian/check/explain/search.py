@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.check.align import Alignment
 from lagrangian.check.explain.changes.pool import Pool, Possible
-from lagrangian.derive.sampling import Array
+from lagrangian.derive.sampling import SETS, Array
 from lagrangian.model import Gravity
 from lagrangian.records import dataclass
 
@@ -115,6 +115,12 @@ def in_rows(
     E = [pool.W[:, i] for i in rows]
     squares = np.sum([pool.kept(("squares", i), lambda i=i: squared(pool.W[:, i])) for i in rows], axis=0)
     return _singles(pool, E, rests, under, squares)
+
+
+def without_constant(values: Array) -> Array:
+    """Values minus the value at the first state with the same parameters."""
+    shaped = values.reshape(*values.shape[:-1], SETS, -1)
+    return (shaped - shaped[..., :1]).reshape(values.shape)
 
 
 def simple_number(times: float) -> Fraction | None:

@@ -1,25 +1,38 @@
-"""Leaves out of second choices what only repeats a mistake that is told, in other words.
+"""Leaves out of second choices what only repeats a mistake that is told, in other words, and what cannot be.
 
 "The weight of the bob has the wrong sign" says nothing new beside "The weight of the bob has the wrong sign in V", and
-"In V, R stands in place of r" nothing beside "R stands in place of r in the energy of the spring".
+"In V, R stands in place of r" nothing beside "R stands in place of r in the energy of the spring". No sign is wrong
+where only terms are missing, and no mistake was made in T* if the line that states it is right.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
-from lagrangian.check.verdict import Mistake
+from lagrangian.check.verdict import Mistake, Status, Verdict
+from lagrangian.page.formula import text
 
 FAMILIES = (
     ("sign", ("sign", "xi_sign", "plus_potential")),
-    ("left out", ("forgotten", "left_out", "missing", "lost", "no_arm", "not_squared", "without")),
+    ("left out", ("forgotten", "left_out", "missing", "lost", "no_arm", "not_squared", "without", "_arm")),
     ("number", ("half", "twice", "number", "factor_of", "energy_for")),
     ("letter", ("swapped", "letter", "exchanged", "wrong_angle", "angle")),
-    ("function", ("sine", "function", "turned")),
+    ("function", ("sine", "function", "turned", "direction")),
+    ("rate", ("relative_rate", "omega")),
 )
 """What was done, by parts of the names of mistakes."""
+ANOTHER_FACTOR = "arm"
+"""A factor that a force or a damper has in one equation in place of another: it says no more than how that came."""
+OF_WHAT_IS_THERE = ("small_angle", "angle", "exchanged", "damper_other_velocity", "deflection")
+"""Further mistakes in what is written, besides signs and functions."""
+STATED = {2: ("T", "L"), 3: ("V", "L")}
+"""The lines that state what is made in a step."""
+SECOND = " Or: "
+"""What stands before a second reason."""
 
 
 def distinct(others: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
@@ -29,6 +42,45 @@ def distinct(others: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistak
         if not any(_repeats(m, x) for x in (*told, *kept)):
             kept.append(m)
     return tuple(kept)
+
+
+def fitting(verdict: Verdict) -> Verdict:
+    """The verdict with the second choices that may be true, and that repeat no mistake which is told."""
+    open_ones = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    kinds = {d.kind for f in open_ones for d in f.differences}
+    missing = kinds == {"missing"} or (not kinds and all(_family(m) == "left out" for m in verdict.mistakes))
+    wrong = {f.line.kind for f in verdict.findings if f.status is Status.WRONG}
+    right = {f.line.kind for f in verdict.findings if f.status.right} - wrong
+    signs = any(_family(m) == "sign" for m in verdict.mistakes)
+    others = [
+        m
+        for m in verdict.alternatives
+        if not (missing and _is_of_what_is_there(m))
+        and not (signs and _is_of_what_is_there(m) and _family(m) != "sign")
+        and not (right.intersection(STATED.get(m.step, ())) and _is_of_energy(m))
+    ]
+    told = (_without_right(m, verdict) for m in verdict.mistakes)
+    return replace(verdict, mistakes=tuple(told), alternatives=distinct(others, verdict.mistakes))
+
+
+def _without_right(mistake: Mistake, verdict: Verdict) -> Mistake:
+    """A mistake without a second reason in what a right line states: Or: In the velocity of …"""
+    notes = [str(f.note) for f in verdict.findings if f.line.kind == "definition" and f.status.right and f.note]
+    parts = mistake.what.parts
+    place = parts.index(SECOND) if SECOND in parts else len(parts) - 1
+    reason = str(parts[place + 1]) if place + 1 < len(parts) else ""
+    contradicts = any(reason.startswith(f"In {note}") for note in notes)
+    return replace(mistake, what=text(*parts[:place])) if contradicts else mistake
+
+
+def _is_of_energy(mistake: Mistake) -> bool:
+    """Whether a mistake of step 2 is made in T*, where one in a position shows in V alone."""
+    return mistake.step != 2 or any(word in str(mistake.what) for word in ("T*", "kinetic", "velocity", "speed"))
+
+
+def _is_of_what_is_there(mistake: Mistake) -> bool:
+    """Whether something that is written is said to be wrong, and not that something is missing."""
+    return _family(mistake) in ("sign", "function") or mistake.name in OF_WHAT_IS_THERE
 
 
 def _repeats(mistake: Mistake, other: Mistake) -> bool:
@@ -41,11 +93,27 @@ def _repeats(mistake: Mistake, other: Mistake) -> bool:
     replaced = len(one) > 1 and len(two) > 1 and mistake.element in (other.element, None)
     if replaced and (one == two or (len(quoted) > 1 and quoted == others)):
         return True
+    if mistake.name == ANOTHER_FACTOR and mistake.element == other.element:
+        return True
     if _family(mistake) != _family(other):
         return False
+    same = _of_same(mistake, other)
     if quoted and others:
-        return quoted == others or (mistake.element == other.element and (quoted <= others or others <= quoted))
-    return mistake.element is None or other.element is None or mistake.element == other.element
+        quoted, others = (x - _functions(x) for x in (quoted, others))
+        letters, told = _letters(quoted), _letters(others)
+        letters, told = (letters, told) if letters and told else (quoted, others)
+        if same and _without_rates(quoted) == _without_rates(others):
+            return True
+        return quoted == others or (same and (letters <= told or told <= letters))
+    return same
+
+
+def _of_same(mistake: Mistake, other: Mistake) -> bool:
+    """Whether both are about the same element, or one of them about none."""
+    one, two = mistake.element, other.element
+    if one is None or two is None or one == two or one in two.split(" or "):
+        return True
+    return _family(mistake) == "function" and one in str(other.what)
 
 
 def _written(mistake: Mistake) -> set[sp.Expr]:
@@ -63,3 +131,18 @@ def _quoted(mistake: Mistake) -> set[sp.Basic]:
     """The letters, coordinates and rates that the words quote."""
     exprs = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
     return {atom for x in exprs for atom in (x.free_symbols | x.atoms(sp.Function, sp.Derivative)) - {sp.Symbol("t")}}
+
+
+def _functions(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """The sines and cosines among them."""
+    return {x for x in quoted if isinstance(x, sp.Function) and not isinstance(x, AppliedUndef)}
+
+
+def _letters(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """Those that stand for constants."""
+    return {x for x in quoted if isinstance(x, sp.Symbol)}
+
+
+def _without_rates(quoted: set[sp.Basic]) -> set[sp.Basic]:
+    """What is quoted, with coordinates in place of their rates: J φ̈ of an equation is ½ J φ̇² of T*."""
+    return {x.expr if isinstance(x, sp.Derivative) else x for x in quoted}

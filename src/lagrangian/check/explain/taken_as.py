@@ -14,8 +14,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.quantities import Sayable, quantities_of
-from lagrangian.check.explain.said_wrongly import SaidWrongly, in_words, put, turned_to
+from lagrangian.check.explain.said_wrongly import SaidWrongly, in_words, put
 from lagrangian.check.explain.search import SMALL, Explanation, simple_number
+from lagrangian.check.explain.sense_counted import turned_to
 from lagrangian.check.reference import Reference
 from lagrangian.check.stated import right_value
 from lagrangian.check.verdict import AnsweredLine, Mistake

@@ -6,7 +6,7 @@ the parent is a reason for it, and stands behind it.
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Sequence, Set
 from dataclasses import replace
 from fractions import Fraction
 from typing import cast
@@ -21,7 +21,7 @@ from lagrangian.check.explain.changes.change import LocalChange, Site, Words
 from lagrangian.check.explain.changes.pool import FORGOTTEN, Pool, Possible
 from lagrangian.check.explain.changes.ring import scaled
 from lagrangian.check.explain.denominators_said import as_it_stands
-from lagrangian.check.explain.search import SMALL, Told, simple_number
+from lagrangian.check.explain.search import SMALL, Explanation, Told, simple_number
 from lagrangian.check.verdict import DERIVED, Mistake
 from lagrangian.derive.sampling import Array
 from lagrangian.page.formula import Text, text
@@ -59,12 +59,17 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
         return _without_derivatives(told, mistake, kinds)
     term, times = found
     row = term.site.coordinate
+    cancelled = times == -1 and row is not None and not _stands_there(pool, term, row)
     term, factor = as_it_stands(pool.truth, term, under)
     plain = say.mistake(term, times, pool.truth.model, factor)
     if told.mistake.name == "plus_potential" and "L" not in kinds:
         return plain
     said = plain.what.parts
-    if times not in (-1, -2):
+    if cancelled and row is not None:
+        left = -next(x for x in said if isinstance(x, sp.Expr))
+        of = pool.truth.derivation.coordinates[row]
+        said = ("The term ", left, " of the equation of ", of, " is left over: another term cancels it.")
+    elif times not in (-1, -2):
         right = next(x for x in said if isinstance(x, sp.Expr))
         where = (
             f"T{str(term.site.words[0])[1:]}",
@@ -75,9 +80,30 @@ def with_term(pool: Pool, told: Told, under: Alignment | None, mistake: Mistake,
     change = told.mistake.change
     if change is not None and change.kind in OF_A_SUM and change.site.rows:
         return replace(mistake, what=text(*said))  # another way to say the same
+    if is_of_letter(told.mistake):
+        return replace(plain, what=text(*said), element=mistake.element)
     if change is not None and change.kind == "part" and _is_odd(told.times):
         return replace(mistake, what=text(*said))  # nobody counts something 17/8 times
     return with_reason(text(*said), mistake)
+
+
+def _stands_there(pool: Pool, term: LocalChange, row: int) -> bool:
+    """Whether a term of a derivative is one of the right equation, and cancels with no other."""
+    own, right = pool.truth.form(pool.sites.ring.expr(term.effect.rows[row])), pool.truth.forms[row]
+    return own is None or right is None or min((right - own).size, (right + own).size) < right.size + own.size
+
+
+def is_of_letter(possible: Possible) -> bool:
+    """Whether all that is said is that a letter is left out of terms, or has the other sign there: of a length or a
+    moment of inertia this is no reason, and nothing beside one."""
+    change = possible.change
+    return change is not None and change.kind in OF_A_SUM and isinstance(change.right, sp.Symbol)
+
+
+def beside(best: Explanation, others: Sequence[Explanation]) -> list[Explanation]:
+    """The other explanations that say something beside the best one: a letter that is left out of terms does not."""
+    alone = is_of_letter(best.told[0].mistake)
+    return [e for e in others if alone or not is_of_letter(e.told[0].mistake)]
 
 
 def _without_derivatives(told: Told, mistake: Mistake, kinds: Set[str]) -> Mistake:

@@ -22,22 +22,35 @@ LONGEST = 120
 
 def turned_velocities(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr]]:
     """The components of a velocity along the axes of frames, and along those that the angles in it turn."""
+    for words, x, _ in _turned(s, b, s.velocity(b)):
+        yield words, x
+
+
+def turned_accelerations(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, list[sp.Expr]]]:
+    """The components of an acceleration along such axes, r̈ − r φ̇² and r φ̈ + 2 ṙ φ̇, each with its axis."""
+    yield from _turned(s, b, [s.rate(v) for v in s.velocity(b)])
+
+
+def _turned(
+    s: Ingredients, b: Any, vector: Sequence[sp.Expr]
+) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, list[sp.Expr]]]:
+    """The components of a vector of a body along axes that turn, each with its words and its axis."""
     if bounded.operations(*s.velocity(b)) > LONGEST:
         return
-    seen = {bounded.expand(sign * x) for x in s.velocity(b) for sign in (1, -1)}
+    seen = {bounded.expand(sign * x) for x in vector for sign in (1, -1)}
     for words, axes in islice(_axes(s, b), MOST_AXES):
-        for _, x in _along(s, axes, s.velocity(b)):
+        for k, x in _along(s, axes, vector):
             if x != 0 and not {x, -x} & seen:
                 seen.add(x)
-                yield words, x
+                yield _axis(words, k), x, [cast("sp.Expr", axes[c, k]) for c in range(len(vector))]
 
 
 def turned_places(
     s: Ingredients, b: Any
 ) -> Iterator[tuple[tuple[str | Left, ...], sp.Expr, Callable[[sp.Expr], list[sp.Expr]]]]:
     """The components of a position along such axes, from the fixed point or from that by which it is carried, that
-    change; each with the position that another value in its place leads to. Only along axes that no coordinate turns
-    do they hold angles: a + l sin θ from the axis of a crown."""
+    change; each with the position that another value in its place leads to. They hold no angles that turn the axes:
+    a + l sin θ from the axis of a crown, and not l sin φ along axes turned by φ."""
     if bounded.operations(*s.velocity(b)) > LONGEST:
         return
     seen = {bounded.expand(sign * x) for x in s.position(b) for sign in (1, -1)}
@@ -46,10 +59,16 @@ def turned_places(
         for words, axes in islice(_axes(s, b), MOST_AXES):
             way = [x - y for x, y in zip(s.position(b), base, strict=True)]
             for k, x in _along(s, axes, way):
-                plain = not x.has(sp.sin, sp.cos) or not axes.has(*s.q)
+                plain = not x.has(sp.sin, sp.cos) or not any(axes.has(q) and x.has(q) for q in s.q)
                 if s.moves(x) and plain and not {x, -x} & seen:
                     seen.add(x)
-                    yield words, x, partial(_placed, s.position(b), axes, k, x)
+                    yield _axis(words, k), x, partial(_placed, s.position(b), axes, k, x)
+
+
+def _axis(words: tuple[str | Left, ...], k: int) -> tuple[str | Left, ...]:
+    """The words for one of several axes: along the x axis turned by φ, along the z axis of crown."""
+    first, *others = words
+    return (f" along the {'xyz'[k]} axis{first}", *others)
 
 
 def _placed(position: Sequence[sp.Expr], axes: sp.Matrix, k: int, right: sp.Expr, said: sp.Expr) -> list[sp.Expr]:
@@ -72,18 +91,18 @@ def _axes(s: Ingredients, b: Any) -> Iterator[tuple[tuple[str | Left, ...], sp.M
     plane = s.model.dimension == 2
     frames = [f for f in s.model.frames if f.floating is None]
     if not plane:
-        yield from (((f" along the axes of {f.name}",), sp.Matrix(f.rotation)) for f in frames)
+        yield from (((f" of {f.name}",), sp.Matrix(f.rotation)) for f in frames)
     angles = [s.expand(f.total_angle) for f in frames] if plane else []
     angles += [a for x in (*s.position(b), *s.velocity(b)) for a in s.angles(x)]
     angles = [a for a in dict.fromkeys(angles) if a.has(*s.q) or a.free_symbols]
     if plane:
-        yield from (((" along axes turned by ", a), cast("sp.Matrix", _turn(a)[:2, :2])) for a in angles)
+        yield from (((" turned by ", a), cast("sp.Matrix", _turn(a)[:2, :2])) for a in angles)
         return
-    yield from (((" along axes turned by ", a, " about z"), _turn(a)) for a in angles)
+    yield from (((" turned by ", a, " about z"), _turn(a)) for a in angles)
     for a, c in permutations(angles, 2):  # first about z, then about y, as those of a sphere
         cosine, sine = sp.cos(c), sp.sin(c)
         lean = sp.Matrix([[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]])
-        yield (" along axes turned by ", a, " and ", c), cast("sp.Matrix", _turn(a) * lean)
+        yield (" turned by ", a, " and ", c), cast("sp.Matrix", _turn(a) * lean)
 
 
 def _turn(angle: sp.Expr) -> sp.Matrix:

@@ -25,6 +25,7 @@ from lagrangian.check.explain.definitions import with_wrong_definitions
 from lagrangian.check.explain.reasoned import reasoned
 from lagrangian.check.explain.sum_not_squared import with_sum_not_squared
 from lagrangian.check.explain.terms_alone import with_terms_alone
+from lagrangian.check.explain.written_pieces import WrittenPieces
 from lagrangian.check.explain.wrong_balance import with_wrong_balance
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
@@ -55,7 +56,9 @@ def _with_definition(truth: Reference, lines: Sequence[AnsweredLine], verdict: V
     blamed = bodies.of_all(moved, wrong) if wrong and bodies.parts else None
     if blamed is None:
         return None
-    mistakes = tuple(reasoned(pool_of(truth), p) for p in blamed.said)
+    pool = pool_of(truth)
+    pieces = WrittenPieces(pool, lines)
+    mistakes = tuple(reasoned(pool, p, pieces) for p in blamed.said)
     return replace(
         verdict, mistakes=mistakes, alternatives=(), findings=with_wrong_definitions(verdict.findings, blamed)
     )

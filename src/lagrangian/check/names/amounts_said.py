@@ -100,11 +100,15 @@ def judged_with_amounts(
 def _holds_in_values(truth: Reference, line: AnsweredLine, *every: _Values) -> bool:
     """Whether a line says what letters and coordinates amount to, A cos² ψ + B sin² ψ = 2 + 12 sin² ψ, and is 0 = 0
     with some of these values."""
-    named = line.expr.free_symbols - {time}
+    named = bounded.symbols(line.expr) - {time}
     known, moving = every[-1].keys(), {c.symbol for c in truth.model.coordinates}
     if line.kind != "equation" or not named or not named <= known or bounded.operations(line.expr) > LONGEST:
         return False
-    if not line.expr.atoms(AppliedUndef) or line.expr.atoms(AppliedUndef) - moving or line.expr.has(sp.Derivative):
+    if (
+        not bounded.atoms(line.expr, AppliedUndef)
+        or bounded.atoms(line.expr, AppliedUndef) - moving
+        or line.expr.has(sp.Derivative)
+    ):
         return False
     numeric = [x for x in sp.Add.make_args(line.expr) if not x.free_symbols - {time}]
     if not numeric or truth.derivation.multipliers:
@@ -122,8 +126,8 @@ def _as_said(line: AnsweredLine, said: Sequence[AnsweredLine]) -> AnsweredLine:
 
 def _says_amount(line: AnsweredLine, values: _Values) -> bool:
     """Whether a line equates letters of which all values are known with a number."""
-    named = line.expr.free_symbols
-    if line.kind != "equation" or not named or not named <= values.keys() or line.expr.atoms(AppliedUndef):
+    named = bounded.symbols(line.expr)
+    if line.kind != "equation" or not named or not named <= values.keys() or bounded.atoms(line.expr, AppliedUndef):
         return False
     number = _number_in(line.expr)
     return bool(number != 0 and number.is_real and number.is_finite) and bounded.operations(line.expr) <= LONGEST
@@ -133,8 +137,8 @@ def _links(truth: Reference, lines: Sequence[AnsweredLine], values: _Values) -> 
     """The true equations of letters with letters in the chain of such a line: m g l/2 = 1.5·0.45 g = 6.622."""
     found: list[AnsweredLine] = []
     for line in lines:
-        named = line.expr.free_symbols
-        if line.kind == "equation" and named and named <= values.keys() and not line.expr.atoms(AppliedUndef):
+        named = bounded.symbols(line.expr)
+        if line.kind == "equation" and named and named <= values.keys() and not bounded.atoms(line.expr, AppliedUndef):
             terms = [_amount(truth, x, values) for x in sp.Add.make_args(line.expr)]
             found += [line] if abs(sum(terms)) <= EXACT * max(map(abs, terms)) else []
     return found

@@ -6,7 +6,7 @@ parameter of the system is taken to be: the answer is then judged under that ass
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 from itertools import permutations
 from math import isclose
@@ -90,7 +90,7 @@ def _implicit(
     waiting = {k: line.expr for k, line in enumerate(lines) if line.kind == "equation" and _constant(line.expr, known)}
     if not waiting or len(waiting) > MAX_LINES:
         return tuple(lines), {}
-    used = [line.expr.free_symbols for k, line in enumerate(lines) if k not in waiting]
+    used = [bounded.symbols(line.expr) for k, line in enumerate(lines) if k not in waiting]
     table: dict[sp.Basic, sp.Expr] = {}
     done: set[int] = set()
     while waiting:
@@ -113,7 +113,7 @@ def _constant(expr: sp.Expr, known: set[sp.Symbol]) -> bool:
     return not moving and bool(expr.free_symbols - known) and bounded.operations(expr) <= LONGEST
 
 
-def _first(expr: sp.Expr, known: set[sp.Symbol], used: Sequence[set[Any]]) -> tuple[sp.Basic, sp.Expr] | None:
+def _first(expr: sp.Expr, known: set[sp.Symbol], used: Sequence[Set[Any]]) -> tuple[sp.Basic, sp.Expr] | None:
     """An unknown name and its value; the name that the fewest other lines use, as zeta of 2 zeta wn."""
     unknown = sorted(expr.free_symbols - known, key=lambda s: (sum(s in u for u in used), str(s)))
     found = ((s, _value(expr, s)) for s in unknown)
@@ -196,9 +196,9 @@ def _read_as_speeds(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator
     own = {c.symbol for c in truth.model.coordinates} | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
     told = [line for line in lines if line.kind != "statement"]
-    new = {f for line in told for f in line.expr.atoms(AppliedUndef) if f.args == (time,)} - own
-    moving = {d.args[0]: d.derivative_count for line in told for d in line.expr.atoms(sp.Derivative)}
-    high = {d.args[0] for line in told for d in line.expr.atoms(sp.Derivative) if d.derivative_count > 1}
+    new = {f for line in told for f in bounded.atoms(line.expr, AppliedUndef) if f.args == (time,)} - own
+    moving = {d.args[0]: d.derivative_count for line in told for d in bounded.atoms(line.expr, sp.Derivative)}
+    high = {d.args[0] for line in told for d in bounded.atoms(line.expr, sp.Derivative) if d.derivative_count > 1}
     if not new or len(new) > MAX_SPEEDS or new & high or not new <= moving.keys():
         return
     names = sorted(new, key=str)

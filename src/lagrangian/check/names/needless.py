@@ -90,7 +90,7 @@ def _in_order(lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
 
 def _rate_said(line: AnsweredLine, unknown: Collection[sp.Basic]) -> AnsweredLine | None:
     """A line that says what the rate of an unknown place or angle is, ẋ_C = s θ̇ cos θ, as a definition of it."""
-    rates = [d for d in line.expr.atoms(sp.Derivative) if d.args[0] in unknown]
+    rates = [d for d in bounded.atoms(line.expr, sp.Derivative) if d.args[0] in unknown]
     if line.kind not in ("equation", "identity") or len(rates) != 1 or accelerates(line.expr):
         return None
     slope = _slope(line.expr, rates[0])

@@ -74,9 +74,9 @@ def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     It may name those of prescribed motions, as 454.43 φ̈ does when φ = A sin Ωt is written out.
     """
     known = {p.symbol for p in truth.model.parameters} - truth.prescribed
-    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
+    numbers = {abs(x) for line in lines for x in bounded.atoms(line.expr, sp.Rational, sp.Float)}
     plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
-    return not any(line.expr.free_symbols & known for line in lines) and bool(numbers - plain_ones)
+    return not any(bounded.symbols(line.expr) & known for line in lines) and bool(numbers - plain_ones)
 
 
 def _read(written: sp.Basic, meant: sp.Basic) -> Text:
@@ -158,7 +158,7 @@ def values_of(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol
     """The values of the parameters that an answer does not name; angles in degrees are parts of π, as in cos 25°,
     unless the answer has their value in radians."""
     used = _constants(lines)
-    numbers = {x for line in lines for x in line.expr.atoms(sp.Rational)}
+    numbers = {x for line in lines for x in bounded.atoms(line.expr, sp.Rational)}
     put = truth.values.keys()
     left = ((p, v) for p, v in truth.model.values.items() if p not in used and p not in put)
     exact = ((p, v, sp.Rational(str(v))) for p, v in left)
@@ -182,4 +182,4 @@ def names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
 
 def _constants(lines: Sequence[AnsweredLine]) -> set[sp.Basic]:
     """The constants, and the time, that an answer names."""
-    return {x for line in lines for x in line.expr.free_symbols}
+    return {x for line in lines for x in bounded.symbols(line.expr)}

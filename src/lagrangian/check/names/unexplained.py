@@ -111,7 +111,7 @@ def _is_known(unknown: Unknown, model: Model, lines: Sequence[AnsweredLine]) -> 
     """Whether it is certain what a name of the answer means: it is a name of the system that is misspelled, or a line
     without motion says it, 2*zeta*wn = c/m."""
     symbol: Any = unknown.symbol
-    related = (x.expr for x in lines if x.kind == "equation" and not x.expr.atoms(AppliedUndef))
+    related = (x.expr for x in lines if x.kind == "equation" and not bounded.atoms(x.expr, AppliedUndef))
     if any(expr.has(symbol) for expr in related):
         return True
     names = [plain(x.symbol) for x in (*model.parameters, *model.inputs, *model.coordinates)]

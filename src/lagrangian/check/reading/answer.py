@@ -7,6 +7,7 @@ from typing import Literal, TypeAlias
 
 import sympy as sp
 
+from lagrangian.check.reading.marked_values import Marks
 from lagrangian.errors import ParseError, Place
 from lagrangian.records import dataclass, field
 
@@ -50,6 +51,12 @@ Kind: TypeAlias = Literal[
 """
 
 
+Factors: TypeAlias = tuple[sp.Expr, ...]
+"""The factors of a term as they are written: ½, m r² and (ẋ/r)²."""
+Summands: TypeAlias = tuple[tuple[Factors, ...], ...]
+"""The terms of a sum and, for each, behind the term as a whole, those of a bracket in it times the rest."""
+
+
 @dataclass(frozen=True)
 class AnswerLine:
     """One statement of an answer. ``lhs`` and ``rhs`` are the two sides as written; ``lhs`` is None if the left side
@@ -65,6 +72,8 @@ class AnswerLine:
     place: Place
     text: str
     names: frozenset[str] = field(default=frozenset(), compare=False)
+    summands: Summands = field(default=(), compare=False)
+    """The terms of the value, of an equation those of left minus right, as they are written; see `summands`."""
 
     @property
     def residual(self) -> sp.Expr:
@@ -124,10 +133,14 @@ class Answer:
     """The rows with other readings, and the answer in which those at some places are read so: (place, number), …"""
     read_without: Callable[[frozenset[int]], Answer] | None = field(default=None, repr=False, compare=False)
     """The answer as it is read without some of its lines, by number; the others keep theirs."""
+    marked: Callable[[], tuple[Answer, Marks]] | None = field(default=None, repr=False, compare=False)
+    """The answer as it is read with marks in the values of its names."""
     commented: bool = field(default=False, repr=False, compare=False)
     """Whether comments hold equations of motion."""
     program: bool = field(default=False, repr=False, compare=False)
     """Whether these are the statements of a program that was carried out."""
+    computed: Callable[[], Answer] | None = field(default=None, repr=False, compare=False)
+    """What the program computes that this answer is when it is carried out, without its comments."""
     senses: frozenset[tuple[str, str, str]] = field(default=frozenset(), repr=False, compare=False)
     """In which sense words count forces of the answer's own; see `said.senses`."""
 

@@ -7,10 +7,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lagrangian.check.reading.answer import MarkedRow
+from lagrangian.check.reading.marked_names import MarkedNames
+from lagrangian.check.reading.marked_values import Marks
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.plain.rows import AnswerRow
 from lagrangian.check.reading.prose.marks import readings, told_without
 from lagrangian.check.reading.prose.words import Words
 from lagrangian.errors import ParseError
+from lagrangian.model import Model
 from lagrangian.records import dataclass
 
 _DIFFERENTIATES = re.compile(r"(?<!\w)D\[|(?<!\w)diff\(")
@@ -37,6 +41,12 @@ class Choices:
     put: bool | None = None
     driven: bool = False
     marks: tuple[tuple[int, int], ...] = ()
+    values: Marks | None = None
+    """With which marks the values of names are read."""
+
+    def names(self, model: Model) -> Names:
+        """The names of an answer that is read so."""
+        return Names(model) if self.values is None else MarkedNames(model, self.values)
 
     def puts(self, text: str) -> bool:
         """Whether coordinates that are given in others are put into energies: a program that differentiates does so."""

@@ -11,6 +11,7 @@ Both mean the derivative by time of what stands in front, on the same line or ab
 from __future__ import annotations
 
 import re
+from collections.abc import Set
 
 from lagrangian.check.reading.prose.words_or_mathematics import moves
 from lagrangian.check.reading.traced_text import TracedText
@@ -26,6 +27,7 @@ _ALONE = re.compile(rf"(?<![\w/)])(?:{_ARROW}[ \t]*)?{_BY_TIME}(?:{_ARROW}|=(?!=
 """d/dt of nothing, with what stands between it and its value."""
 _BEGINS = re.compile(rf"[ \t]*+(?:[-•*][ \t]+)?(?:{_ARROW}[ \t]*)?(?P<said>{_BY_TIME}(?:{_ARROW}|=(?!=)|:(?=[ \t])))")
 """d/dt of nothing at the beginning of a line."""
+_MARKS_RATE = re.compile(r"_?(?:d|dt|dot|p|t)")
 _GIVES = re.compile(rf"{_ARROW}(?P<value>[^=;\n]{{1,200}}?)(?=[;,]|[ \t]{{2,}}\S|$)")
 """A value behind an arrow."""
 _TWICE = re.compile(r"['’′]{2}|[\u0308ẍÿẅ¨]|ddot|dd\b")
@@ -35,8 +37,9 @@ def with_derivatives(text: TracedText) -> TracedText:
     """Return a plain text in which every derivative by time says of what it is one."""
     edits: list[tuple[int, int, str]] = []
     above: str | None = None
+    stems = {m["by"] for m in _PARTIAL.finditer(text.text)}
     for line in re.finditer(r"[^\n]+", text.text):
-        slopes = [m for m in _PARTIAL.finditer(text.text, *line.span()) if moves(m["by"]) or undotted(m["by"])[1]]
+        slopes = [m for m in _PARTIAL.finditer(text.text, *line.span()) if _is_rate(m["by"], stems)]
         begins = _BEGINS.match(text.text, *line.span())
         if begins is not None and above is not None:
             edits.append((*begins.span("said"), f"d/dt({above}) = "))
@@ -50,6 +53,13 @@ def with_derivatives(text: TracedText) -> TracedText:
                 edits.append((start, stop, f"; d/dt({slope['slope']}) = "))
         above = slopes[-1]["slope"] if slopes else above
     return text.edited(edits)
+
+
+def _is_rate(name: str, stems: Set[str]) -> bool:
+    """Whether a name by which an energy is differentiated is a rate: with a mark, or th_d where there is th, too."""
+    if moves(name) or undotted(name)[1]:
+        return True
+    return any(name != x and name.startswith(x) and _MARKS_RATE.fullmatch(name[len(x) :]) for x in stems)
 
 
 _WORD = r"[^\W\d_]{1,15}"
@@ -66,9 +76,10 @@ def with_energies_beside(text: TracedText) -> TracedText:
 
 _ENERGY = r"(?:[TLVD]|\\math(?:cal|scr)\s?\{[^{}]\}|\\mathcal\s[A-Z])(?:\^\s?(?:\*|\{\*\}))?"
 _FRACTION = r"\\[dt]?frac\s?"
+_LATEX_DOT = r"\\partial\s?\\dot\s?[^{}=]{0,20}(?:\{[^{}]{1,20}\}[^{}=]{0,20}){0,2}"
 _LATEX_SLOPE = (
-    rf"(?P<slope>{_FRACTION}\{{\\partial\s?{_ENERGY}\s?\}}\s?"
-    r"\{\\partial\s?(?P<by>\\dot\s?[^{}]{0,20}(?:\{[^{}]{1,20}\}[^{}]{0,20}){0,2})\})\s{0,4}&?\s{0,4}="
+    rf"(?P<slope>{_FRACTION}\{{\\partial\s?{_ENERGY}\s?\}}\s?\{{{_LATEX_DOT}\}}"
+    rf"|\\partial\s?{_ENERGY}\s?/\s?{_LATEX_DOT}?)\s{{0,4}}&?\s{{0,4}}="
 )
 _LATEX_ALONE = (
     rf"(?P<alone>{_FRACTION}\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?\}}\s?\{{\s?(?:d|\\mathrm\s?\{{d\}})\s?t\s?\}})"

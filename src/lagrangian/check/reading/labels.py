@@ -63,8 +63,9 @@ _LABEL = re.compile(r"\s*+(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*+
 _NAMED = r"[^\W\d_](?:\w|[\u0307\u0308]){0,15}(?:[*]|['’′″]{1,3})?"
 _QUANTITY = rf"(?:[∂d][²2]?\s?/\s?(?:[∂d]\w{{1,12}}[²2]?|\([∂d]\w{{1,12}}\))|{_NAMED})"
 _SLOPE = rf"(?:d\s?/\s?dt\s?)?\(?[∂d]\s?[TVULD]\s?/\s?[∂d]\s?{_NAMED}\)?"
-_OF_QUANTITY = re.compile(rf"\s*+[(\[]?(?:{_QUANTITY}|{_SLOPE})[)\]]?\s*+:(?!=)")
-"""A quantity alone: T*: …, θ'': …, ∂/∂x: …, d/dt ∂T/∂φ': …"""
+_SIDE = rf"(?:{_SLOPE}|d\s?/\s?dt\s?\(?{_NAMED}\)?)"
+_OF_QUANTITY = re.compile(rf"\s*+[(\[]?(?:{_QUANTITY}|{_SIDE}(?:[ \t]?[-+−–][ \t]?{_SIDE}){{0,3}})[)\]]?\s*+:(?!=)")
+"""A quantity alone, or a side of the law: T*: …, θ'': …, ∂/∂x: …, d/dt ∂T/∂φ': …, d/dt p - ∂T/∂θ + ∂V/∂θ: …"""
 _OF_VALUE = re.compile(
     r"\s*+(?:\w{1,3}[).]\s++)?[(\[]?(?:[^\W\d_]{2,12}[ \t]++){0,2}"
     r"(?P<name>(?:[qξηijkn]|[xX]i)(?:_?[ijkn\d])?)[ \t]*+=[ \t]*+"
@@ -74,8 +75,8 @@ _OF_VALUE = re.compile(
 _HEAD = re.compile(r"\s*+(?P<said>[^\W\d_](?:[^=:()]|\([^=:()]*+(?:\([^=:()]*+\)[^=:()]*+)*+\)){2,100}?):(?![=\w])")
 _IN_BRACKETS = re.compile(r"\([^()]*+(?:\([^()]*+\)[^()]*+)*+\)")
 _SPOKEN_SIGNS = re.compile(r"[\w\s.,#'’&+/*–-]*")
-_DIRECTION = "eqn?|equation|gl|gln|gleichung|dir|direction|axis|richtung|achse|coordinate|komponente|component"
-_OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{_DIRECTION})\b\.?[ \t]++(?=[^\s=+*/^-])", re.IGNORECASE)
+DIRECTIONS = "eqn?|equation|gl|gln|gleichung|dir|direction|axis|richtung|achse|coordinate|komponente|component"
+_OF_NAME = re.compile(rf"\s*+[^\W\d_]\w{{0,12}}-(?:{DIRECTIONS})\b\.?[ \t]++(?=[^\s=+*/^-])", re.IGNORECASE)
 _FAR = re.compile(r"\s*+(?P<said>[^\W\d_][\w.#’-]{1,24}(?:[ ][\w.#’-]{1,24}){0,3}+)(?:[ \t]{2,}|\t)(?=[^\s=+*/^])")
 """Words or a word with a number, far from the equation behind them: load1  m1*x1'' = …"""
 _ONE_OF_SUM = rf"(?:\w{{1,9}}\.?\s?[·*]?\s?)?\(\s*(?:{_NUMBER}|[IVX]{{1,4}}|[ivx]{{1,5}}|[A-Za-z]\d?['′*]?)\s*\)"
@@ -122,7 +123,8 @@ _FAR_BEHIND = re.compile(
 _NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
 
 
-_COUNTED = re.compile(r"[ \t]{0,3}+(\d{1,2})[ \t]{2,}+(?=[^\s=+*/^-])")
+_COUNTED = re.compile(r"[ \t]{0,3}+(\d{1,2}|[IVX]{1,4})[ \t]{2,}+(?=[^\s=+*/^-])")
+_ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X", "XI", "XII")
 FEWEST_STEPS = 2
 """No more numbers than these far in front of lines count no steps."""
 
@@ -169,10 +171,15 @@ def numbering(text: str, words: Words) -> Numbering:
     beside = len(written) == 1 and lettered and bool(first)  # (S) for the sum, beside (2), (3), …
     behind_far = {m["tag"] for line in lines if (m := _FAR_BEHIND.search(line)) is not None}
     tags = frozenset(x for x in behind_far if _is_tag(x, text, words))
-    steps = [int(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
+    steps = [_count(m[1]) for line in text.split("\n") if (m := _COUNTED.match(line))]
     counted = len(steps) > FEWEST_STEPS and steps == list(range(steps[0], steps[0] + len(steps)))
     names = frozenset(written if told or beside else ())
     return Numbering(before, behind, in_order, names, tags, _chosen(text, words), counted)
+
+
+def _count(mark: str) -> int:
+    """The number that digits or a Roman number mean; 0 for none."""
+    return int(mark) if mark.isdigit() else _ROMAN.index(mark) + 1 if mark in _ROMAN else 0
 
 
 def _chosen(text: str, words: Words) -> frozenset[str]:

@@ -11,11 +11,12 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
-from lagrangian.check.reading.answer import AnswerLine, Kind
+from lagrangian.check.reading.answer import AnswerLine, Kind, Summands
 from lagrangian.check.reading.meaning import Meaning
-from lagrangian.check.reading.names import Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import inside, only_name, start_of
+from lagrangian.check.reading.names import Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import inside, names_in, only_name, start_of
 from lagrangian.check.reading.placeholders import is_force, is_placeholder
+from lagrangian.check.reading.summands import negative, summands
 from lagrangian.errors import ParseError, listed
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
@@ -117,12 +118,12 @@ def _moves(line: AnswerLine) -> bool:
 
 def is_general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
-    return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
+    return any(is_placeholder(x) and not is_force(x) for x in bounded.atoms(value, AppliedUndef))
 
 
 def accelerates(value: sp.Expr) -> bool:
     """Whether an expression contains an acceleration."""
-    return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
+    return any(d.derivative_count > 1 for d in bounded.atoms(value, sp.Derivative))
 
 
 def is_rate_of(token: Token, side: Tree) -> bool:
@@ -184,4 +185,13 @@ def made_line(
     rates = {
         key(x.expr.func.__name__) for x in values if isinstance(x, sp.Derivative) and isinstance(x.expr, AppliedUndef)
     }
-    return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()), frozenset(names | rates))
+    text, parts = " ".join(source.text.split()), _summands(kind, lhs, a, b, reader)
+    return AnswerLine(kind, lhs, rhs, name, source.at(start), text, frozenset(names | rates), parts)
+
+
+def _summands(kind: Kind, lhs: sp.Expr | None, a: Tree, b: Tree, reader: Meaning) -> Summands:
+    """The terms of an energy, a force or a definition, or of an equation, as they are written."""
+    if kind == "equation" and lhs is not None and a is not b:
+        sides = summands(a, reader), summands(b, reader)
+        return (*sides[0], *negative(sides[1])) if all(sides) else ()
+    return summands(b, reader) if kind in ("T", "V", "L", "D", "Xi", "definition") else ()

@@ -32,8 +32,8 @@ from lagrangian.check.reading.line_forms import (
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.named_accelerations import named_accelerations
 from lagrangian.check.reading.named_factors import with_solved_factors
-from lagrangian.check.reading.names import COLUMNS, Names, Value, names_in, spelled_rates
-from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, only_name
+from lagrangian.check.reading.names import COLUMNS, Names, Value, spelled_rates
+from lagrangian.check.reading.nodes import derived, differentiated_by, is_matrix, names_in, only_name
 from lagrangian.check.reading.own_letters import own_letters
 from lagrangian.check.reading.parts import left_out, tell_general, tells, without_parts
 from lagrangian.check.reading.placeholders import (
@@ -60,9 +60,9 @@ MAX_CHAIN = 20
 class Lines:
     """Reads the statements of one answer."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, names: Names | None = None) -> None:
         self.model = model
-        self.names = Names(model)
+        self.names = names or Names(model)
         self.names.later = self._look_ahead
         self.budget = ReadingBudget()
         self._waiting: dict[str, int] = {}
@@ -73,7 +73,7 @@ class Lines:
         self._matrices: set[str] = set()
         self.remarks: list[ParseError] = []
         self.doubts: list[ParseError] = []
-        """The errors of lines that matter only beside incomplete equations, and of those that may redefine a name."""
+        """The errors of lines that matter only beside incomplete equations, and of those that redefine a name."""
         self.failed, self.results, self.lacking = (list[ParseError]() for _ in range(3))
         """The errors of all rows that cannot be read, of those that may be the result, and of those to do without."""
         self.unread: set[str] = set()
@@ -106,8 +106,7 @@ class Lines:
             self._made.setdefault(i, []).append(line)
         lines = without_expressions(self._made, statements, self.names)
         accelerating = sum(line.kind == "equation" and accelerates(sp.sympify(line.residual)) for line in lines)
-        needed = aside if accelerating < len(self.model.coordinates) else []
-        self.lacking = found or needed
+        self.lacking = found or (aside if accelerating < len(self.model.coordinates) else [])
         free = len(self.model.coordinates) - len(self.model.constraints)
         if self.lacking and not does_without(self.lacking, results, lines, free):
             raise together(self.lacking[:MOST_TOLD])
@@ -124,8 +123,8 @@ class Lines:
 
     def _is_general(self, i: int, error: ParseError) -> bool:
         """Whether a statement without a value holds letters that nothing explains, M(q) q'' + h = f; a note says so."""
-        listed = {str(token) for side in self._statements[i].sides for token, _ in names_in(side)}
-        new = [x for x in sorted(listed) if not self._explains(x)]
+        sides = self._statements[i].sides
+        new = sorted({str(x) for side in sides for x, _ in names_in(side) if not self._explains(str(x))})
         if error.code != "E701" or not new:
             return False
         tell_general(self._statements[i].source, new, self.names)
@@ -349,10 +348,11 @@ class Lines:
         values = [reader.value(side) for side in sides]
         if len(values) == 1:
             listed = isinstance(values[0], MatrixBase)
-            said = any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
-            if (listed or said) and not any(map(accelerates, values[0] if listed else values)):
+            said = listed or any(len(s.sides) > 1 for s in self._statements)  # rod: m L^2/3
+            moves = any(map(accelerates, values[0] if listed else values))
+            if said and ((meant := labelled(values[0], sides[0], reader, moving=moves)) or not moves):
                 self._not_judged(reader, f"it is {'a list' if listed else 'an expression'} without an equals sign")
-                return labelled(values[0], sides[0], reader)
+                return meant
             values = [sp.S.Zero, *values] if "=" in reader.source.text else [*values, sp.S.Zero]  # eq1 = m x'' - F
             sides = [*sides, sides[0]]
         values, sides = without_parts(*without_amounts(values, sides, self.model), reader)

@@ -12,8 +12,7 @@ from typing import cast
 
 from lark import Tree
 
-from lagrangian.check.reading.names import names_in
-from lagrangian.check.reading.nodes import inside, only_name
+from lagrangian.check.reading.nodes import inside, names_in, only_name
 from lagrangian.read.letters import key, undotted
 
 

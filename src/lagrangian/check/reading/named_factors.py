@@ -10,8 +10,8 @@ from lark import Tree
 
 from lagrangian.check.reading.line_forms import Statement
 from lagrangian.check.reading.named_products import with_named_products
-from lagrangian.check.reading.names import Names, names_in
-from lagrangian.check.reading.nodes import Node, inside, leaf, node, only_name, squared_name, start_of
+from lagrangian.check.reading.names import Names
+from lagrangian.check.reading.nodes import Node, inside, leaf, names_in, node, only_name, squared_name, start_of
 from lagrangian.check.reading.subjects import Subjects
 from lagrangian.read.letters import key, undotted
 

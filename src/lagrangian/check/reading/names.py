@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from difflib import get_close_matches
+from functools import lru_cache
 from typing import Any, TypeVar
 
 import sympy as sp
@@ -15,7 +16,7 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.implied_rates import implied_rates
-from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.nodes import names_in, start_of
 from lagrangian.check.reading.own_inputs import OwnInputs
 from lagrangian.check.reading.own_slopes import OwnCoordinates, own_coordinates
 from lagrangian.check.reading.own_values import OwnValues
@@ -376,25 +377,13 @@ class Names:
         return base
 
 
-def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
+def spelled_rates(base: str) -> tuple[tuple[int, str], ...]:
     """The orders and names that a spelled-out derivative can mean: xdd is the second derivative of x or the first of
     xd."""
-    yield from rate_stems(base)
-    for suffix, order in (("dd", 2), ("d", 1)):
-        if base.endswith(suffix) and len(base) > len(suffix):
-            yield order, base.removesuffix(suffix)
+    return _spelled_rates(str(base))
 
 
-def names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
-    """The names in a tree, and whether each is differentiated by time there."""
-    stack: list[tuple[Node, bool]] = [(tree, False)]
-    while stack:
-        item, changing = stack.pop()
-        if not isinstance(item, Tree):
-            continue
-        if item.data == "name":
-            yield item.children[0], changing or item.children[1] is not None  # type: ignore[misc]
-        elif item.data == "partial":
-            stack.append((item.children[1], False))
-        else:
-            stack.extend((child, changing or item.data == "rate") for child in item.children)
+@lru_cache(maxsize=4_096)
+def _spelled_rates(base: str) -> tuple[tuple[int, str], ...]:
+    ends = ((suffix, order) for suffix, order in (("dd", 2), ("d", 1)) if base.endswith(suffix) and base != suffix)
+    return (*rate_stems(base), *((order, base.removesuffix(suffix)) for suffix, order in ends))

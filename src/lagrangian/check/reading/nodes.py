@@ -8,12 +8,13 @@ power_of    sin²(x): the call, and the exponent
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeAlias, TypeVar, cast
 
 from lark import Token, Tree
 from lark.tree import Meta
 
+T = TypeVar("T")
 Node: TypeAlias = Any
 """A tree or one of its tokens; lark's own types are no more specific about the children of a node."""
 
@@ -33,6 +34,14 @@ def node(kind: str, start: int, *children: Node) -> Tree:
     meta = Meta()
     meta.start_pos, meta.empty = start, False
     return Tree(kind, list(children), meta)
+
+
+def kept(tree: Tree, what: str, find: Callable[[Tree], T]) -> T:
+    """What is found in a tree, which never changes: it is kept with it, as many statements are compared."""
+    known = vars(tree)
+    if what not in known:
+        known[what] = find(tree)
+    return known[what]
 
 
 def start_of(item: Node) -> int:
@@ -142,6 +151,48 @@ def only_name(tree: Node) -> tuple[Token, int] | None:
 def derived(trees: Sequence[Tree]) -> set[str]:
     """The letters of which partial derivatives stand in the trees: H of ∂H/∂x."""
     return {str(part.children[0]) for tree in trees for part in tree.iter_subtrees() if part.data == "partial"}
+
+
+def names_in(tree: Node) -> tuple[tuple[Token, bool], ...]:
+    """The names in a tree, and whether each is differentiated by time there."""
+    return kept(tree, "names", lambda of: tuple(_names_in(of))) if isinstance(tree, Tree) else ()
+
+
+def _names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
+    stack: list[tuple[Node, bool]] = [(tree, False)]
+    while stack:
+        item, changing = stack.pop()
+        if not isinstance(item, Tree):
+            continue
+        if item.data == "name":
+            yield item.children[0], changing or item.children[1] is not None  # type: ignore[misc]
+        elif item.data == "partial":
+            stack.append((item.children[1], False))
+        else:
+            stack.extend((child, changing or item.data == "rate") for child in item.children)
+
+
+def rates_in(tree: Tree) -> tuple[int, list[tuple[int, Sequence[Node]]]]:
+    """The highest order of a rate over something in a tree, and its names, each with the order of the rates over it."""
+    return kept(tree, "rates", _rates_in)
+
+
+def _rates_in(tree: Tree) -> tuple[int, list[tuple[int, Sequence[Node]]]]:
+    highest, names = 0, list[tuple[int, Sequence[Node]]]()
+    stack: list[tuple[Node, int]] = [(tree, 0)]
+    while stack:
+        item, order = stack.pop()
+        if not isinstance(item, Tree):
+            continue
+        if item.data == "name":
+            names.append((order, item.children))
+        elif item.data == "rate":
+            order += cast("int", item.children[1])
+            highest = max(highest, order)
+            stack.append((item.children[0], order))
+        else:
+            stack.extend((child, order) for child in item.children)
+    return highest, names
 
 
 def differentiated_by(trees: Sequence[Tree]) -> tuple[str, ...]:

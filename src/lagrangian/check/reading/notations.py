@@ -13,6 +13,7 @@ from lagrangian.check.reading.crossed_out import without_crossed_out
 from lagrangian.check.reading.derived_lines import with_derivatives, with_derivatives_in_latex, with_energies_beside
 from lagrangian.check.reading.drawn.ascii_pieces import with_drawn_pieces
 from lagrangian.check.reading.drawn.barred import with_tall_brackets
+from lagrangian.check.reading.drawn.dots_above import with_dots_above
 from lagrangian.check.reading.drawn.formulas import without_drawn_formulas
 from lagrangian.check.reading.drawn.text_matrices import on_one_line
 from lagrangian.check.reading.energy_parts import with_parts_of_energies
@@ -83,7 +84,9 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         return bool(names.scope.meanings(name)[0])
 
     commands: list[int] = []
-    typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(_copied(text)))), names.notes)
+    moving = {key(c.name) for c in lines.model.coordinates}
+    dotted = with_dots_above(_copied(text), lambda name: key(name) in moving)
+    typed_in = without_crossed_out(without_terminators(without_maxima(without_modelica(dotted))), names.notes)
     listed = with_tables(typed_in, names.changes, taken)
     shown = with_shown_values(with_named_matrices(without_marks_of_latex(without_tags(listed))))
     prompted = with_columns(with_whole_matrices(without_quotes(without_prompts(shown))))
@@ -99,7 +102,6 @@ def without_notations(typed: Source, lines: Lines) -> TracedText:
         session = with_indexed_parameters(session, [p.name for p in lines.model.parameters])
         paired = with_paired_rates(session, names.changes, lambda name: key(name) in own)
         session = with_derivative_legends(paired, names.changes, lambda name: key(name) in own)
-    moving = {key(c.name) for c in lines.model.coordinates}
     indexed = with_index_of_time(session, lambda name: key(name) in moving, taken)
     referred = without_unit_checks(without_legend(without_references(indexed)), taken)
     tagless = solved_matrices(without_drawn_formulas(referred, typed), taken)

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from lark import Token, Tree
 
 from lagrangian.check.reading.energy_parts import inertia_letters
-from lagrangian.check.reading.names import names_in
-from lagrangian.check.reading.nodes import only_name
+from lagrangian.check.reading.nodes import names_in, only_name
 from lagrangian.check.reading.stated import energy_of
 from lagrangian.check.reading.subjects import Subjects
 from lagrangian.model import Model

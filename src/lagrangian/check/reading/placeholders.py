@@ -7,6 +7,7 @@ import re
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol
 
@@ -57,7 +58,7 @@ def slope_of_L(name: str, model: Model) -> AppliedUndef:
 def is_vector(value: object) -> bool:
     """Whether an expression contains the placeholder of a matrix."""
     return isinstance(value, sp.Expr) and any(
-        x.func.__name__.startswith("\u27e8vector ") for x in value.atoms(AppliedUndef)
+        x.func.__name__.startswith("\u27e8vector ") for x in bounded.atoms(value, AppliedUndef)
     )
 
 

@@ -24,6 +24,8 @@ from lagrangian.check.reading.latex.variants import with_variants_apart
 from lagrangian.check.reading.line_forms import accelerates, together
 from lagrangian.check.reading.linear_format import dots_in_letters, plain_format
 from lagrangian.check.reading.lines import Lines
+from lagrangian.check.reading.marked_names import begin
+from lagrangian.check.reading.marked_values import Marks, with_marks
 from lagrangian.check.reading.markup import without_markup
 from lagrangian.check.reading.notations import without_notations
 from lagrangian.check.reading.parsed import NAME, parsed, places_of_marks
@@ -31,14 +33,19 @@ from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain.formula import PlainParser
 from lagrangian.check.reading.plain.rows import MAX_STATEMENTS, AnswerRow, plain_rows, without_sums
 from lagrangian.check.reading.programs.added_in_loops import without_sums_of_loops
-from lagrangian.check.reading.programs.marks import is_program, told_comments, with_comments_read
+from lagrangian.check.reading.programs.marks import (
+    is_program,
+    told_beside_comments,
+    told_comments,
+    with_comments_read,
+)
 from lagrangian.check.reading.prose.changing_words import changing_words
 from lagrangian.check.reading.prose.conditions import IF
 from lagrangian.check.reading.prose.spoken_signs import with_spoken_signs
 from lagrangian.check.reading.prose.spoken_words import doubled_letters, is_spelled_out, spoken_words
 from lagrangian.check.reading.prose.words import Words, function_of, led_names
 from lagrangian.check.reading.prose.words_or_mathematics import ARTICLES, LINKING, is_statement
-from lagrangian.check.reading.read_steps import read_steps
+from lagrangian.check.reading.read_steps import equations_of_motion, read_program
 from lagrangian.check.reading.renamed import renamed, restored
 from lagrangian.check.reading.said.listed_values import without_values
 from lagrangian.check.reading.said.own_names import declarations
@@ -62,7 +69,10 @@ LONGEST_NAME = 3
 """The most letters of a word that may be a product."""
 
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
-_BEGINS = r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$]|\bwhere|\bwith|\band"
+_BEGINS = (
+    r"(?<=\w)\.(?=\s)|(?<=\S)[ \t]{3}|^|^[^\S\n]*+[(\[]?\w{1,4}[)\]]|^[^\S\n]*+[(\[]|[,;:$→⇒⟹]|[-=]>"
+    r"|\bwhere|\bwith|\band"
+)
 _SQUARED = r"(?:(?:\^|\*\*)\s*2|²)?"
 _DEFINED = re.compile(rf"(?:{_BEGINS})[^\S\n]*+\\?((?>{NAME}))[ \t]*+{_SQUARED}\s*+=(?![=>])", re.MULTILINE)
 _CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]{{2,}})[ \t]+((?>{NAME}))\s*=(?!=)")
@@ -102,28 +112,13 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     """
     place = Place(name) if name else None
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE, shorter="give the equations alone")
+    read = partial(_declared, model=model, place=place)
     program = carried_out(text, model)
-    if program is None:
-        return without_sums_of_loops(text, lambda bare: _declared(bare, model, place))
-
-    by_steps = partial(read_steps, program, partial(_declared, model=model, place=place))
-    typed: Answer | ParseError
-    try:
-        typed = _declared(text, model, place)
-    except ParseError as error:
-        typed = error
-    if isinstance(typed, ParseError) or typed.doubt is not None or not _has_equations(typed):
-        try:
-            return by_steps()
-        except ParseError:
-            if isinstance(typed, ParseError):
-                raise typed from None
-    return replace(typed, others=(*typed.others, by_steps))
-
-
-def _has_equations(answer: Answer) -> bool:
-    """Whether an equation with accelerations stands in an answer: where only a program has some, that is judged."""
-    return any(x.kind == "equation" and accelerates(sp.sympify(x.residual)) for x in answer.lines)
+    if program is not None:
+        return read_program(program, text, model, read)
+    found = without_sums_of_loops(text, read)
+    beside = told_beside_comments(text, [x.place for x in equations_of_motion(found)])
+    return replace(found, notes=(*beside, *found.notes))
 
 
 def _declared(text: str, model: Model, place: Place | None) -> Answer:
@@ -222,7 +217,7 @@ def _answer(text: str, model: Model, place: Place | None, reading: Choices, othe
 
 def _read_as(text: str, model: Model, place: Place | None, reading: Choices, others: list[Choices]) -> Answer:
     """The answer in one reading, without comments unless they are to be read."""
-    given, lines = text, Lines(model)
+    given, lines = text, Lines(model, reading.names(model))
     remarks = without_side_remarks(text, model, lines.names.known)
     typed = Source(plainer(remarks.text if reading.bare else text), "the answer", place)
     plain = with_starred_names(with_variants_apart(without_notations(typed, lines)), lines.names.known)
@@ -251,6 +246,7 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
     in_latex: Callable[[Source], Parser] = partial(LatexParser, names=lines.names)
     parsers = [(row, in_text if not latex or row in outside else in_latex) for row in rows]
     statements, errors, aside = parsed(source, parsers, written, words, lines, reading)
+    begin(lines.names, statements)
     if reading == LIKELIEST:
         others += less_likely(words, rated=rated and not latex, listed=listing, remarks=bool(remarks.lines))
     marked = partial(places_of_marks, rows, source, written, words)
@@ -276,10 +272,16 @@ def _read_as(text: str, model: Model, place: Place | None, reading: Choices, oth
         marked,
         lambda marks: _with_said_values(replace(reading, marks=marks), [], given, model, place),
         lambda numbers: _with_said_values(reading, [], without_lines(given, numbers), model, place),
+        partial(with_marks, given, partial(_marked, given, model, place, reading)) if lines.names.own else None,
         bool(comments),
         senses=stated_senses(plainer(given), [u.name for u in lines.names.unknown.values()]),
         sentences=tuple(words.unread),
     )
+
+
+def _marked(text: str, model: Model, place: Place | None, reading: Choices, marks: Marks) -> Answer:
+    """The answer in one reading, with marks."""
+    return _answer(text, model, place, replace(reading, values=marks), [])
 
 
 def _choose(reading: Choices, words: Words, lines: Lines, text: str) -> None:

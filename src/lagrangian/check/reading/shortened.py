@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+import sympy as sp
+
 from lagrangian.read.letters import GREEK, key, undotted
 from lagrangian.read.scope import Scope
 
@@ -46,6 +48,7 @@ class AnswerScope(Scope):
         self.taken: frozenset[str] = frozenset()
         self.used: frozenset[str] | None = frozenset()
         self._doubled: dict[str, str] = {}
+        self._meant: dict[str, tuple[list[str], int]] = {}
         super().__init__(symbols)
         for name in symbols:
             if (letter := _letter(name)) is not None:
@@ -53,6 +56,7 @@ class AnswerScope(Scope):
 
     def learn(self, own: Iterable[str], used: Iterable[str], text: str) -> None:
         """Take from an answer what it defines and what it uses as names, such as those of a sine or cosine: cos(al)."""
+        self._meant.clear()
         self.taken = frozenset(map(key, own))
         self.used = frozenset(used) | frozenset(m[1] for m in _OF_ANGLE.finditer(text))
         doubled = [x for x in self.used if len(x) == 2 and x[0] == x[1] and key(x) not in self.taken]
@@ -65,6 +69,18 @@ class AnswerScope(Scope):
 
     def meanings(self, written: str) -> tuple[list[str], int]:
         """Return the names that ``written`` can mean, in full or shortened, and its number of dots."""
+        written = str(written)
+        if written not in self._meant:
+            self._meant[written] = self._all_meanings(written)
+        found, dots = self._meant[written]
+        return list(found), dots
+
+    def add(self, name: str, value: sp.Basic) -> None:
+        """Add a name, or give it a new meaning."""
+        self._meant.clear()
+        super().add(name, value)
+
+    def _all_meanings(self, written: str) -> tuple[list[str], int]:
         found, dots = super().meanings(written)
         if found or not self._letters:
             return found, dots

@@ -15,6 +15,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import accumulate, islice
 
+from lagrangian.check.reading.prose.remark_words import CASES, CHECKS, FREQUENCIES
 from lagrangian.check.reading.prose.remarks import accelerates_in
 from lagrangian.check.reading.prose.words import function_of
 from lagrangian.check.reading.set_aside import MOST_TOLD
@@ -23,22 +24,6 @@ from lagrangian.model import Model
 from lagrangian.read.letters import undotted
 from lagrangian.read.scope import rate_stems
 from lagrangian.records import dataclass
-
-_CHECKS = (
-    "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
-    "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
-    "remark remarks note notes nb bemerkung bemerkungen anmerkung hinweis remarque comment kommentar observation "
-    "interpretation discussion diskussion comparison vergleich sum summe adding addition somme "
-    "conserved conservation erhaltung energieerhaltung impulserhaltung drallerhaltung energiebilanz"
-)
-_CASES = (
-    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
-    "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
-    "static statics statisch statische statischer steady stationär stationäre "
-    "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
-)
-CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
-"""Words with which a check or a remark begins, and those of a case that is not every motion."""
 
 _REST = re.compile(
     r"\b(?:at rest|hover|equilibri|static|statisch|statik|in ruhe|ruhelage|im ruhezustand|équilibre|au repos|statique"
@@ -58,7 +43,7 @@ _LONGEST_TITLE = 8
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
 _LAST = re.compile(r"(?<![^\W_])[^\W\d_]{2,24}\Z")
-_NAME = r"[^\W\d]\w{0,23}+['’′]{0,2}"
+_NAME = r"[^\W\d][\w\u0307\u0308]{0,23}+['’′]{0,2}"
 _SIMPLE = rf"(?:[-−]?\d(?:[\d./,]{{0,8}}\d)?|{_NAME}|∞)"
 _RELATION = re.compile(
     rf"(?<![\w^*/+)'’′-])(?P<left>{_NAME})(?P<chain>(?:[ \t]*=[ \t]*{_NAME}){{0,3}})"
@@ -103,6 +88,11 @@ _LACKS = re.compile(
     re.IGNORECASE,
 )
 """A sentence that leaves out a force, in words: without gravity, for small angles and no friction, …"""
+_BRACKETED = re.compile(
+    r"[^\W\d_]{3,}[,.:]?[ ](?:[^\W\d_]{1,20}[ ]){0,12}?\((?:[^\W\d_]{2,20}[ ,:]{1,2}){0,8}"
+    r"\$?[^()=\n]{1,40}=[^()=\n]{1,60}\)[.,;]?[ \t]*$"
+)
+"""A relation in brackets at the end of a sentence: its determinant is zero (rigid body motion: y = R φ)."""
 _HEADING = re.compile(r"[ \t]{0,3}#{1,6}[ \t]|[ \t]*\\(?:sub){0,2}(?:section|paragraph)\b")
 _RULE = re.compile(r"[ \t]*(?:-{3,}|={3,}|~{3,})[ \t]*")
 _SUBJECT = re.compile(r"(?<![\w/])(?:∂|d|\\partial)[ \t]?(?:\\mathcal\{)?[TVLUDK]\}?[ \t]?(?:/|\}[ \t]?\{)")
@@ -178,6 +168,8 @@ def _without(text: str, model: Model, known: Callable[[str], bool]) -> SideRemar
     for k, line in enumerate(lines):
         if _REST.search(line):
             said[k + 1] = said.get(k + 1, frozenset()) | {"rest"}
+        if "(" in line and not accelerates_in(line) and _BRACKETED.search(line):
+            said[k + 1] = said.get(k + 1, frozenset()) | {"aside"}
     return SideRemarks(bare, tuple(k + 1 for k in changed if "=" in lines[k]), said)
 
 
@@ -250,7 +242,9 @@ def _kind(line: str) -> str | None:
     """Whether a line begins as a check or a case."""
     head = line.split("=", 1)[0] if ":" not in line else line.split(":", 1)[0].split("=", 1)[0]
     words = [w.lower() for w in _WORD.findall(head)][:_FIRST]
-    return "case" if CASES & set(words) else "check" if CHECKS & set(words) else None
+    if CASES & set(words):
+        return "case"
+    return "check" if CHECKS & set(words) or (FREQUENCIES & set(words) and not accelerates_in(line)) else None
 
 
 def _is_title(lines: Sequence[str], k: int) -> bool:

@@ -15,8 +15,18 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Kind
 from lagrangian.check.reading.line_forms import accelerates, is_general
-from lagrangian.check.reading.names import Names, names_in, spelled_rates
-from lagrangian.check.reading.nodes import Node, called_name, inside, is_matrix, only_name, squared_name, without_minus
+from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.check.reading.nodes import (
+    Node,
+    called_name,
+    inside,
+    is_matrix,
+    names_in,
+    only_name,
+    rates_in,
+    squared_name,
+    without_minus,
+)
 from lagrangian.check.reading.placeholders import ENERGIES
 from lagrangian.check.reading.stated import energy_of, momentum_of
 from lagrangian.model import Model
@@ -113,27 +123,16 @@ class Subjects:
 
     def moves(self, tree: Node, least: int = 1) -> bool:
         """Whether a rate, or a derivative of at least this order, stands in a tree."""
-        stack: list[tuple[Node, int]] = [(tree, 0)]
-        while stack:
-            item, order = stack.pop()
-            if not isinstance(item, Tree):
-                continue
-            if item.data == "name":
-                order += self._order(*item.children)
-            elif item.data == "rate":
-                order += cast("int", item.children[1])
-                stack.append((item.children[0], order))
-            else:
-                stack.extend((child, order) for child in item.children)
-            if order >= least:
-                return True
-        return False
+        if not isinstance(tree, Tree):
+            return False
+        above, names = rates_in(tree)
+        return above >= least or any(order + self._order(*name) >= least for order, name in names)
 
     def _order(self, token: Node, primes: Node) -> int:
         """How often a name is differentiated: by primes, dots, or in letters."""
         base, dots = undotted(token)
         order = len(primes or "") + dots
-        if self.names.scope.meanings(token)[0]:
+        if not spelled_rates(base) or self.names.scope.meanings(token)[0]:
             return order
         return order + max((k for k, stem in self._rates(base) if self.names.changes(stem)), default=0)
 

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Sequence
-from typing import Any
 
 import sympy as sp
-from sympy.core.function import AppliedUndef, UndefinedFunction
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
-from lagrangian.check.reading.carried_out.mechanics import combined, made
-from lagrangian.check.reading.carried_out.methods import MechanicsMethod, method
-from lagrangian.check.reading.carried_out.routines import SHOWN, SOLVING, applied, pairs_of, replaced, routine
+from lagrangian.check.reading.carried_out.mechanics import combined
+from lagrangian.check.reading.carried_out.methods import MechanicsMethod
 from lagrangian.check.reading.carried_out.values import (
     LIBRARY,
     LOST,
@@ -31,7 +28,6 @@ from lagrangian.check.reading.carried_out.values import (
     Mechanical,
     Outside,
     OwnFunction,
-    ReturnedError,
     Routine,
     Shown,
     State,
@@ -44,9 +40,7 @@ from lagrangian.check.reading.carried_out.values import (
     counted,
     entry_of,
     equated,
-    has_unknown,
     is_scalar,
-    is_square,
     joined,
     listed,
     matrix,
@@ -54,13 +48,12 @@ from lagrangian.check.reading.carried_out.values import (
     over,
     power,
     times,
+    transposed,
 )
 from lagrangian.records import dataclass, field
 
 MOST_WORK = 200_000
 """The most operations of all results of a program together."""
-DEEPEST = 8
-"""How deep functions may call each other."""
 
 
 @dataclass(eq=False)
@@ -95,6 +88,8 @@ class Evaluator:
     """The names of the program outside of its functions."""
     several: list[Value] = field(default_factory=list)
     """All results of the function of MATLAB that was called last."""
+    mass: Value = None
+    """The matrix of a solver's options that multiplies the rates of a state, or the function that gives it."""
     steps: int = 0
     work: int = 0
     """The operations of all results together."""
@@ -102,6 +97,14 @@ class Evaluator:
 
     def carry_out(self, body: Sequence[ast.stmt], names: dict[str, Value]) -> None:
         """Carry out statements, which `Interpreter` does."""
+        raise NotImplementedError
+
+    def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
+        """The value of a function of the program, which `Calling` finds."""
+        raise NotImplementedError
+
+    def call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+        """The value of a call, which `Calling` finds."""
         raise NotImplementedError
 
     def count(self) -> None:
@@ -127,20 +130,22 @@ class Evaluator:
             sign = sp.Integer(-1 if isinstance(node.op, ast.USub) else 1)
             return self.operated(ast.Mult(), sign, self.value(node.operand, names))
         if isinstance(node, (ast.List, ast.Tuple)):
-            return checked([y for x in node.elts for y in self._unpacked(x, names)])
+            return checked([y for x in node.elts for y in self.unpacked(x, names)])
         if isinstance(node, ast.Dict):
             pairs = zip(node.keys, node.values, strict=True)
             return {self.value(k, names): self.value(v, names) for k, v in pairs if k}
         if isinstance(node, ast.Attribute):
             return self._attribute(node, names)
         if isinstance(node, ast.Call):
-            return self._kept(self._call(node, names))
+            return self._kept(self.call(node, names))
         if isinstance(node, ast.Subscript):
-            return self._entry(self.value(node.value, names), node.slice, names)
+            return self.entry(self.value(node.value, names), node.slice, names)
         if isinstance(node, (ast.ListComp, ast.GeneratorExp)):
-            return self._comprehended(node, names)
+            return [x for (x,) in self._comprehended(node.generators, [node.elt], names)]
+        if isinstance(node, ast.DictComp):
+            return dict(map(tuple, self._comprehended(node.generators, [node.key, node.value], names)))
         if isinstance(node, ast.Lambda):
-            made = OwnFunction("", tuple(a.arg for a in node.args.args), node.body)
+            made = OwnFunction("", tuple(a.arg for a in node.args.args), node.body, None, tuple(node.args.defaults))
             return self.functions.setdefault(f"line {node.lineno}, {node.col_offset}", made)
         if isinstance(node, ast.Compare) and self.matlab and len(node.ops) == 1 and isinstance(node.ops[0], ast.Eq):
             self.sides |= {x.id for x in (node.left, node.comparators[0]) if isinstance(x, ast.Name)}
@@ -151,7 +156,7 @@ class Evaluator:
             return joined([self.value(x, names) for x in node.values])  # f"x{i}"
         raise AbandonedError
 
-    def _unpacked(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
+    def unpacked(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
         """The entries that an entry of a list is: [0, *x, 0]."""
         return listed(self.value(node.value, names)) if isinstance(node, ast.Starred) else [self.value(node, names)]
 
@@ -188,12 +193,12 @@ class Evaluator:
         if isinstance(op, ast.MatMult) and self.matlab and is_scalar(a):
             return over(b, a)
         if isinstance(op, ast.MatMult) and self.matlab:  # A \ b
-            return self._solution(matrix(a), matrix(b))
+            return self.solution(matrix(a), matrix(b))
         if isinstance(op, (ast.Mult, ast.MatMult)):
             if isinstance(b, State) and isinstance(a, (MatrixBase, list)):
                 b = sp.Matrix([b.entry(k + 1) for k in range(matrix(a).shape[1])])
             if isinstance(a, Inverse):
-                return self._solution(a.matrix, matrix(b))
+                return self.solution(a.matrix, matrix(b))
             return times(a, b)
         if isinstance(op, ast.Div):
             return over(a, b)
@@ -201,13 +206,13 @@ class Evaluator:
             return power(a, b)
         raise AbandonedError
 
-    def _solution(self, A: MatrixBase, b: MatrixBase) -> Value:
+    def solution(self, A: MatrixBase, b: MatrixBase) -> Value:
         """The column x of A x = b, as unknowns; of many columns nothing is known."""
         n = A.shape[0]
         if A.shape != (n, n) or b.shape[0] != n:
             raise AbandonedError
         if 1 < b.shape[1] <= MOST_COLUMNS:
-            return sp.Matrix.hstack(*(self._solution(A, b[:, k]) for k in range(b.shape[1])))
+            return sp.Matrix.hstack(*(self.solution(A, b[:, k]) for k in range(b.shape[1])))
         x = tuple(sp.Symbol(f"solved[{len(self.solved) + k}]") for k in range(n if b.shape[1] == 1 else 0))
         self.solved |= dict.fromkeys(x, (A, b, x))
         return sp.Matrix(x) if x else UNKNOWN
@@ -224,27 +229,32 @@ class Evaluator:
             return of.attribute(node.attr)
         if isinstance(of, Routine):
             return Routine(node.attr)  # np.linalg.solve
+        if node.attr == "T" and isinstance(of, (sp.Expr, MatrixBase, list)):
+            return transposed(of, self.known)
         free = isinstance(of, sp.Symbol) and (self.matlab or not hasattr(of, node.attr))
         if isinstance(of, Fields):
             return of.value(node.attr)  # p.m
         if free:
             return sp.Symbol(node.attr)
-        if node.attr == "T" and isinstance(of, (MatrixBase, list)):
-            flat = isinstance(of, list) and not any(isinstance(x, list) for x in of)
-            return matrix(of) if flat else matrix(of).T
         if isinstance(of, Equation) and node.attr in ("lhs", "rhs"):
             return of.left if node.attr == "lhs" else of.right
         return BoundMethod(of, node.attr)
 
-    def _comprehended(self, node: ast.ListComp | ast.GeneratorExp, names: dict[str, Value]) -> list[Value]:
-        if len(node.generators) != 1 or node.generators[0].ifs:
+    def _comprehended(
+        self, generators: Sequence[ast.comprehension], parts: Sequence[ast.expr], names: dict[str, Value]
+    ) -> list[list[Value]]:
+        """The values of the parts of a comprehension, each time that it is carried out."""
+        first, *others = generators
+        if first.ifs:
             raise AbandonedError
         inner = dict(names)
-        found: list[Value] = []
-        for x in self.iterated(node.generators[0].iter, names):
-            bind(node.generators[0].target, x, inner)
-            found.append(self.value(node.elt, inner))
-        return found
+        found: list[list[Value]] = []
+        for x in self.iterated(first.iter, names):
+            bind(first.target, x, inner)
+            found += (
+                self._comprehended(others, parts, inner) if others else [[self.value(part, inner) for part in parts]]
+            )
+        return checked(found)
 
     def iterated(self, node: ast.expr, names: dict[str, Value]) -> list[Value]:
         """What a loop goes through: a list, range(…), zip(…), enumerate(…)."""
@@ -256,108 +266,7 @@ class Evaluator:
             raise AbandonedError
         return found
 
-    # -- calls -------------------------------------------------------------------------------------------------------
-
-    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
-        called = called_name(node.func)
-        if isinstance(node.func, ast.Name) and called not in names and called not in self.functions:
-            of: Value = Routine(called)
-        else:
-            of = self.value(node.func, names)
-        if isinstance(of, Routine) and of.name in (*SHOWN, *SOLVING):
-            given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
-            if of.name == "solve" and len(given) == 2 and is_square(given[0]):
-                return self._solution(matrix(given[0]), matrix(given[1]))
-            if of.name in SOLVING and given:
-                self.stated += [Shown(node.lineno, None, v, True) for v in self.flat(given[0])]
-            return UNKNOWN
-        if isinstance(of, State) or (self.matlab and isinstance(of, (MatrixBase, list))):
-            return self._entry(
-                of, ast.Tuple(list(node.args), ast.Load()) if len(node.args) > 1 else node.args[0], names
-            )
-        self.sides |= {x.id for x in node.args if isinstance(x, ast.Name) and called == "Eq"}
-        given = [self.value(x, names) for x in node.args if not isinstance(x, ast.Starred)]
-        options = {k.arg: self.value(k.value, names) for k in node.keywords if k.arg}
-        if isinstance(of, OwnFunction):
-            return self.function(of, given, called)
-        if isinstance(of, BoundMethod):
-            own = isinstance(of.of, Mechanical)
-            return of.of.call(of.name, given, options) if own else self._method(of, given)
-        if isinstance(of, (UndefinedFunction, sp.Basic)) and not isinstance(of, Outside):
-            return applied(of, given)
-        if isinstance(of, Routine):
-            return self._routine(of.name, given, options, node)
-        return of if of is LOST else UNKNOWN
-
-    def _routine(self, name: str, given: Sequence[Value], options: dict[str, Value], node: ast.Call) -> Value:
-        if any(map(has_unknown, given)):
-            return UNKNOWN
-        if (of := made(name, given, options) or method(name, given, options)) is not None:
-            self.methods += [(node.lineno, of)] if isinstance(of, MechanicsMethod) else []
-            return of
-        if name in ("subs", "Subs") and len(given) > 1:
-            return self._replaced(given[0], pairs_of(given[1:]))
-        if self.matlab and isinstance(node.func, ast.Name) and given and not options:
-            found = routine(name, given, options, matlab=True)
-            if isinstance(found, Outside) and list(given) == [TIME]:
-                return sp.Symbol(name)  # tau(t), a function that the program does not hold
-            if isinstance(found, Outside) and all(isinstance(x, sp.Integer) for x in given):
-                return State(name).entry(number(given[0]))  # z(2), where nothing says what z is
-            return found
-        if not given and name != "Function":
-            return options if options and all(map(is_scalar, options.values())) else UNKNOWN  # dict(m=1, l=2)
-        return routine(name, given, options)
-
-    def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
-        """The value of a function of the program, which may have no name but that by which it is ``called``."""
-        if self.known(of.name or called) and list(given) == [TIME]:
-            return sp.Symbol(of.name or called)  # an input, of which the program has an example
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise AbandonedError
-        names = self.outer | dict(zip(of.arguments, given, strict=False))
-        try:
-            if isinstance(of.body, ast.expr):
-                return self.value(of.body, names)
-            self.carry_out(of.body, names)
-            self.several = [names.get(x, UNKNOWN) for x in (of.out or "").split(",")]
-            return self.several[0]
-        except ReturnedError as returned:
-            return returned.value
-        finally:
-            self.depth -= 1
-
-    def _replaced(self, value: Value, pairs: dict[Any, Any]) -> Value:
-        """A value with others in place of parts; a symbol in place of a function of time is a name of this."""
-        for old, new in pairs.items():
-            if isinstance(old, AppliedUndef) and isinstance(new, sp.Symbol):
-                self.renamed[new.name] = str(old.func)
-        return replaced(value, pairs)
-
-    def _method(self, of: BoundMethod, given: Sequence[Value]) -> Value:
-        value, name = of.of, of.name
-        if isinstance(value, Outside):
-            return UNKNOWN
-        if name == "subs":
-            return self._replaced(value, pairs_of(given))
-        if name in ("LUsolve", "solve", "gauss_jordan_solve", "LDLsolve", "cholesky_solve") and given:
-            return self._solution(matrix(value), matrix(given[0]))
-        if name in ("append", "extend") and isinstance(value, list):
-            value.append(given[0]) if name == "append" else value.extend(checked(listed(given[0])))
-            checked(value)
-            return UNKNOWN
-        if name == "reshape" or (name == "applyfunc" and not isinstance(given[0], OwnFunction)):
-            return value
-        if name == "col" and isinstance(value, MatrixBase):
-            return value[:, number(given[0])]
-        if name == "row" and isinstance(value, MatrixBase):
-            return value[number(given[0]), :]
-        made = routine(name, [value, *given], {})
-        if isinstance(made, Outside):
-            raise AbandonedError
-        return made
-
-    def _entry(self, of: Value, at: ast.expr, names: dict[str, Value]) -> Value:
+    def entry(self, of: Value, at: ast.expr, names: dict[str, Value]) -> Value:
         """An entry or a part of a list, a matrix or a state."""
         if isinstance(of, Outside):
             return UNKNOWN

@@ -13,8 +13,8 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
 from lagrangian.check.reading.carried_out.altered import altered_by, is_doubtful, mutable
+from lagrangian.check.reading.carried_out.calling import Calling
 from lagrangian.check.reading.carried_out.changed_by import changed_by, returns
-from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.made_of import MadeOf, given_in
 from lagrangian.check.reading.carried_out.matlab import UNREAD
 from lagrangian.check.reading.carried_out.mechanics import Mass
@@ -52,7 +52,7 @@ from lagrangian.records import dataclass, field
 
 
 @dataclass(eq=False)
-class Interpreter(Evaluator):
+class Interpreter(Calling):
     """Carries out a program, statement by statement."""
 
     valued: Sequence[Parameter] = ()
@@ -86,7 +86,7 @@ class Interpreter(Evaluator):
 
     def function(self, of: OwnFunction, given: Sequence[Value], called: str = "") -> Value:
         """The value of a function of the program; one of time alone may be the input that has no name, motor(t)."""
-        value = Evaluator.function(self, of, given, called)
+        value = Calling.function(self, of, given, called)
         if given and all(map(is_number, given)):  # acc(0, 0.1), to see what comes out
             return UNKNOWN if any(_letters(x) & self.solved.keys() for x in self.flat(value)) else value
         self.called |= {of} if called else set()
@@ -98,12 +98,12 @@ class Interpreter(Evaluator):
         self.drives = name
         return sp.Symbol(self.driven)
 
-    def _call(self, node: ast.Call, names: dict[str, Value]) -> Value:
+    def call(self, node: ast.Call, names: dict[str, Value]) -> Value:
         """The value of a call; of what it may change, nothing is known from there on."""
         own = None if not isinstance(node.func, ast.Name) else names.get(node.func.id, self.functions.get(node.func.id))
         of = own if isinstance(own, OwnFunction) else None
         try:
-            value = Evaluator._call(self, node, names)
+            value = Calling.call(self, node, names)
         except TROUBLES:
             self.altered += altered_by(node, names, failed=True, of=of) if not self.matlab else ()
             raise
@@ -113,7 +113,7 @@ class Interpreter(Evaluator):
 
     def _named(self, name: str, names: dict[str, Value]) -> Value:
         """The value of a name; nothing is known of one that a call may have changed."""
-        value = Evaluator._named(self, name, names)
+        value = Calling._named(self, name, names)
         return LOST if any(value is x for x in self.altered) else value
 
     # -- statements --------------------------------------------------------------------------------------------------
@@ -133,7 +133,9 @@ class Interpreter(Evaluator):
                     names[name] = LOST if own is not None else LIBRARY
         elif isinstance(s, ast.FunctionDef):
             out = s.returns.value if isinstance(s.returns, ast.Constant) else None
-            made = OwnFunction(s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None)
+            made = OwnFunction(
+                s.name, tuple(a.arg for a in s.args.args), s.body, str(out) if out else None, s.args.defaults
+            )
             names[s.name] = self.functions[s.name] = made
         elif isinstance(s, ast.Assign):
             before = set(self.used)
@@ -142,6 +144,8 @@ class Interpreter(Evaluator):
             if isinstance(s.targets[0], (ast.Tuple, ast.List)) and len(self.several) == len(s.targets[0].elts):
                 value = self.several  # [M, h] = matrices(q)
             self.used = before if isinstance(value, Outside) else self.used  # nothing that is known uses them
+            own = {x.id for x in s.targets if isinstance(x, ast.Name)}
+            self.used -= own - before  # eq = simplify(eq)
             for target in s.targets:
                 self._assign(target, value, names, s.lineno)
         elif isinstance(s, ast.AnnAssign) and s.value is not None:
@@ -221,13 +225,13 @@ class Interpreter(Evaluator):
             if not isinstance(method, ast.FunctionDef):
                 continue
             given = tuple(a.arg for a in method.args.args)
-            made = OwnFunction(method.name, given[given[:1] == ("self",) :], method.body)
+            made = OwnFunction(method.name, given[given[:1] == ("self",) :], method.body, None, method.args.defaults)
             if method.name == "__init__":
                 first = made
             else:
                 fields.values[method.name] = self.functions[method.name] = made
         if first is not None:
-            Evaluator.function(self, first, [sp.Symbol(x) for x in first.arguments])
+            Calling.function(self, first, [sp.Symbol(x) for x in first.arguments])
         own = [x for x in s.body if isinstance(x, ast.FunctionDef) and x.decorator_list and self.known(x.name)]
         lost = [x for name, x in fields.values.items() if x is LOST or (self.known(name) and of.value(x, name))]
         if own or lost or any(map(of.expression, s.bases)):

@@ -41,7 +41,7 @@ _FOR = re.compile(
     r"(?P<last>\d{1,2}|\w{1,12}(?:\([ \t]*+\w{1,12}+[ \t]*+\))?)[ \t]*+[;,]?\Z"
 )
 """A loop over numbers: for i = 1:numel(q)."""
-_PLACE = r"[ \t]*+(?:\d*+[ \t]*+:[ \t]*+(?:\d++|end\b)?+|\d++)[ \t]*+"
+_PLACE = r"[ \t]*+(?:\d*+[ \t]*+:[ \t]*+(?:\d++|end\b)?+|\d++|[^\W\d]\w{0,12}+)[ \t]*+"
 _PLACES = re.compile(rf"(?=[^()]*:){_PLACE}(?:,{_PLACE})?\)")
 _KEPT = re.compile(
     r"(?<![\w.])(?:(?P<multiplier>lambda)|as|is|del|def|pass|with|from|yield|assert|raise|async|await)(?!\w)"

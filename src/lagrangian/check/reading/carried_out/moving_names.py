@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -9,7 +11,7 @@ from lagrangian.check.reading.carried_out.values import TIME
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.shortened import AnswerScope
 from lagrangian.model import Model
-from lagrangian.records import dataclass
+from lagrangian.records import dataclass, field
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,6 +20,8 @@ class MovingNames:
 
     model: Model
     scope: AnswerScope
+    said: Mapping[str, str] = field(default_factory=dict)
+    """What symbols of the program's own are, with primes: acc is x''."""
 
     def order(self, value: sp.Expr) -> int:
         """2 if accelerations stand in a value, 1 if something else in it moves, else 0."""
@@ -28,6 +32,9 @@ class MovingNames:
 
     def _in_letters(self, name: str) -> int:
         coordinates = {c.name for c in self.model.coordinates}
+        stem = self.said.get(name, "").rstrip("'’′")
+        if stem and set(self.scope.meanings(stem)[0]) & coordinates:
+            return max(len(self.said[name]) - len(stem), 1)
         if set(found := self.scope.meanings(name)[0]):
             return int(bool(set(found) & coordinates))
         orders = [k for k, stem in spelled_rates(name) if set(self.scope.meanings(stem)[0]) & coordinates]

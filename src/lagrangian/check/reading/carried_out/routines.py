@@ -136,6 +136,22 @@ def jacobian(of: Value, by: Value) -> Value:
     return checked(sp.Matrix([[slope(x, y) for y in columns] for x in rows]))
 
 
+def gradient(of: Value, by: Value) -> MatrixBase:
+    """The column of slopes by symbols, as the symbolic toolbox of MATLAB makes it."""
+    if not isinstance(by, (list, tuple, MatrixBase)):
+        raise AbandonedError
+    return jacobian(scalar(of), by).T
+
+
+def euler_lagrange(of: Value, by: Value) -> list[sp.Expr]:
+    """∂L/∂q − d/dt ∂L/∂q' for each function of time."""
+    functions = listed(by) if isinstance(by, (list, tuple, MatrixBase)) else [by]
+    if not all(isinstance(q, AppliedUndef) for q in functions):
+        raise AbandonedError
+    L = scalar(of)
+    return [checked(slope(L, q) - slope(slope(L, q.diff(TIME)), TIME)) for q in functions]
+
+
 def replaced(value: Value, pairs: Mapping[Any, Any]) -> Value:
     """A value with others in place of some of its parts."""
     if isinstance(value, (list, tuple)):
@@ -159,6 +175,10 @@ def pairs_of(given: Sequence[Value]) -> dict[Any, Any]:
     if len(given) == 1 and isinstance(given[0], (list, tuple)):
         return {a: scalar(b) for a, b in (listed(x) for x in given[0])}
     raise AbandonedError
+
+
+def _alone_or_column(found: list[sp.Expr]) -> Value:
+    return found[0] if len(found) == 1 else sp.Matrix(found)
 
 
 def dot(a: Value, b: Value) -> sp.Expr:
@@ -262,6 +282,10 @@ def routine(name: str, given: Sequence[Value], options: Mapping[str, Value], *, 
         "Eq": lambda: Equation(scalar(given[0]), scalar(given[1])),
         "jacobian": lambda: jacobian(given[0], given[1]),
         "hessian": lambda: jacobian(jacobian(given[0], given[1]), given[1]),
+        "gradient": lambda: gradient(given[0], given[1]),
+        "functionalDerivative": lambda: _alone_or_column(euler_lagrange(given[0], given[1])),
+        "euler_equations": lambda: [Equation(x, sp.S.Zero) for x in euler_lagrange(given[0], given[1])],
+        "derive_by_array": lambda: listed(jacobian(scalar(given[0]), given[1])),
         "subs": lambda: replaced(given[0], pairs_of(given[1:])),
         "dot": lambda: dot(given[0], given[1]) if 1 in matrix(given[0]).shape else times(given[0], given[1]),
         "hypot": lambda: sp.sqrt(scalar(given[0]) ** 2 + scalar(given[1]) ** 2),

@@ -14,15 +14,16 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
-from sympy.printing.str import StrPrinter
 
 from lagrangian.check.reading.carried_out.in_comments import equations_in_comments
 from lagrangian.check.reading.carried_out.interpreter import Interpreter
 from lagrangian.check.reading.carried_out.julia import in_matlab, is_julia
 from lagrangian.check.reading.carried_out.loose import Loose, loose_rates
+from lagrangian.check.reading.carried_out.marking import MarkingInterpreter
 from lagrangian.check.reading.carried_out.matlab import in_python
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
 from lagrangian.check.reading.carried_out.prescribed_rates import other_rates
+from lagrangian.check.reading.carried_out.rates_said import symbols_said
 from lagrangian.check.reading.carried_out.states import StateFunction, StateReader
 from lagrangian.check.reading.carried_out.values import (
     NAME,
@@ -34,11 +35,12 @@ from lagrangian.check.reading.carried_out.values import (
     Value,
     checked,
     cramer,
-    is_scalar,
     listed,
     scalar,
 )
-from lagrangian.check.reading.carried_out.ways import ways
+from lagrangian.check.reading.carried_out.ways import in_own_coordinates, ways
+from lagrangian.check.reading.carried_out.written import LONGEST_LINE, written
+from lagrangian.check.reading.marked_values import Marks
 from lagrangian.check.reading.names import spelled_rates
 from lagrangian.check.reading.own_inputs import told
 from lagrangian.check.reading.shortened import AnswerScope
@@ -48,8 +50,6 @@ from lagrangian.records import dataclass
 
 LONGEST_PROGRAM, DEEPEST = 20_000, 40
 """The most characters of a program, and how deep brackets may stand in it."""
-LONGEST_LINE = 6_000
-"""The most characters of a statement."""
 _PYTHON = re.compile(r"^[ \t]*+(?:import|from)[ \t]++\w|^[ \t]*+def[ \t]++\w++\(|=[ \t]*+lambda[ \t]", re.MULTILINE)
 _QUOTED = re.compile(r"^[^\W\d]\w*+[ \t]*+=[ \t]*+(?P<q>[\"'])[^\"'\n]*[*^/+][^\"'\n]*(?P=q)[ \t]*+$", re.MULTILINE)
 _MATLAB = re.compile(
@@ -68,19 +68,14 @@ _ACCELERATES = re.compile(
 )
 _LABEL = re.compile(r"[ \t]*+\w{1,20}[(\[]\d[)\]][ \t]*+=")
 """An entry of a column of the program, in a comment: eom(1) = …"""
+_HEAD = re.compile(r"[ \t]*+(?P<name>[^\W\d]\w{0,24})[ \t]*+:(?!=)")
+"""The name of the program's own for an equation, in front of it in a comment: eq1: …"""
 _COMMENTED = re.compile(r"[#%][^\n]*+")
 _MEANS = re.compile(
-    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ]"
+    r"(?<![\w'’*/+-])(?P<name>[^\W\d]\w{0,24})[ ](?:is|for|stands for|means|denotes|=|->)[ ](?:the[ ])?"
     r"(?P<of>[^\W\d]\w{0,24})(?![\w'’(*/+-])"
 )
 """What a comment says of a name: R is r."""
-_DECLARED = re.compile(
-    r"^[ \t]*+(?:syms[ \t](?P<syms>[\w \t,]++)|(?P<names>[\w \t,]++)=[ \t]*+(?:\w++\.)?symbols\([^\n#]*+);?"
-    r"[ \t]*+[#%]++(?P<said>[^\n]++)$",
-    re.MULTILINE,
-)
-"""Symbols, and a comment that lists what they are: syms q qd qdd real  % x, x', x''."""
-_OF_RATE = re.compile(r"[^\W\d]\w{0,24}['’′]{0,2}")
 _ENERGIES = frozenset(["T", "V", "U", "L", "D"])
 
 
@@ -94,11 +89,11 @@ class CarriedOut:
     notes: tuple[str, ...] = ()
 
 
-def carried_out(text: str, model: Model) -> CarriedOut | None:
+def carried_out(text: str, model: Model, marks: Marks | None = None) -> CarriedOut | None:
     """Return what a program in Python, MATLAB or Julia states.
 
     None if it is no such program, or states nothing that can be carried out. Nothing is executed: the syntax tree is
-    carried out on symbols.
+    carried out on symbols; with ``marks``, in the values that it assigns.
     """
     matlab = _PYTHON.search(text) is None and len(_QUOTED.findall(text)) < 2
     if len(text) > LONGEST_PROGRAM or _depth(text) > DEEPEST:
@@ -123,33 +118,49 @@ def carried_out(text: str, model: Model) -> CarriedOut | None:
         states = 2 * len(model.coordinates)
         said = {m["name"]: m["of"] for x in _COMMENTED.findall(text) for m in _MEANS.finditer(x)}
         given = {name for name, of in said.items() if known(of) and not scope.meanings(name)[0]}
-        run = Interpreter(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
+        made = Interpreter if marks is None else partial(MarkingInterpreter, marks=marks)
+        run = made(matlab=matlab, known=known, states=states, valued=valued, driven=driven, said=given)
         behind = ((k, _COMMENTED.search(x)) for k, x in enumerate(text.split("\n"), 1))
         run.behind = {k: m.group() for k, m in behind if m is not None}
         names = run.run(tree, {} if loose is None else {loose.state.name: loose.state})
-        found = list(_statements(run, MovingNames(model, scope), _ENERGIES - _entries(tree)))
+        of_symbols = _of_symbols(text, run, names, said, model, scope)
+        moving = MovingNames(model, scope, of_symbols)
+        found = list(_statements(run, moving, _ENERGIES - _entries(tree)))
         reader = StateReader(run, text, model, scope)
         with suppress(*TROUBLES):  # a function of its own that returns no rates
             found += _of_states(run, names, reader, loose)
         found += [(one.line, f"{called} = {written(one.value)}") for one, called in other_rates(run)]
-        if not any(_ACCELERATES.search(x) for _, x in found):
+        twice = {name for name, of in of_symbols.items() if _ACCELERATES.search(of)}
+        if not any(_accelerates(x, twice) for _, x in found):
             in_comments = equations_in_comments(run, names, reader)
             found += [(line, f"{written(_explicit(run, x))} = 0") for line, entries in in_comments for x in entries]
     except (*TROUBLES, SyntaxError, RecursionError, MemoryError):
         return None
-    if not any(_ACCELERATES.search(x) for _, x in found):
+    if not any(_accelerates(x, twice) for _, x in found):
         return None
     own = {x.id for x in ast.walk(tree) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
-    foreign = {x for x in own if x != TIME.name and not _is_of_system(scope, x)}
-    found = [*_renamed(_listed(text) | said | run.renamed, found, scope), *_of_ways(run, model, scope), *found]
+    own -= {TIME.name, *of_symbols, *(x for x, q in names.items() if isinstance(q, AppliedUndef) and str(q.func) == x)}
+    foreign = {x for x in own if not _is_of_system(scope, x)}
+    found = [*_renamed(of_symbols | said | run.renamed, found, scope), *_of_ways(run, found, model, scope), *found]
     lines = text.split("\n")
-    said_of = [m["said"] if (m := _COMMENT.match(x)) and _ACCELERATES.search(m["said"]) else "" for x in lines]
-    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
-    comments = [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+    comments = _comments(lines, twice, foreign)
     notes = () if run.drives is None or driven is None else (told(f"{run.drives}(t)", driven),)
     notes += tuple(told(name, of) for name, of in run.read_as.items())
     notes += tuple(_left_out(first, last) for first, last in dict.fromkeys(run.left_out))
     return CarriedOut(_laid_out(comments, found), _laid_out([""] * len(lines), found), notes)
+
+
+def _comments(lines: Sequence[str], twice: Set[str], foreign: Set[str]) -> list[str]:
+    """What comments with accelerations say, line by line, which have no ``foreign`` names but in front of equations."""
+    said_of = [m["said"] if (m := _COMMENT.match(x)) and _accelerates(m["said"], twice) else "" for x in lines]
+    said_of = [x[m.end() :] if (m := _HEAD.match(x)) and m["name"] in foreign else x for x in said_of]
+    said_of = ["" if foreign & set(NAME.findall(x)) else x for x in said_of]
+    return [f"{x[m.end() :]} = 0" if (m := _LABEL.match(x)) and x.count("=") == 1 else x for x in said_of]
+
+
+def _accelerates(said: str, twice: Set[str]) -> bool:
+    """Whether an acceleration is in a text: in its spelling, or by one of the names that stand for some."""
+    return _ACCELERATES.search(said) is not None or not twice.isdisjoint(NAME.findall(said))
 
 
 def _left_out(first: int, last: int) -> str:
@@ -158,9 +169,12 @@ def _left_out(first: int, last: int) -> str:
     return f"{said} not carried out: nothing is known of what changes there."
 
 
-def _of_ways(run: Interpreter, model: Model, scope: AnswerScope) -> Iterator[tuple[int, str]]:
-    """The places and velocities of bodies that have names of the program's own."""
-    for line, name, value in ways(run, MovingNames(model, scope), partial(_is_of_system, scope)):
+def _of_ways(
+    run: Interpreter, found: Sequence[tuple[int, str]], model: Model, scope: AnswerScope
+) -> Iterator[tuple[int, str]]:
+    """The places and velocities of bodies that have names of the program's own, and coordinates made of its own."""
+    told_ways = ways(run, MovingNames(model, scope), partial(_is_of_system, scope))
+    for line, name, value in chain(told_ways, in_own_coordinates(run, found, model, scope)):
         with suppress(AbandonedError):
             entries = ", ".join(map(written, value))
             yield line, f"{name} = ({entries})" if len(value) > 1 else f"{name} = {entries}"
@@ -181,14 +195,17 @@ def _renamed(
             yield 1, f"{name} = {of}"
 
 
-def _listed(text: str) -> dict[str, str]:
-    """What a comment behind the declaration of symbols lists them as, each of them."""
-    found: dict[str, str] = {}
-    for m in _DECLARED.finditer(text):
-        names = [x for x in NAME.findall(m["syms"] or m["names"]) if x not in ("real", "positive")]
-        items = [x.strip() for x in m["said"].split(",")]
-        if len(items) == len(names) and all(map(_OF_RATE.fullmatch, items)):
-            found |= dict(zip(names, items, strict=True))
+def _of_symbols(
+    text: str, run: Interpreter, names: Mapping[str, Value], said: Mapping[str, str], model: Model, scope: AnswerScope
+) -> dict[str, str]:
+    """What symbols are that the system does not name, as comments say or else the program's derivatives by time."""
+    coordinates, used = {c.name for c in model.coordinates}, set(run.used)
+
+    def is_coordinate(name: str) -> bool:
+        return not coordinates.isdisjoint(scope.meanings(name)[0])
+
+    found = symbols_said(text, run, names, said, is_coordinate, lambda name: not _is_of_system(scope, name))
+    run.used = used
     return found
 
 
@@ -354,36 +371,3 @@ def _multipliers(
 
 def _put(value: sp.Expr, table: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
     return cast("sp.Expr", scalar(value).xreplace(table))
-
-
-class _Printer(StrPrinter):
-    """Writes functions of time as names, and their derivatives with primes."""
-
-    def _print_Function(self, expr: Any) -> str:
-        if isinstance(expr, AppliedUndef):
-            if expr.args != (TIME,):
-                raise AbandonedError
-            return str(expr.func)
-        if isinstance(expr, sp.Abs):
-            return f"abs({self._print(expr.args[0])})"
-        return f"{expr.func.__name__}({', '.join(self._print(a) for a in expr.args)})"
-
-    def _print_Derivative(self, expr: Any) -> str:
-        if not isinstance(expr.expr, AppliedUndef) or set(expr.variables) != {TIME}:
-            raise AbandonedError
-        return f"{expr.expr.func}{chr(39) * len(expr.variables)}"
-
-    def _print_Symbol(self, expr: Any) -> str:
-        if NAME.fullmatch(expr.name) is None:
-            raise AbandonedError
-        return expr.name
-
-
-def written(value: sp.Expr) -> str:
-    """An expression in the grammar of answers."""
-    if not is_scalar(value):
-        raise AbandonedError
-    made = _Printer().doprint(value)
-    if len(made) > LONGEST_LINE:
-        raise AbandonedError
-    return made

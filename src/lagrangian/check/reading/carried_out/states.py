@@ -14,6 +14,7 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.layouts import Layouts
 from lagrangian.check.reading.carried_out.loose import Loose
+from lagrangian.check.reading.carried_out.mass_matrix import with_mass
 from lagrangian.check.reading.carried_out.named_arguments import NamedArguments
 from lagrangian.check.reading.carried_out.reached import reached
 from lagrangian.check.reading.carried_out.routines import PLAIN
@@ -97,6 +98,7 @@ class StateReader:
         states = [x for x in given.values() if isinstance(x, State)]
         if rates is None:
             return None
+        rates = with_mass(self.run, list(given.values()), rates) if states else rates
         layouts = Layouts(self.run, self.model, self.scope, self.in_comments, self.rated)
         found: Any = layouts.of_sums(given, rates)
         named = NamedArguments(self.run, self.model, self.scope, self.rated, self._as_motion)

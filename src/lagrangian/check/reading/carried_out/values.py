@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import islice
 from typing import Any, TypeAlias, cast
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
@@ -75,6 +76,8 @@ class OwnFunction:
     body: Sequence[ast.stmt] | ast.expr
     out: str | None = None
     """The names that hold the results, in MATLAB."""
+    defaults: Sequence[ast.expr] = ()
+    """What the last arguments are if they are not given."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -305,8 +308,20 @@ def power(a: Value, b: Value) -> Value:
     return checked(base**exponent)
 
 
+def transposed(of: Value, known: Callable[[str], bool]) -> Value:
+    """The transpose; x' of a coordinate that is no ``known`` parameter may be meant as its rate."""
+    if isinstance(of, AppliedUndef) or (isinstance(of, sp.Symbol) and not known(of.name)):
+        raise AbandonedError
+    if isinstance(of, sp.Expr):
+        return of
+    flat = isinstance(of, list) and not any(isinstance(x, list) for x in of)
+    return matrix(of) if flat else matrix(of).T
+
+
 def slope(value: Value, by: Value) -> Value:
-    """The derivative by a symbol, a function of time or its rate."""
+    """The derivative by a symbol, a function of time or its rate; of one quantity also by a column of these."""
+    if isinstance(by, MatrixBase) and is_scalar(value):
+        return by.applyfunc(lambda x: slope(value, x))
     if isinstance(value, MatrixBase):
         return value.applyfunc(lambda x: slope(x, by))
     if not isinstance(by, sp.Expr) or not (by.is_Symbol or by.is_Function or isinstance(by, sp.Derivative)):

@@ -8,7 +8,7 @@ What is carried out has these names no more; they only say where a mistake in an
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -16,8 +16,10 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.carried_out.evaluator import Evaluator
 from lagrangian.check.reading.carried_out.moving_names import MovingNames
-from lagrangian.check.reading.carried_out.values import Shown
+from lagrangian.check.reading.carried_out.values import NAME, TIME, Shown
 from lagrangian.check.reading.names import spelled_rates
+from lagrangian.check.reading.shortened import AnswerScope
+from lagrangian.model import Model
 
 MOST = 12
 """The most names that are told."""
@@ -47,3 +49,18 @@ def _way(run: Evaluator, moving: MovingNames, one: Shown) -> tuple[int, str, lis
     moved = [moving.order(x) for x in listed]
     trivial = len(listed) == 1 and isinstance(listed[0], (sp.Symbol, AppliedUndef, sp.Derivative))
     return None if max(moved) != 1 or trivial else (one.line, name, listed)
+
+
+def in_own_coordinates(
+    run: Evaluator, found: Sequence[tuple[int, str]], model: Model, scope: AnswerScope
+) -> Iterator[tuple[int, str, list[sp.Expr]]]:
+    """The coordinates of the system that a program makes of its own, s = r*phi, and has no more when it is carried out:
+    the line, the name and the value of each."""
+    used = {name for _, said in found for name in NAME.findall(said)}
+    last = {one.name: one for one in run.stated if one.name is not None and isinstance(one.value, sp.Expr)}
+    for name, one in last.items():
+        meant = [c.name for c in model.coordinates if c.name in scope.meanings(name)[0]]
+        letters = {str(x.func) for x in one.value.atoms(AppliedUndef)} | {str(x) for x in one.value.free_symbols}
+        own = {x for x in letters - {TIME.name} if NAME.fullmatch(x) and not scope.meanings(x)[0]}
+        if meant and own & used and not any(set(scope.meanings(x)[0]) & set(meant) for x in used):
+            yield one.line, name, [one.value]

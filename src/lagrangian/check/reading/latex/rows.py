@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from lagrangian.check.reading.labels import DIRECTIONS
 from lagrangian.check.reading.latex.layout import closing, without_braces, without_units
 from lagrangian.check.reading.latex.tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
@@ -60,10 +61,12 @@ _LETTER_BEFORE = re.compile(
 )
 """A letter or a number with a bracket that nothing opens, perhaps after a word, and Roman numbers: ad a), (ii)."""
 _NAME_BEFORE = re.compile(
-    rf"{_SPACE}(?:\\delta\s*+)?(?:\\[A-Za-z]{{2,12}}|[^\W\d_])(?:\s?_\s?(?:\w|\{{\w{{1,8}}\}}))?\s*:(?={_SPACE}[^\s=])(?=.*=)",
-    re.DOTALL,
+    rf"{_SPACE}(?:(?:eqn?\.?|equation|gl\.?|gleichung)[ ](?:(?:for|of|in|für|von)[ ])?)?(?:\\delta\s*+)?"
+    r"(?:\\[A-Za-z]{2,12}|[^\W\d_])(?:\s?_\s?(?:\w|\{\w{1,8}\}))?"
+    rf"(?:[- ]?(?:{DIRECTIONS})\b\.?)?\s*:(?={_SPACE}[^\s=])(?=.*=)",
+    re.DOTALL | re.IGNORECASE,
 )
-"""The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F."""
+"""The name of the coordinate whose equation follows: x: &\\quad m\\ddot x = F, \\phi-equation: …"""
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")

@@ -96,6 +96,7 @@ _SIGMA = re.compile(r"(?<!\w)Σ(?=[^\W_]|\s[A-Z])")
 _ARROWS = r"<?=+>|⇒|⟹|⇔|⟺|<?(?<![^\s>=]-)-++>|→|⟶|↔|⟷|∴"
 _LINKED = (
     "and|or|where|with|so|thus|hence|therefore|implies|then|i\\.e\\."
+    "|(?:I|we)[ ](?:have|get|find|obtain|write|see)"
     "|und|oder|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
 )
 _WITH = "con|com|met|med|dove|donde|onde|waarbij"

@@ -15,13 +15,14 @@ A = diag([m J]);                A = diag(m, J)                a diagonal
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 from lagrangian.check.reading.characters import LATEX
 from lagrangian.check.reading.programs.matrices import with_equations_in_comments, with_shown_matrices
 from lagrangian.check.reading.programs.sessions import carries
 from lagrangian.check.reading.traced_text import Edit, TracedText
+from lagrangian.errors import Place
 
 _NAME = r"[^\W\d]\w{0,23}+"
 MOST, LONGEST = 200, 2_000
@@ -66,6 +67,12 @@ _BEHIND = re.compile(r"(?<=\S)[ \t]++(?P<mark>[#%]++|//(?=\s))(?P<said>[^\n]*+)$
 """A comment behind a statement."""
 _LED = re.compile(r"(?<![\w/])dd(?=[^\W\d])")
 """The letters in front of an acceleration, ddx."""
+_SOLVES = re.compile(
+    r"\b(?:solve|inv|solve_ivp|odeint|ode\d{2}s?|ODEProblem|lambdify|rk4|RK4)[ \t]*+\(|^[ \t]*+(?:def|function)\b",
+    re.MULTILINE,
+)
+"""What a program has that computes motions."""
+_SIGN = re.compile(r"[#%]|//(?=\s)")
 _WHOLE_LINE_COMMENT = re.compile(r"^[ \t]*+(?:[#%]+|//(?=\s))(?P<said>[^\n]*+)$", re.MULTILINE)
 _FIELD = re.compile(rf"(?<![\w.)\]])(?P<of>[A-Za-z]\w{{0,11}})\.(?P<name>{_NAME})(?![\w(])")
 
@@ -106,6 +113,21 @@ def told_comments(text: str, *, read: bool = False) -> Iterator[str]:
 def is_program(text: str) -> bool:
     """Whether LaTeX stands in no line of a text but in comments."""
     return LATEX.search(_WHOLE_LINE_COMMENT.sub("", text)) is None
+
+
+def in_comment(text: str, place: Place) -> bool:
+    """Whether a place is in a comment, behind its sign."""
+    lines = text.split("\n")
+    row = lines[place.line - 1] if place.line is not None and 0 < place.line <= len(lines) else ""
+    return _SIGN.search(row[: place.column or 0]) is not None
+
+
+def told_beside_comments(text: str, places: Sequence[Place]) -> tuple[str, ...]:
+    """What to say about a program that solves for accelerations and was not carried out, where the ``places`` of all
+    equations of motion are in comments."""
+    if not places or _SOLVES.search(text) is None or not all(in_comment(text, x) for x in places):
+        return ()
+    return ("What the program computes was not carried out and was not judged: its comments were.",)
 
 
 def with_comments_read(written: TracedText) -> TracedText:

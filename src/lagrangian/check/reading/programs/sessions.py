@@ -150,17 +150,22 @@ def _unprompted(match: re.Match[str]) -> str:
     return "\n" if match["before"] == "" or match["cell"] else " "
 
 
+_ENDS = re.compile(r"[(){}\[\]\n;]")
+
+
 def pieces(text: str) -> Iterator[Piece]:
     """The statements of a text: parts of lines between semicolons, and lines that a bracket holds together."""
     depth = start = count = 0
-    for at, c in enumerate(f"{text}\n"):
+    for mark in _ENDS.finditer(f"{text}\n"):
+        at, c = mark.start(), mark.group()
         if c in "([{":
             depth += 1
         elif c in ")]}":
             depth = max(0, depth - 1)
         ends = c == "\n" and (text[at + 1 : at + 2] == "\n" or at - start > LONGEST)
         if (c in "\n;" and depth == 0) or ends:
-            first, last = start + len(text[start:at]) - len(text[start:at].lstrip()), len(text[:at].rstrip())
+            piece = text[start:at]
+            first, last = start + len(piece) - len(piece.lstrip()), start + len(piece.rstrip())
             if first < last:
                 yield Piece(first, last)
             count, depth, start = count + 1, 0, at + 1

@@ -54,12 +54,15 @@ _GONE = re.compile(
 _SAID = re.compile(rf"(?P<left>{_NAME})[ \t]*[^\s\w]+[ \t]*[-−]?(?P<right>[\w./π∞]+)")
 _COUNTED = re.compile(r"[ijkn][ \t]*=[ \t]*\d")
 _NAMED = re.compile(r"[^\W\d][\w\u0307\u0308]*")
+_FACTOR = re.compile(r"[ \t]+([^\W\d_]{2,12})(?![^\W_])")
 _SENTENCE_END = re.compile(r"[.;](?=\s|\Z)|\n")
 
 
 def without_conditions(text: str, words: Words) -> str:
     """Return an answer in plain text with conditions blanked out."""
-    found = [m for m in CONDITION.finditer(text) if not _COUNTED.match(m["said"])]
+    found = [
+        m for m in CONDITION.finditer(text) if not (_COUNTED.match(m["said"]) or _goes_on(text, m.end("said"), words))
+    ]
     found += [m for m in _vanishing(text) if _is_case(m["said"], words)]
     found += [m for m in _CASE.finditer(text) if _is_case(m["said"], words)]
     found += [m for m in _SIDES.finditer(text) if _is_readable(m["left"], words) and _is_readable(m["right"], words, 0)]
@@ -70,6 +73,12 @@ def without_conditions(text: str, words: Words) -> str:
         if spoken and words.names.changes(match["name"]):
             text = blank(text, *match.span())
     return text
+
+
+def _goes_on(text: str, end: int, words: Words) -> bool:
+    """Whether a value is a factor of what stands behind it: axle at x = h sin β."""
+    behind = _FACTOR.match(text, end)
+    return behind is not None and (words.is_function(behind[1]) or words.is_name(behind[1]))
 
 
 def _vanishing(text: str) -> Iterator[re.Match[str]]:

@@ -11,7 +11,7 @@ _WORD = re.compile(rf"(?<=\s)(?P<sign>{'|'.join(_SPOKEN)})(?=\s)")
 _LEFT = re.compile(r"(?:(?P<name>[^\W\d]\w{0,30})|[\d)\]'’′″²³])\s{0,40}\Z")
 _RIGHT = re.compile(r"\s{1,40}(?:(?P<name>[^\W\d]\w{0,30})|[\d(\[½¼])")
 _NEAR = 80
-_ANNOUNCED = re.compile(r"[ \t]*+(?:times|divided by)[ \t][^\n]{1,40}:[ \t]*+")
+_ANNOUNCED = re.compile(r"[ \t]*+(?:minus|plus|times|divided by)[ \t][^\n]{1,40}:[ \t]*+")
 """A line that says what was done with the equation above it: divided by l:"""
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from unicodedata import normalize
 
 from lagrangian.check.reading.names import COLUMNS, Names, spelled_rates
@@ -74,6 +74,11 @@ def led_names(text: str) -> frozenset[str]:
 
 def function_of(word: str) -> str | None:
     """The function that a word means, in any case and under the names of other programs: Sin, arctan, tg; or None."""
+    return _function_of(str(word))
+
+
+@lru_cache(maxsize=4_096)
+def _function_of(word: str) -> str | None:
     if word in FUNCTIONS or word in RECIPROCALS:
         return word
     for form in (word, word.lower(), word.lower().replace("_", "")):
@@ -159,13 +164,13 @@ class Words:
     def readable(self, word: str) -> bool:
         """Whether a word may be a factor of a product without a sign: known, a function, or a single letter, which may
         be a spelled Greek one."""
-        bare = re.sub(r"[\W\d_]", "", undotted(word)[0])
         if word in ("dot", "ddot", "diff", "Derivative") or _INDEXED.fullmatch(word):
             return True
         named = self.known(word) or function_of(word) is not None or key(word) in self._used
         named = named or any(stem in COLUMNS for _, stem in spelled_rates(word))  # qddot
         named = named or self._is_component(word)
-        return named or self._is_force(word) or len(bare) == 1 or len(key(word)) > len(word) or word in _SPELLED
+        named = named or self._is_force(word) or len(key(word)) > len(word) or word in _SPELLED
+        return named or len(re.sub(r"[\W\d_]", "", undotted(word)[0])) == 1
 
     def _is_force(self, word: str) -> bool:
         """Whether a word is a short spelling of a multiplier, perhaps with a number, where there are constraints."""

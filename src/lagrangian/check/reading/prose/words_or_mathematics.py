@@ -361,7 +361,7 @@ def says_nothing(text: str, words: Words) -> bool:
         return True
     listed = _WORD.findall(text)
     spoken = [_links(x, words) or _is_word(x, words) for x in listed]
-    sentence = "=" not in text and sum(spoken) > MOST_NAMES and all(spoken[:2])
+    sentence = "=" not in text and sum(spoken) > 1 and all(spoken[:2])
     if not sentence and (_SIGNS.search(text) or not any(_is_word(x, words) for x in listed)):
         return False
     if re.search(r"\d", text) or any(map(words.is_name, listed)):

@@ -17,7 +17,7 @@ from lagrangian.check.reading.traced_text import Edit, TracedText, apart
 from lagrangian.records import dataclass
 
 _TWO = r"[ ]?(?:\^|\*\*)?[ ]?\(?(?:2|²)\)?"
-_OPERATOR = rf"d(?:{_TWO})?[ ]?/[ ]?\(?dt(?:{_TWO})?\)?(?![\w(])"
+_OPERATOR = rf"d(?:{_TWO})?[ ]?/[ ]?\(?dt(?:{_TWO})?\)?(?![\w(]|[ \t]{{1,9}}(?:[(\[∂]|d\w))"
 _WORDS = (
     r"(?:the[ ])?(?:(?:first|1st|once|second|2nd|erste|zweite|première|seconde)[ ])?(?:(?:time|total)[ -]?)?"
     r"(?:derivative|rate|(?:zeit)?ableitung|dérivée)(?!s|[ ]of\b|[ ]von\b|[ ]de\b)"
@@ -36,6 +36,8 @@ _LEGEND = re.compile(
 _SECOND = re.compile(r"second|2nd|zweite|[2²]", re.IGNORECASE)
 _NAME = re.compile(r"(?<![\w\\])(?:(?<=/)[d∂](?=\w))?(?P<name>[^\W\d]\w{0,23})")
 _OF = re.compile(r"[ \t]?(?P<open>\()?(?P<of>[^\W\d]\w{0,23})(?(open)\)|(?![\w(]))")
+_OF_ENERGY = re.compile(r"d[TVULD][ ]?/[ ]?d")
+"""A slope of an energy, dT/dxd, in which d is no mark."""
 MOST = 12
 """The most marks that an answer explains."""
 
@@ -86,13 +88,11 @@ def with_derivative_legends(
     ``moves`` says whether a name changes with time, ``taken`` whether it belongs to the system.
     """
     text = written.text
-    found = list(islice(_LEGEND.finditer(text), MOST))
+    found = [m for m in islice(_LEGEND.finditer(text), MOST) if m["shown"] or not taken(m["mark"])]
     if not any("deriv" in m["said"].lower() or "ableit" in m["said"].lower() or "/" in m["said"] for m in found):
         return written
     edits: list[Edit] = [(*m.span(), "") for m in found if m["shown"]]
-    marks = [
-        _Mark(m["mark"], 2 if _SECOND.search(m["said"]) else 1) for m in found if m["mark"] and not taken(m["mark"])
-    ]
+    marks = [_Mark(m["mark"], 2 if _SECOND.search(m["said"]) else 1) for m in found if m["mark"]]
     marks = [mark for mark in marks if not _is_operator(text, mark.text)]
     marks.sort(key=lambda mark: -len(mark.text))
     said = [range(*m.span()) for m in found]
@@ -113,6 +113,8 @@ def _is_operator(text: str, mark: str) -> bool:
 def _use(text: str, match: re.Match[str], marks: Sequence[_Mark], named: Callable[[str], bool]) -> Edit | None:
     """The edit that writes a name with a mark as one with primes, if what is left is ``named``."""
     name = match["name"]
+    if _OF_ENERGY.match(text, match.start()) is not None:
+        return None
     for mark in marks:
         primes = "'" * mark.order
         for bare in (name.removeprefix(mark.text), name.removesuffix(mark.text)):

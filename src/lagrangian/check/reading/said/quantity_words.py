@@ -34,7 +34,8 @@ _ENCLOSED = re.compile(r"[(\[][^()\[\]]{0,120},")
 """A comma within brackets."""
 _LETTERS = re.compile(r"[^\W\d_]{1,20}")
 _RELATIVE = re.compile(r"\b(?:relativ\w{0,6}|against|between|gegen|zwischen)\b", re.IGNORECASE)
-_OTHER = re.compile(r"energy|force|moment|torque|power|work|accelerat|energie|kraft|leistung", re.IGNORECASE)
+_ACCELERATION = re.compile(r"\b(?:accelerations?|beschleunigung(?:en)?)\b", re.IGNORECASE)
+_OTHER = re.compile(r"energy|force|moment|torque|power|work|energie|kraft|leistung", re.IGNORECASE)
 """Words of other quantities, in which a velocity may be named beside."""
 _ENDS = re.compile(r"[=;|]")
 _ITEM = re.compile(r"[ \t]*+(?:[-*•+–][ \t]++)?[^\W\d_][\w ,()'’/-]{1,40}?:(?=[ \t]+\S)|[ \t]*+[-*•+–][ \t]++\S")
@@ -44,6 +45,8 @@ _ITEM = re.compile(r"[ \t]*+(?:[-*•+–][ \t]++)?[^\W\d_][\w ,()'’/-]{1,40}?
 def kinds_of_words(words: str) -> tuple[str, ...]:
     """The kinds of quantities that words may mean; what is relative is no velocity or place of a body."""
     noun = _NOUN.search(words)
+    if _ACCELERATION.search(words):
+        return ("acceleration",) if noun is None and _OTHER.search(words) is None else ()
     if noun is None or noun.lastindex is None or _OTHER.search(words):
         return ()
     kinds = tuple([*_NOUNS][noun.lastindex - 1].split())
@@ -93,16 +96,20 @@ def _is_formula(text: str, names: Names) -> bool:
     return _ENCLOSED.search(text) is None and all(names.known(x) or function_of(x) is not None for x in words)
 
 
-def labelled(value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
+def labelled(value: Value, side: Tree, reader: Meaning, moving: bool) -> list[AnswerLine]:
     """The definitions that an expression, or the entries of a column, behind such words are, with them in place of a
-    name; none behind others. Behind a label in a list, they are those of its heading and the label."""
+    name; none behind others. Behind a label in a list, they are those of its heading and the label.
+
+    Words of accelerations stand before what has accelerations, if it is ``moving``, and no others do.
+    """
     place = reader.source.at(0)
     end = (place.column or 1) - 1
     before = _ENDS.split((place.text or "")[max(0, end - LONGEST) : end])[-1]
     words = " ".join(before.strip(" \t:-–—*#>").split())
     if heading := reader.names.headed.get(place.line or 0):
         words = f"{heading}, {words}"
-    if " " not in words or not kinds_of_words(words):
+    kinds = kinds_of_words(words) if " " in words else ()
+    if not kinds or (kinds == ("acceleration",)) != moving:
         return []
     if isinstance(value, MatrixBase):
         entries = enumerate(value.flat(), 1)

@@ -3,6 +3,7 @@
 % q1 = phi, q2 = s             q1 = phi, q2 = s           a comment of a program
 $\\theta$ stands for phi here   $\\theta=\\phi$ here         a sentence
 I use u for x and w for x'.     I ; u = x; w = x'.        another
+… sin(a)   (a is alpha)         … sin(a)   ; a = alpha    in brackets
 with μ the reduced mass m M/(m + M), …    ; μ = m M/(m + M); …      a name, what it is, and its value
 w: speed of the drum (phi')               ; w = phi';       a rate
 The cart's speed v is x'.                 … ; v = x';.      another
@@ -44,7 +45,10 @@ _SENTENCE = re.compile(
     rf"(?P<math>\$?)(?<![\w\\])(?P<new>\\?{_NAME})(?P=math)[ \t]++(?:stands[ \t]for|denotes|steht[ \t]für|bezeichnet)"
     rf"[ \t]++(?:the[ \t]|your[ \t]|den[ \t]|das[ \t])?(?P<open>\$?)(?P<own>\\?{_NAME})(?P=open)(?![\w(^'′$\\])"
 )
-
+_SHORT = re.compile(
+    rf"\([ \t]*+(?P<new>{_NAME})[ \t]++(?:is|means|stands[ \t]for|denotes|ist|bedeutet)[ \t]++(?P<own>{_NAME})[ \t]*+\)"
+)
+"""A letter of the system that is written otherwise: (a is alpha)."""
 
 _TERM = rf"{_NAME}(?:\([^()\n]{{1,40}}\))?['’′]{{0,2}}(?:\^\d)?"
 _VALUE = rf"{_TERM}(?:[ \t]?[-+*/·][ \t]?{_TERM}){{0,8}}"
@@ -82,6 +86,9 @@ def with_stated_letters(
     for match in _SENTENCE.finditer(written.text):
         if says(match["new"], match["own"]):
             edits.append((*match.span(), _statement(match, latex=latex)))
+    for match in _SHORT.finditer(written.text) if not latex else ():
+        if taken(match["own"]) and not taken(match["new"]):
+            edits.append((*match.span(), f"; {match['new']} = {match['own']}"))
     for match in _USED.finditer(written.text) if not latex else ():
         after = _GOES_ON.match(written.text, match.end())
         if after is not None and (after["name"] is None or taken(after["name"])):

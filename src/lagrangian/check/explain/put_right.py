@@ -1,0 +1,208 @@
+"""Finds the definition whose right value puts the lines right that use it: a_x = l θ̈ cos θ + l θ̇² sin θ, then m a_x.
+
+What a name adds to the equations is not known where it stands in the balance of another body. So the answer is read
+without its definition, and judged with the right quantity in its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.constraints.eliminated import unknown_in
+from lagrangian.check.coordinates.auxiliary import with_auxiliary
+from lagrangian.check.explain.bodies_said import Blamed
+from lagrangian.check.explain.definitions import with_wrong_definitions
+from lagrangian.check.explain.its_body import of_its_body
+from lagrangian.check.explain.quoted import letters_in
+from lagrangian.check.explain.said_wrongly import SaidWrongly, right_quantities, said_of
+from lagrangian.check.explain.wrong_balance import balances_agree
+from lagrangian.check.held import held
+from lagrangian.check.lines import filled, lines_of
+from lagrangian.check.reading import Answer
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict, keys_of
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.errors import ParseError
+from lagrangian.model import time
+from lagrangian.read.letters import key
+
+MOST_NAMES = 3
+"""The most definitions that are left out in turn."""
+MOST_VALUES = 8
+"""The most right quantities that are put in the place of one."""
+NEAR = 1e-9
+"""The relative size of what is rounding."""
+HIGHEST = 2
+"""The highest derivative of a name that is replaced."""
+
+Judge: TypeAlias = Callable[[Answer], Verdict]
+"""The verdict on an answer."""
+
+
+def with_wrong_name(
+    truth: Reference, lines: Sequence[AnsweredLine], answer: Answer, judge: Judge, verdict: Verdict
+) -> Verdict:
+    """The verdict on a wrong answer, in which a definition of a quantity of the system is the mistake if the first
+    wrong line is right with the right quantity in its place."""
+    open_ones = _open(verdict)
+    if verdict.hint == 0 or not open_ones:
+        return verdict
+    for line in list(_in_question(truth, lines, open_ones[0].line))[:MOST_NAMES]:
+        if (again := _without(line, lines, answer)) is None:
+            continue
+        symbol, others = again
+        copied = [x.rhs for x in answer.lines if (x.place.line, x.name) == (line.number, line.name) and x.rhs.is_Add]
+        for value, same in _values(truth, line):
+            put = _with(others, {symbol: value, **dict.fromkeys(copied, value)})  # what was copied is put right as well
+            if mended := _mended(truth, verdict, judge(put), put):
+                return _blamed(truth, verdict, of_its_body(truth, lines, same), mended)
+    return verdict
+
+
+def _open(verdict: Verdict) -> list[Finding]:
+    """The findings that are wrong and follow from none, but for those of definitions."""
+    wrong = [f for f in verdict.findings if f.status is Status.WRONG and not f.follows]
+    return [f for f in wrong if f.line.kind != "definition"]
+
+
+def _in_question(truth: Reference, lines: Sequence[AnsweredLine], first: AnsweredLine) -> Iterator[AnsweredLine]:
+    """The definitions whose names the first wrong line uses, itself or by others, and that are right for nothing."""
+    named = [x for x in lines if x.kind == "definition" and x.name]
+    used = set(first.names)
+    for _ in named:
+        more = set[str]().union(*(x.names for x in named if key(str(x.name)) in used))
+        if more <= used:
+            break
+        used |= more
+    for x in named:
+        if key(str(x.name)) in used and not right_quantities(truth, x, but=True):
+            yield x
+
+
+def _values(truth: Reference, line: AnsweredLine) -> list[tuple[sp.Expr, list[SaidWrongly]]]:
+    """The values that a name may have been meant to have, and of what each is the value; the likeliest first, those
+    with the letters that are written."""
+    alike: dict[sp.Expr, list[SaidWrongly]] = {}
+    for said in said_of(truth, line):
+        if said.right is not None:
+            alike.setdefault(said.right, []).append(said)
+    written = _parts(truth.expand(line.expr))
+    return sorted(alike.items(), key=lambda x: len(_parts(x[0]) ^ written))[:MOST_VALUES]
+
+
+def _parts(expr: sp.Expr) -> set[sp.Basic]:
+    """The letters and rates in an expression."""
+    return letters_in(expr) | expr.atoms(sp.Derivative)
+
+
+def _without(line: AnsweredLine, lines: Sequence[AnsweredLine], answer: Answer) -> tuple[sp.Expr, Answer] | None:
+    """The symbol of a name without its definition, and the answer with it; None if it cannot be had."""
+    assert answer.read_without is not None
+    try:
+        again = answer.read_without(frozenset([line.number]))
+    except ParseError:
+        return None
+    symbols = {key(u.name): u.symbol for u in again.unknown}
+    own = symbols.get(key(str(line.name)))
+    if own is None:
+        return None
+    beside = [x for x in lines if x.number == line.number and x is not line and x.kind == "definition"]
+    said = {symbols[key(str(x.name))]: x.expr for x in beside if key(str(x.name)) in symbols}
+    kept = tuple(x for x in answer.lines if x.place.line == line.number and x.kind != "definition")
+    unknown = tuple(u for u in again.unknown if u.symbol not in (own, *said))
+    return own, replace(_with(again, said), lines=(*kept, *_with(again, said).lines), unknown=unknown)
+
+
+def _with(answer: Answer, values: Mapping[sp.Expr, sp.Expr]) -> Answer:
+    """An answer with values in place of symbols, or of sums."""
+    lines = list(answer.lines)
+    for symbol, value in values.items():
+        lines = [
+            replace(x, lhs=None if x.lhs is None else _put(x.lhs, symbol, value), rhs=_put(x.rhs, symbol, value))
+            for x in lines
+        ]
+    return replace(answer, lines=tuple(lines))
+
+
+def _put(expr: sp.Expr, symbol: sp.Expr, value: sp.Expr) -> sp.Expr:
+    """An expression with a value in place of a symbol, and its rates in place of those of the symbol."""
+    table: dict[Any, sp.Expr] = {symbol: value}
+    if isinstance(symbol, AppliedUndef):
+        table |= {sp.Derivative(symbol, (time, k)): bounded.diff(value, *[time] * k) for k in range(1, HIGHEST + 1)}
+    return cast("sp.Expr", bounded.replaced(expr, table))
+
+
+def _mended(truth: Reference, verdict: Verdict, found: Verdict, put: Answer) -> list[AnsweredLine]:
+    """The wrong lines that are right with another value; none if the first of all is not among them, or more are wrong.
+
+    A balance with forces of the answer's own is right if there are forces with which all balances hold, or if all lines
+    are right into which its force was put.
+    """
+    before, now, right = _at(verdict, right=False), _at(found, right=False), _at(found, right=True)
+    lines = filled(truth, with_auxiliary(truth, lines_of(put)))
+    agree = balances_agree(truth, lines)
+    own = unknown_in(truth, lines) if agree else set()
+    balances = {(x.number, x.text) for x in lines if x.expr.has(*own)} if own else set()
+    now = {at: x for at, x in now.items() if at[:2] not in balances}
+    solved = {(x.number, x.text) for x in lines if x.kind == "definition" and _is_used_rightly(x, found)}
+    apart = {at: x for at, x in before.items() if at not in right and at[:2] in balances | solved}
+    mended = [x for at, x in before.items() if at in right or at in apart]
+    first = _open(verdict)[0].line
+    return mended if now.keys() < before.keys() and any(x is first for x in mended) else []
+
+
+def _is_used_rightly(line: AnsweredLine, verdict: Verdict) -> bool:
+    """Whether all lines with the name of a definition are right, and there are some."""
+    users = [f for f in verdict.findings if key(str(line.name)) in f.line.names and f.line.kind != "definition"]
+    return bool(users) and all(f.status.right for f in users)
+
+
+def _at(verdict: Verdict, *, right: bool) -> dict[tuple[int, str, int], AnsweredLine]:
+    """The lines that are right, or wrong, by what identifies them."""
+    lines = [f.line for f in verdict.findings]
+    statuses = (f.status.right if right else f.status is Status.WRONG for f in verdict.findings)
+    return {at: x for at, x, yes in zip(keys_of(lines), lines, statuses, strict=True) if yes}
+
+
+def _blamed(truth: Reference, verdict: Verdict, said: SaidWrongly, mended: Sequence[AnsweredLine]) -> Verdict:
+    """The verdict with a wrong definition, from which the lines follow that its right value mends, and those that are
+    wrong as these are."""
+    below = [f.line for f in _open(verdict) if not any(f.line is x for x in mended)]
+    below = [x for x, follows in zip(below, _wrong_alike(truth, mended, below), strict=True) if follows]
+    later = [f.line for f in verdict.findings if f.follows]
+    findings = with_wrong_definitions(verdict.findings, Blamed((said,), (*mended, *below, *later)))
+    told = verdict.mistakes if _open(replace(verdict, findings=findings)) else ()
+    return replace(verdict, findings=findings, mistakes=(said.mistake, *told), alternatives=(), sure=True)
+
+
+def _wrong_alike(truth: Reference, mended: Sequence[AnsweredLine], lines: Sequence[AnsweredLine]) -> list[bool]:
+    """Whether each of some equations is wrong by a multiple of what one that is mended is, at every position."""
+    on = held(truth) if truth.derivation.multipliers else truth
+    known = [x for x in mended if x.kind == "equation"]
+    if on is None or not known or not lines:
+        return [False] * len(lines)
+    values = CompiledExpressions([x.expr for x in (*known, *lines)]).at(on.states, on.accelerations)
+    if not np.isfinite(values).all():
+        return [False] * len(lines)
+    blocks = values.reshape(len(values), -1, on.states.motions)
+    theirs = [x for x in blocks[: len(known)] if _changes(x)]
+    own = zip(lines, blocks[len(known) :], strict=True)
+    return [x.kind == "equation" and any(_proportional(y, rest) for y in theirs) for x, rest in own]
+
+
+def _changes(values: Array) -> bool:
+    """Whether values are not the same for all motions at a position."""
+    return bool((np.ptp(values, axis=1) > NEAR * np.abs(values).max(axis=1)).all())
+
+
+def _proportional(a: Array, b: Array) -> bool:
+    """Whether values are multiples of others at every position."""
+    scale = np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    return bool((np.abs(np.abs((a * b).sum(axis=1)) - scale) <= NEAR * scale).all())

@@ -1,0 +1,25 @@
+"""The words with which remarks beside the equations of an answer begin: check, special case, natural frequencies."""
+
+from __future__ import annotations
+
+_CHECKS = (
+    "check checks checking checked sanity plausibility plausible verification verify test probe kontrolle "
+    "plausibilität plausibilitätskontrolle plausibilitätsprüfung überprüfung prüfung vérification contrôle "
+    "remark remarks note notes nb bemerkung bemerkungen anmerkung hinweis remarque comment kommentar observation "
+    "interpretation discussion diskussion comparison vergleich sum summe adding addition somme "
+    "conserved conservation erhaltung energieerhaltung impulserhaltung drallerhaltung energiebilanz"
+)
+_CASES = (
+    "special limiting limit limits sonderfall sonderfälle spezialfall grenzfall grenzfälle particulier limite "
+    "equilibrium equilibria ruhelage ruhelagen gleichgewicht gleichgewichtslage gleichgewichtslagen équilibre "
+    "static statics statisch statische statischer steady stationär stationäre "
+    "initial initially anfangsbedingung anfangsbedingungen anfangswerte anfangswert initiales initialement"
+)
+_FREQUENCIES = (
+    "frequency frequencies eigenfrequency eigenfrequencies eigenfrequenz eigenfrequenzen eigenkreisfrequenz "
+    "eigenkreisfrequenzen eigenvalue eigenvalues eigenwert eigenwerte fréquence fréquences pulsation pulsations"
+)
+CHECKS, CASES = frozenset(_CHECKS.split()), frozenset(_CASES.split())
+"""Words with which a check or a remark begins, and those of a case that is not every motion."""
+FREQUENCIES = frozenset(_FREQUENCIES.split())
+"""Words of what is found from equations of motion; a line with an acceleration may be one."""
