@@ -214,3 +214,48 @@ def test_advice_on_what_rolls_and_turns(right: str, wrong: str, said: str, advic
     told = words(belt(), BELT.replace(right, wrong))
     assert said in told and advice in told, told
     assert "without its arm" not in told and "Differentiate by time" not in told
+
+
+def test_a_term_moved_with_its_sign_beside_a_right_force() -> None:
+    moved = JIB.replace(" = -c phi'", " - c phi' = 0")
+    told = words(jib(), f"Q_phi = -c phi'\nQ_s = F\n{moved}")
+    assert "has the wrong sign" in told and "moved to the other side" in told, told
+
+
+def test_a_small_angle_has_the_letter_of_the_system() -> None:
+    told = words(
+        bell(), BELL.replace("h cos(theta))\n", "h - h theta^2/2)\n").replace("m g h sin(theta)", "m g h theta")
+    )
+    assert "sin θ was replaced by θ, as if the motion were small" in told
+
+
+@cache
+def cart() -> lg.Derivation:
+    """A cart, and a bar whose angle is called α, on a table that turns above ground that rubs on the bar."""
+    s = lg.System("cart")
+    x, alpha = s.coordinates("x alpha")
+    M, J, l, k, d, w = s.parameters("M J l k d w")
+    s.kinetic(M * x.diff() ** 2 / 2 + J * alpha.diff() ** 2 / 2)
+    s.spring(k, deflection=l * sp.sin(alpha), name="return spring")
+    s.dissipation(d * l**2 * (alpha.diff() + w) ** 2 / 2, name="ground")
+    s.damper(d, deflection=x, name="track")
+    s.force(s.input("P"), deflection=l * alpha, name="press")
+    return s.derive()
+
+
+CART = "V = k l^2 sin(alpha)^2/2\nM x'' + d x' = 0\nQ_alpha = P l - d l^2 (alpha' + w)\n"
+CART += "J alpha'' + k l^2 sin(alpha) cos(alpha) = P l - d l^2 (alpha' + w)"
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "said", "advice"),
+    [
+        ("sin(alpha)^2/2", "alpha^2/2", "sin α was replaced by α", "only near zero"),
+        ("(alpha' + w)", "alpha'", "−d l² w of what", "what carries the body counts"),
+        ("P l", "P l cos(alpha)", "l cos α; it should be l", "Where both agree, it counts whole"),
+    ],
+)
+def test_advice_on_resistances_and_whole_forces(right: str, wrong: str, said: str, advice: str) -> None:
+    assert cart().check(CART).right
+    told = words(cart(), CART.replace(right, wrong))
+    assert said in told and advice in told, told

@@ -115,7 +115,7 @@ RELATIVE_ALONE = "In the velocity of particle 'slider', theta' alone stands in p
         (f"{SLIDER.replace(chr(39) + ' + Omega', chr(39))} + {TURNING}", "relative_rate", RELATIVE_ALONE),
         (f"{EXPANDED.format('a*Omega')} + {TURNING}", "wrong_number", "count half"),
         (f"{EXPANDED.format('4*a*Omega')} + {TURNING}", "wrong_number", "count twice"),
-        (f"{EXPANDED.format('(-2)*a*Omega')} + {TURNING}", "wrong_sign", "products of the velocity"),
+        (f"{EXPANDED.format('(-2)*a*Omega')} + {TURNING}", "wrong_sign", "The products, in ½mv² of"),
         (f"{SLIDER} + J/2*theta'^2", "omega|left_out_of_a_sum", "Omega"),
     ],
 )

@@ -273,7 +273,7 @@ def test_a_spring_linearized_alone_is_one_mistake_and_gravity_is_not_blamed() ->
     s.spring(k, deflection=a * (sp.sin(q) - sp.sin(p)), name="k")
     rows = "m*l^2*p'' + m*g*l*sin(p) - k*a^2*(q - p) = 0\nm*l^2*q'' + m*g*l*sin(q) + k*a^2*(q - p) = 0"
     (mistake,) = s.derive().check(rows).mistakes
-    assert mistake.element == "spring 'k'" and "sin θ was replaced by θ" in str(mistake.what)
+    assert mistake.element == "spring 'k'" and "a sine was replaced by its angle" in str(mistake.what)
 
 
 def test_of_two_terms_the_one_with_a_factor_too_much_is_told() -> None:

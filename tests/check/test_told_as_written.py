@@ -113,7 +113,7 @@ def test_sines_are_exchanged_in_the_weights_alone() -> None:
         ("(R psi' + (R - r) phi')/r", "(R - r)*phi'/r has the wrong sign."),
         ("(R psi' - R phi')/r", "R*phi'/r stands where (R - r)*phi'/r belongs."),
         ("(R psi' - (R - r) phi')/r + phi'", "the term phi' does not belong there."),
-        ("(R - r) phi'/r", "the term R*psi'/r is missing."),
+        ("(R - r) phi'/r", "the term -R*psi'/r is missing."),
     ],
 )
 @pytest.mark.parametrize("before", ["r omega = r ({})", "omega = {}"])

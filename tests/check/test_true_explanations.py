@@ -81,7 +81,9 @@ ENERGY = "B = A sin(Omega t)\nT = m/2 (H^2 B'^2 + a^2 phi'^2 {} 2 a H B' phi' co
 def test_a_length_is_no_motion_that_goes_the_other_way(swing: lg.Derivation) -> None:
     assert not swing.check(ENERGY.format("-")).mistakes
     words = told(swing, ENERGY.format("+"))
-    assert "The products of the velocity of top" in words and "goes the other way" not in words, words
+    assert "of the velocity of top and the velocity relative to it" in words and "goes the other way" not in words, (
+        words
+    )
 
 
 @pytest.mark.parametrize(

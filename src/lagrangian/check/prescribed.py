@@ -182,7 +182,8 @@ def of_prescribed(truth: Reference, line: AnsweredLine) -> Mistake | None:
             what = text("But for its sign, ", rate, " is ", -right, ", not ", written, ".")
         brief = text(f"What {base} is, is not right.")
         return Mistake("definition_wrong", what, WHY_DEFINED, 1, None, None, brief)
-    return Mistake("prescribed_motion", what, WHY, 2, None, None, text("A prescribed motion is not right."))
+    why = WHY_FUNCTIONS if bounded.expand(2 * right - line.expr) == 0 else WHY  # what is written is −right
+    return Mistake("prescribed_motion", what, why, 2, None, None, text("A prescribed motion is not right."))
 
 
 def _is_negative(expr: sp.Expr) -> bool:

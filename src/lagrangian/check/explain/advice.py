@@ -7,15 +7,21 @@ Mistakes say why something is wrong by their kind; here it is chosen by what was
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import sympy as sp
 
-from lagrangian.check.explain.misconceptions import product_rule, reaction_forgotten
+from lagrangian.check.explain.candidates import ingredients_of
+from lagrangian.check.explain.misconceptions import (
+    effort_term_forgotten,
+    force_component,
+    product_rule,
+    reaction_forgotten,
+)
 from lagrangian.check.explain.misconceptions.base import put
 from lagrangian.check.explain.own_terms import WHY_FORCE
-from lagrangian.check.explain.say import ANGLES, LETTERS, WHY_PART
+from lagrangian.check.explain.say import ANGLES, LETTERS, WAY, WHY_PART
 from lagrangian.check.explain.without_energies import WHY_EQUATION, silent_energies
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import DERIVED, AnsweredLine, Mistake, Verdict
@@ -49,6 +55,13 @@ OF_MOTION = text(
 OF_PLACES = text(
     "Change this coordinate alone: which weights rise or sink, which springs change their length, and which forces do "
     "work?"
+)
+WHOLE_FORCE = text(
+    "In which direction does the force act, and in which does its point move? Where both agree, it counts whole."
+)
+OTHER_SIDE = text("The generalized force is right: what is moved to the other side of an equation changes its sign.")
+WHOLE_VELOCITY = text(
+    "It feels the whole velocity of the point on which it acts, against what it rubs on: what carries the body counts."
 )
 TERM_BY_TERM = text("Go through this equation once more, term by term.")
 _INERTIA = text(
@@ -110,7 +123,8 @@ def with_fitting_advice(truth: Reference, lines: Sequence[AnsweredLine], verdict
     """The verdict, with the advice of its mistakes as it fits the ``lines`` of the answer, and without second choices
     that speak of energies which nobody wrote."""
     balances = without_lagrange(lines)
-    told = tuple(replace(m, why=_fitting(truth, m, balances)) for m in verdict.mistakes)
+    right = {f.line.name for f in verdict.findings if f.line.kind == "Xi" and f.status.right}
+    told = tuple(replace(m, why=_fitting(truth, m, balances, right)) for m in verdict.mistakes)
     others = [m for m in verdict.alternatives if not (balances and _is_of_lagrange(m))]
     return replace(verdict, mistakes=told, alternatives=tuple(others))
 
@@ -126,16 +140,34 @@ def _is_of_lagrange(mistake: Mistake) -> bool:
     return mistake.name == "inner_derivative" or _OF_ENERGIES.search(str(mistake.what)) is not None
 
 
-def _fitting(truth: Reference, mistake: Mistake, balances: bool) -> Text:
-    """Why something is wrong, by the kind of the change and by what the term holds."""
+def _fitting(truth: Reference, mistake: Mistake, balances: bool, right: Collection[str | None]) -> Text:
+    """Why something is wrong, by the kind of the change and by what the term holds; ``right`` are the coordinates
+    whose generalized force is right."""
     why = str(mistake.why)
     if why in GENERAL:
         return _of_term(truth, mistake, balances)
+    if (special := _of_efforts(truth, mistake, why, right)) is not None:
+        return special
     if balances and mistake.name in BALANCES and _LAGRANGE.search(why):
         return BALANCES[mistake.name]
     if balances and why in OF_STEPS:
         return OF_STEPS[why]
     return mistake.why
+
+
+def _of_efforts(truth: Reference, mistake: Mistake, why: str, right: Collection[str | None]) -> Text | None:
+    """What is advised for a force that counts with too small a part, for one that was moved to the other side with the
+    wrong sign, and for a resistance that lacks what carries the body; None for anything else."""
+    formulas = [x for x in mistake.what.parts if isinstance(x, sp.Expr)]
+    turned = mistake.name == "arm" and [x.has(sp.sin, sp.cos) for x in formulas[-2:]] == [True, False]
+    if turned or (mistake.name == "foreign_factor" and why == str(WHY_FORCE)):
+        return WHOLE_FORCE
+    if mistake.step == 6 and "sign" in mistake.name and mistake.coordinate in right:
+        return OTHER_SIDE
+    if why not in (WAY, str(force_component.WHY), str(effort_term_forgotten.WHY)) or mistake.step != 6:
+        return None
+    resisting = [e.title for e in ingredients_of(truth.derivation).resisting]
+    return WHOLE_VELOCITY if mistake.element in resisting else None
 
 
 def _of_term(truth: Reference, mistake: Mistake, balances: bool) -> Text:

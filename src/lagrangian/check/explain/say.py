@@ -262,7 +262,7 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
         why = WHY_PART.get(site.step, WHY_PART[5])
         if name == "wrong_number" and site.step == 2:
             why = WHY_INERTIA if isinstance(site.element, RigidBody) else WHY_NUMBER
-            why = WHY_PRODUCTS if str(site.words[0]).startswith("the products") else why
+        why = WHY_PRODUCTS if site.step == 2 and str(site.words[0]).startswith("the products") else why
     why = why_omega(change.right) if change.kind == "omega" else why
     if why == MEASURE and isinstance(site.element, Spring):
         why = DEFLECTION

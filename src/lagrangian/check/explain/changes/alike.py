@@ -116,9 +116,7 @@ def carried(s: Ingredients, difference: Callable[[sp.Expr, sp.Expr], Sum | None]
         if T:
             point = b.at.parent.name or "the point before"
             brief: Words = (f"the products of two velocities in the kinetic energy of {b.title}",)
-            words = (
-                f"the products of the velocity of {point} and that relative to it in the kinetic energy of {b.title}"
-            )
+            words = f"the products, in ½mv² of {b.title}, of the velocity of {point} and the velocity relative to it"
             yield Site(words=(words,), brief=brief, step=2, element=b, T=T, surcharge=0.2)
 
 

@@ -60,7 +60,7 @@ def _has_arm(share: sp.Expr, effort: sp.Expr) -> bool:
     return not arm.is_number
 
 
-def _what(element: Element, where: tuple[str | sp.Expr, ...], factor: sp.Symbol | None) -> Text:
+def _what(element: Element, where: tuple[str | sp.Expr, ...], factor: sp.Expr | None) -> Text:
     """What was done: the whole arm left out, or one factor of it."""
     if factor is None:
         return text(f"What {element.title} adds to ", *where, " comes without its arm.")

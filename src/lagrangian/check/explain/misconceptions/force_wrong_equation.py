@@ -11,7 +11,7 @@ from lagrangian.page.formula import Name, text
 
 STEP = 6
 WHY = text(
-    "Ξ_i contains the forces on the box of everything that moves when only ξ_i does: wiggle one coordinate, and see "
+    "Ξ_i contains the forces on everything that moves when ξ_i alone changes: change one coordinate a little, and see "
     "which forces do work."
 )
 

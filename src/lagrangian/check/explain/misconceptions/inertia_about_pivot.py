@@ -16,8 +16,8 @@ from lagrangian.page.formula import text
 
 STEP = 2
 WHY = text(
-    "J is always the moment of inertia about the centre of mass; the motion of the centre of mass has its own "
-    "kinetic energy. J about the pivot already contains that."
+    "About which point is J given? If it is the centre of mass, the kinetic energy of its motion counts as well; J "
+    "about a fixed axis already contains that."
 )
 
 

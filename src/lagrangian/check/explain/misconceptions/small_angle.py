@@ -9,15 +9,15 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.explain.misconceptions.base import Ingredients, Variant, put
-from lagrangian.page.formula import text
+from lagrangian.page.formula import Text, text
 
 STEP = 5
-WHY = text("sin θ ≈ θ and cos θ ≈ 1 hold only near θ = 0; the equations of motion hold everywhere.")
+WHY = text("A sine is nearly its angle, and a cosine 1, only near zero; the equations of motion hold everywhere.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """In V, in all equations completely, and with products of small quantities dropped."""
-    what = text("sin θ was replaced by θ, as if the motion were small.")
+    what = _said("", s)
     table = {f: small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
     if table:
         yield Variant(what=what, V=put(s.V, table) - s.V)
@@ -44,11 +44,21 @@ def _of_one(s: Ingredients, table: Mapping[Any, sp.Expr]) -> Iterator[Variant]:
     """In the energy of one spring alone, if others hold angles, too."""
     held = [(spring, V) for spring, _, V in s.springs() if V.has(*table)]
     for spring, V in held if len(held) + len(list(s.weights())) > 1 else ():
-        what = text(f"In the energy of {spring.title}, sin θ was replaced by θ, as if the motion were small.")
+        what = _said(f"In the energy of {spring.title}, ", s)
         yield Variant(what=what, V=put(V, table) - V, element=spring)
         sines = {f: x for f, x in table.items() if isinstance(f, sp.sin)}
         if V.has(*sines) and len(sines) < len(table):
             yield Variant(what=what, V=put(V, sines) - V, element=spring)
+
+
+def _said(where: str, s: Ingredients) -> Text:
+    """What was done, with the angle if the system has one alone."""
+    angles = [q for q in s.q if any(a.has(q) for a in (*s.angles(s.V), *s.angles(s.T)))]
+    if len(angles) != 1:
+        what = "a sine was replaced by its angle, as if the motion were small."
+        return text(where + what if where else what.capitalize())
+    begins = (where,) if where else ()
+    return text(*begins, sp.sin(angles[0]), " was replaced by ", angles[0], ", as if the motion were small.")
 
 
 def small(f: sp.Expr, *, quadratic: bool = False) -> sp.Expr:
