@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import built_in
 import lagrangian as lg
@@ -238,3 +239,50 @@ def test_a_final_equation_follows_from_a_wrong_balance_of_one_coordinate() -> No
     )
     verdict = check_answer(hoist(), wrong)
     assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(2, False), (6, True)]
+
+
+def test_a_line_that_follows_from_a_wrong_balance_is_no_second_balance() -> None:
+    added = "(J/R + M R) x'' = S R - c x'/R - k x R\n"
+    assert check_answer(hoist(), HOIST.replace("S = m g", f"{added}S = m g")).right
+    wrong = (
+        HOIST.replace("S R - Z R", "S R + Z R")
+        .replace("(m + M + J", "(m - M + J")
+        .replace("+ k x = m g", "- k x = m g")
+    )
+    wrong = wrong.replace(
+        "S = m g", f"{added.replace('M R', '-M R').replace('+ -', '- ').replace('- k x R', '+ k x R')}S = m g"
+    )
+    verdict = check_answer(hoist(), wrong)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [
+        (2, False),
+        (4, True),
+        (7, True),
+    ]
+    assert "R*Z has the wrong sign" in str(verdict.mistakes[0].what)
+
+
+def test_a_force_that_may_lack_in_two_lines_lacks_where_its_angle_stands() -> None:
+    """A block that slides on a wagon's ramp, with a rope from the wagon: its pull is forgotten on the wagon."""
+    s = lg.System("ramp")
+    x, q = s.coordinates("x q")
+    M, m, n, a, g, k = s.parameters("M m n a g k")
+    s.particle(M, at=s.point("wagon", (x, 0)), name="wagon")
+    s.particle(m, at=s.point("block", (x + q * sp.cos(a), -q * sp.sin(a))), name="block")
+    s.particle(n, at=s.point("load", (x, q)), name="load")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=x)
+    s.damper(s.parameter("c"), deflection=q)
+    answer = """m (q'' + x'' cos(a)) = m g sin(a) - S - R
+R = c q'
+m x'' sin(a) = N - m g cos(a)
+n q'' = S - n g
+n x'' = B
+M x'' = (S + R) cos(a) - k x - B - N sin(a)
+(M + m + n) x'' + m q'' cos(a) + k x = 0
+(m + n) q'' + m x'' cos(a) + c q' = m g sin(a) - n g"""
+    derivation = s.derive()
+    assert check_answer(derivation, answer).right
+    verdict = check_answer(derivation, answer.replace("(S + R) cos(a)", "R cos(a)"))
+    wrong = [f.line.number for f in verdict.findings if not f.status.right]
+    assert wrong == [6], wrong
+    assert "on the right-hand side, the term S*cos(a) is missing" in str(verdict.mistakes[0].what)

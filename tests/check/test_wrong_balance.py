@@ -244,3 +244,11 @@ def test_a_force_may_be_solved_in_a_line_that_says_more() -> None:
 def test_what_a_force_is_may_stand_far_behind_its_line() -> None:
     far = LEVER.replace("K - M g\n", f"K - M g{60 * ' '}K: pull of the rope on the weight\n", 1)
     assert lever().check(far).right and not lever().check(far.replace("= K - M g ", "= K + M g ")).right
+
+
+@pytest.mark.parametrize("lost", [" + I/r^2", " + M g l cos(psi)"])
+def test_a_wrong_result_beside_right_balances_is_judged_alone(lost: str) -> None:
+    *balances, result = LEVER.split("\n")
+    verdict = lever().check("\n".join([*balances, result.replace(lost, "")]))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [8]
+    assert verdict.mistakes and not any(m.name.startswith("multiplier") for m in verdict.mistakes)

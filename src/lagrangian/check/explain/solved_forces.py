@@ -16,6 +16,8 @@ from lagrangian.records import dataclass
 
 MOST_LINES, MOST_FORCES = 12, 6
 """The most lines, and the most forces in them, that are compared."""
+RANKED = 8
+"""At how many states lines are compared with those above them."""
 NEAR = 1e-8
 """The relative size of what is rounding."""
 
@@ -104,14 +106,11 @@ def hold(
     truth: Reference, rows: Sequence[AnsweredLine], forces: Sequence[sp.Basic], below: Sequence[AnsweredLine]
 ) -> list[bool]:
     """Whether each of some lines holds for the motion that the balances give, the wrong one as it is."""
-    accelerations = [c.acceleration for c in truth.model.coordinates]
-    wanted, none = [*accelerations, *forces], [False] * len(below)
-    exprs, k, size = [x.expr for x in (*rows, *below)], len(rows), truth.states.size
-    compiled, still = CompiledExpressions(exprs), dict.fromkeys(wanted, np.zeros(size))
-    A = compiled.slopes(wanted).at(truth.states, still).reshape(len(exprs), len(wanted), size).transpose(2, 0, 1)
-    b = compiled.at(truth.states, still).T
-    if not (np.isfinite(A).all() and np.isfinite(b).all()):
+    none = [False] * len(below)
+    wanted, k = [*(c.acceleration for c in truth.model.coordinates), *forces], len(rows)
+    if (found := _affine(truth, [x.expr for x in (*rows, *below)], wanted)) is None:
         return none
+    A, b = found
     used = list(range(k))
     for i, x in enumerate(below, k):  # what the balances do not say: the equation of a body without these forces
         if np.linalg.matrix_rank(A[0, [*used, i]]) > np.linalg.matrix_rank(A[0, used]) and is_true(
@@ -124,6 +123,37 @@ def hold(
     scale = (np.abs(A) * np.abs(motion.transpose(0, 2, 1))).sum(axis=2) + np.abs(b)
     holds = (np.abs((A @ motion)[:, :, 0] + b) <= 1e-6 * np.maximum(scale, 1e-300)).all(axis=0)
     return [bool(x) for x in holds[k:]] if holds[used].all() else none
+
+
+def _affine(truth: Reference, exprs: Sequence[sp.Expr], wanted: Sequence[sp.Basic]) -> tuple[Array, Array] | None:
+    """Expressions that are A u + b in some quantities u: A (S, k, n) and b (S, k); None if they are not finite."""
+    size = truth.states.size
+    compiled, still = CompiledExpressions(exprs), dict.fromkeys(wanted, np.zeros(size))
+    A = compiled.slopes(wanted).at(truth.states, still).reshape(len(exprs), len(wanted), size).transpose(2, 0, 1)
+    b = compiled.at(truth.states, still).T
+    return (A, b) if np.isfinite(A).all() and np.isfinite(b).all() else None
+
+
+def without_derived(
+    truth: Reference, balances: Balances, lines: Sequence[AnsweredLine]
+) -> tuple[Balances, tuple[AnsweredLine, ...]]:
+    """The balances that do not follow from lines above them, and those that do: with a force put in, or two added."""
+    rows = list(balances.lines)
+    relations = [x for x in lines if x.kind == "equation" and not x.expr.has(*balances.forces)]
+    relations = [x for x in relations if is_true(truth, x, truth.accelerations)][:MOST_LINES]
+    every = sorted([*rows, *relations], key=lambda x: x.number)
+    wanted = [*(c.acceleration for c in truth.model.coordinates), *balances.forces]
+    if (found := _affine(truth, [x.expr for x in every], wanted)) is None:
+        return balances, ()
+    whole = np.concatenate([found[0], found[1][:, :, None]], axis=2)[:: max(1, truth.states.size // RANKED)]
+    whole /= np.maximum(np.abs(whole).max(axis=2, keepdims=True), 1e-300)
+    used: list[int] = []
+    for i in range(len(every)):
+        if (np.linalg.matrix_rank(whole[:, [*used, i]]) > len(used)).any():
+            used.append(i)
+    kept = [k for k, x in enumerate(rows) if any(every[i] is x for i in used)]
+    first = Balances(tuple(rows[k] for k in kept), balances.forces, balances.A[:, kept], balances.b[:, kept])
+    return first, tuple(x for k, x in enumerate(rows) if k not in kept)
 
 
 def place_of(line: AnsweredLine) -> tuple[int, str]:

@@ -19,8 +19,16 @@ from lagrangian.check.constraints.eliminated import unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, with_wrong_law
-from lagrangian.check.explain.right_balances import marked, with_right_balances
-from lagrangian.check.explain.solved_forces import Balances, balances_of, hold, is_true, left_out, place_of
+from lagrangian.check.explain.right_balances import Judge, marked, with_right_balances
+from lagrangian.check.explain.solved_forces import (
+    Balances,
+    balances_of,
+    hold,
+    is_true,
+    left_out,
+    place_of,
+    without_derived,
+)
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
@@ -49,12 +57,17 @@ ReadWithout: TypeAlias = Callable[[frozenset[int]], tuple[Sequence[AnsweredLine]
 
 
 def with_wrong_balance(
-    truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict, later: Sequence[AnsweredLine] = ()
+    truth: Reference,
+    lines: Sequence[AnsweredLine],
+    verdict: Verdict,
+    later: Sequence[AnsweredLine] = (),
+    judge: Judge | None = None,
 ) -> Verdict:
     """The verdict on an answer by Newton's laws in which one line alone is wrong and the others are right, among these
     the forces of springs and dampers that have names.
 
-    ``later`` lines were solved from them: if all balances are right, one of these may be wrong.
+    ``later`` lines were solved from them: if all balances are right, one of these may be wrong. ``judge`` judges
+    other lines than these alone.
     """
     if verdict.status is not Status.WRONG or verdict.hint == 0 or any(x.kind in ENERGIES for x in lines):
         return verdict
@@ -65,10 +78,14 @@ def with_wrong_balance(
         return verdict
     if len(balances.forces) <= len(truth.derivation.multipliers):
         return verdict  # multipliers
+    balances, derived = without_derived(on, balances, lines)
+    later = (*later, *derived)
     parts = known_parts(truth, balances.lines, balances.forces)
-    if (solved := _one_blamed(on, balances, later, parts)) is None:
-        beside = with_right_balances(on, balances, later, verdict)
-        return _without_invented(balances, verdict) if beside is None else beside
+    solved = _one_blamed(on, balances, later, parts)
+    if solved is None:
+        notes = (*(x for x in verdict.notes if not _is_of(x, balances.forces)), _read(balances.forces))
+        beside = with_right_balances(on, balances, lines, later, replace(verdict, notes=notes), judge)
+        return _without_invented(balances, verdict if beside is None else beside)
     every, k, line, false = range(len(balances.lines)), solved.k, solved.line, solved.false
     plain = solved.few or on is not truth or (solved.term is not None and solved.term.term.has(*balances.forces))
     blamed = Finding(
@@ -191,7 +208,7 @@ def _may_be(truth: Reference, part: KnownPart, wrong: WrongTerm, forces: Sequenc
 
 
 def with_forces_of_below(
-    truth: Reference, lines: Sequence[AnsweredLine], read: ReadWithout, verdict: Verdict
+    truth: Reference, lines: Sequence[AnsweredLine], read: ReadWithout, verdict: Verdict, judge: Judge | None = None
 ) -> Verdict:
     """The verdict on an answer with forces that it says itself, S₁ = m g − m z″ − S₂, above or below other balances.
 
@@ -216,7 +233,7 @@ def with_forces_of_below(
     said = [replace(x, kind="equation", expr=name - x.expr, sides=(name, x.expr)) for name, x in pairs]
     later = [x for x, d in zip(said, solved, strict=True) if _stands_above(d, lines)]
     own = [*again, *beside, *(x for x in said if x not in later)]
-    return with_wrong_balance(truth, filled(truth, own), verdict, filled(truth, later))
+    return with_wrong_balance(truth, filled(truth, own), verdict, filled(truth, later), judge)
 
 
 def _is_force(truth: Reference, line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
