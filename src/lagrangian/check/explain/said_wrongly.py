@@ -126,7 +126,7 @@ class SaidWrongly:
             return self.words.why
         of, differ = self.words.of, [x for x in self.words.apart if isinstance(x, sp.Expr)]
         whole = of.kind in ("speed", "mass") and differ and all(letters_in(x) <= self.own_letters for x in differ)
-        return WHY_TERM if whole else why_of(of.kind, self.words.apart)
+        return WHY_TERM if whole else why_of(of.kind, of.right, self.words.apart)
 
     @property
     def _ending(self) -> tuple[str | Left, ...]:
