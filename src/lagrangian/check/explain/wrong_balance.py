@@ -14,11 +14,11 @@ from typing import TypeAlias, cast
 import numpy as np
 import sympy as sp
 
-from lagrangian import bounded
 from lagrangian.check.constraints.eliminated import slope_of, unknown_in
 from lagrangian.check.explain.balance_terms import Mend, mends, plainest
 from lagrangian.check.explain.combined_rows import WrongTerm, difference, term_to_blame
 from lagrangian.check.explain.known_forces import KnownPart, known_parts, weighs, with_wrong_law
+from lagrangian.check.explain.primed_forces import primes_as_names
 from lagrangian.check.explain.terms_alone import LEFT_OVER, term_mistake, with_terms_of_a_balance
 from lagrangian.check.held import held
 from lagrangian.check.lines import filled
@@ -106,7 +106,7 @@ def with_wrong_balance(
         return verdict
     if (law := with_wrong_law(truth, lines, verdict)) is not None:
         return law
-    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    on, lines = held(truth) if truth.derivation.multipliers else truth, primes_as_names(truth, lines)
     if on is None or (balances := _balances(on, lines)) is None:
         return verdict
     if len(balances.forces) <= len(truth.derivation.multipliers):
@@ -142,7 +142,7 @@ def with_wrong_balance(
 
 def balances_agree(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether there are forces of the answer's own with which all its balances hold along the right motion."""
-    on, lines = held(truth) if truth.derivation.multipliers else truth, _primes_as_names(truth, lines)
+    on, lines = held(truth) if truth.derivation.multipliers else truth, primes_as_names(truth, lines)
     balances = None if on is None else _balances(on, lines)
     return balances is not None and balances.solved(range(len(balances.lines))) is not None
 
@@ -278,22 +278,6 @@ def _stands_above(line: AnsweredLine, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an equation above a definition has its name."""
     own = key(str(line.name))
     return any(x.kind == "equation" and x.number < line.number and own in x.names for x in lines)
-
-
-def _primes_as_names(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
-    """The lines with S' beside S as a name, if the system has no S: a force is not differentiated."""
-    told = [x.expr for x in lines if x.kind == "equation"]
-    rates = set[sp.Basic]().union(*(e.atoms(sp.Derivative) for e in told))
-    own = unknown_in(truth, lines)
-    put = {
-        d: sp.Symbol(f"{d.args[0].func}'")
-        for d in rates
-        if isinstance(d, sp.Derivative) and d.derivative_count == 1 and d.args[0] in own
-    }
-    moving = {d.args[0] for d in rates if isinstance(d, sp.Derivative) and d.derivative_count > 1}
-    if not put or any(d.args[0] in moving for d in put):
-        return tuple(lines)
-    return tuple(replace(x, expr=bounded.replaced(x.expr, put)) for x in lines)
 
 
 def _balances(truth: Reference, lines: Sequence[AnsweredLine]) -> Balances | None:
