@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+import sympy as sp
 
 import built_in
 import lagrangian as lg
@@ -165,3 +166,123 @@ def test_a_name_for_a_force_that_is_another_one() -> None:
         told(built_in.derivation("cart-pole"), wrong)
         == "Line 1 is not right: the force of damper 'b' is b*x', not 3*b*x'."
     )
+
+
+def law_of(answer: str) -> dict[int, tuple[bool, bool]]:
+    """Whether each line is right, and follows from another."""
+    verdict = check_answer(lift(), answer)
+    assert not verdict.right and verdict.first_wrong is not None and verdict.first_wrong.line.number == 4
+    return {f.line.number: (f.status.right, f.follows) for f in verdict.findings}
+
+
+@pytest.mark.parametrize("law", ["k (y + x)", "k y", "k (x - y)/2"])
+def test_what_is_wrong_by_a_wrong_law_follows_from_it(law: str) -> None:
+    found = law_of(LIFT.replace("F = k (y - x)", f"F = {law}").replace("k (y - x)", law))
+    assert all(found.get(k, (False, True)) == (False, True) for k in (2, 3, 6, 7)), found
+    assert found[4] == (False, False)
+
+
+def test_a_line_with_a_mistake_of_its_own_does_not_follow_from_a_wrong_law() -> None:
+    wrong = LIFT.replace("F = k (y - x)", "F = k y").replace("k (y - x)", "k y").replace("m y'' + k y", "m y'' - k y")
+    assert law_of(wrong)[7] == (False, False)
+
+
+@cache
+def hoist() -> lg.Derivation:
+    """One coordinate: a load m on a drum J of radius R, which pulls a car M on a level track against a spring k."""
+    s = lg.System("hoist")
+    x = s.coordinate("x")
+    M, m, J, R, k, c, g = s.parameters("M m J R k c g")
+    car = s.point("car", (x, 0))
+    s.particle(m, at=s.point("load", (R, -x)), name="load")
+    s.particle(M, at=car, name="car")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(-x / R, name="drum"), name="drum")
+    s.gravity((0, -1), g)
+    s.spring(k, between=(car, s.point("wall", (-5 * R, 0))), rest=5 * R)
+    s.damper(b=c, deflection=x / R)
+    return s.derive()
+
+
+HOIST = """m x'' = m g - S
+J x''/R = S R - Z R - c x'/R
+M x'' = Z - k x
+S = m g - m x''
+Z = M x'' + k x
+(m + M + J/R^2) x'' + c x'/R^2 + k x = m g"""
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize(
+    ("line", "old", "new", "said"),
+    [
+        (1, "m x'' = m g", "m x'' = -m g", "-g*m has the wrong sign"),
+        (2, "S R - Z R", "Z R - S R", "has the wrong sign"),
+        (2, "S R - Z R", "S - Z", "should be"),
+        (2, "S R - Z R", "S R + Z R", "R*Z has the wrong sign"),
+        (2, "- c x'/R\n", "- c x'\n", "-c*x' should be -c*x'/R"),
+        (2, "J x''/R =", "J x'' =", "J*x'' should be J*x''/R"),
+        (3, "Z - k x", "Z + k x", "the force of spring 'k' has the wrong sign"),
+    ],
+)
+def test_balances_of_a_system_with_one_coordinate(line: int, old: str, new: str, said: str) -> None:
+    assert check_answer(hoist(), HOIST).right
+    verdict = check_answer(hoist(), HOIST.replace(old, new, 1))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [line]
+    assert f"n line {line}" in str(verdict.mistakes[0].what) and said in str(verdict.mistakes[0].what)
+
+
+def test_a_final_equation_follows_from_a_wrong_balance_of_one_coordinate() -> None:
+    wrong = (
+        HOIST.replace("S R - Z R", "S R + Z R")
+        .replace("(m + M + J", "(m - M + J")
+        .replace("+ k x = m g", "- k x = m g")
+    )
+    verdict = check_answer(hoist(), wrong)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [(2, False), (6, True)]
+
+
+def test_a_line_that_follows_from_a_wrong_balance_is_no_second_balance() -> None:
+    added = "(J/R + M R) x'' = S R - c x'/R - k x R\n"
+    assert check_answer(hoist(), HOIST.replace("S = m g", f"{added}S = m g")).right
+    wrong = (
+        HOIST.replace("S R - Z R", "S R + Z R")
+        .replace("(m + M + J", "(m - M + J")
+        .replace("+ k x = m g", "- k x = m g")
+    )
+    wrong = wrong.replace(
+        "S = m g", f"{added.replace('M R', '-M R').replace('+ -', '- ').replace('- k x R', '+ k x R')}S = m g"
+    )
+    verdict = check_answer(hoist(), wrong)
+    assert [(f.line.number, f.follows) for f in verdict.findings if not f.status.right] == [
+        (2, False),
+        (4, True),
+        (7, True),
+    ]
+    assert "R*Z has the wrong sign" in str(verdict.mistakes[0].what)
+
+
+def test_a_force_that_may_lack_in_two_lines_lacks_where_its_angle_stands() -> None:
+    """A block that slides on a wagon's ramp, with a rope from the wagon: its pull is forgotten on the wagon."""
+    s = lg.System("ramp")
+    x, q = s.coordinates("x q")
+    M, m, n, a, g, k = s.parameters("M m n a g k")
+    s.particle(M, at=s.point("wagon", (x, 0)), name="wagon")
+    s.particle(m, at=s.point("block", (x + q * sp.cos(a), -q * sp.sin(a))), name="block")
+    s.particle(n, at=s.point("load", (x, q)), name="load")
+    s.gravity((0, -1), g)
+    s.spring(k, deflection=x)
+    s.damper(s.parameter("c"), deflection=q)
+    answer = """m (q'' + x'' cos(a)) = m g sin(a) - S - R
+R = c q'
+m x'' sin(a) = N - m g cos(a)
+n q'' = S - n g
+n x'' = B
+M x'' = (S + R) cos(a) - k x - B - N sin(a)
+(M + m + n) x'' + m q'' cos(a) + k x = 0
+(m + n) q'' + m x'' cos(a) + c q' = m g sin(a) - n g"""
+    derivation = s.derive()
+    assert check_answer(derivation, answer).right
+    verdict = check_answer(derivation, answer.replace("(S + R) cos(a)", "R cos(a)"))
+    wrong = [f.line.number for f in verdict.findings if not f.status.right]
+    assert wrong == [6], wrong
+    assert "on the right-hand side, the term S*cos(a) is missing" in str(verdict.mistakes[0].what)

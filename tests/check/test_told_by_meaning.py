@@ -161,7 +161,7 @@ def test_what_is_known_of_one_equation_is_told_beside_a_term_of_another() -> Non
     told = [str(x.what) for x in verdict.mistakes]
     assert not verdict.right and len(told) == 2, told
     assert told[0] == "½Jω² of rigid body 'roller' is missing.", told
-    assert "In line 2" in told[1] and "the term -g*m does not belong there" in told[1], told
+    assert told[1] == "In line 2, on the right-hand side, the term g*m does not belong there.", told
 
 
 def test_an_energy_follows_from_a_wrong_rate_also_where_the_motion_is_an_angle() -> None:

@@ -190,3 +190,65 @@ def test_a_force_that_is_solved_from_two_balances_leaves_both_right() -> None:
     assert gangway().check(solved).right
     for right, wrong in (("M g - S2", "2 M g - S2"), ("(S2 - S1) r", "(S1 - S2) r"), ("I z''/r =", "I z'' r =")):
         assert not gangway().check(solved.replace(right, wrong)).right
+
+
+@cache
+def lever() -> lg.Derivation:
+    """A lever J that lifts a weight M by a rope over a pulley I of radius r: z = l sin ψ."""
+    s = lg.System("lever with a pulley")
+    psi, z = s.coordinates("psi z")
+    J, M, I, r, l, g = s.parameters("J M I r l g")
+    s.rigid_body(mass=0, inertia=J, at=s.origin, frame=s.frame(psi, name="lever"), name="lever")
+    s.rigid_body(mass=0, inertia=I, at=s.point("P", (l, l)), frame=s.frame(z / r, name="pulley"), name="pulley")
+    s.particle(M, at=s.point("W", (2 * l, z)), name="weight")
+    s.gravity((0, -1), g)
+    s.torque(s.input("tau"), on=psi)
+    s.constraint(z - l * sp.sin(psi), name="rope")
+    return s.derive()
+
+
+LEVER = """J psi'' = tau - S l cos(psi)
+M z'' = K - M g
+I z''/r = S r - K r
+z' = l psi' cos(psi)
+z'' = l psi'' cos(psi) - l psi'^2 sin(psi)
+K = M z'' + M g
+S = K + I z''/r^2
+(J + (M + I/r^2) l^2 cos(psi)^2) psi'' - (M + I/r^2) l^2 psi'^2 sin(psi) cos(psi) + M g l cos(psi) = tau"""
+FLAT = LEVER.replace(" - l psi'^2 sin(psi)\n", "\n").replace(" - (M + I/r^2) l^2 psi'^2 sin(psi) cos(psi)", "")
+
+
+def test_balances_beside_a_wrong_derivative_of_a_constraint_are_right() -> None:
+    assert lever().check(LEVER).right
+    verdict = lever().check(FLAT)
+    wrong = {f.line.number: f.follows for f in verdict.findings if not f.status.right}
+    assert wrong == {5: False, 8: True}, wrong
+    assert "on the right-hand side, the term -l*sin(psi)*psi'^2 is missing" in str(verdict.mistakes[0].what)
+
+
+@pytest.mark.parametrize("old", ["tau - S l cos(psi)", "K - M g", "S r - K r"])
+def test_a_wrong_balance_beside_a_wrong_derivative_of_a_constraint_is_not_called_right(old: str) -> None:
+    number = next(k for k, x in enumerate(LEVER.split("\n"), 1) if old in x)
+    verdict = lever().check(FLAT.replace(old, old.replace(" - ", " + "), 1))
+    assert not verdict.right
+    assert all(f.line.number != number for f in verdict.findings if f.status.right)
+
+
+def test_a_force_may_be_solved_in_a_line_that_says_more() -> None:
+    both = "K = M z'' + M g. With z'' = l psi'' cos(psi):  K = M l psi'' cos(psi) + M g"
+    verdict = lever().check(FLAT.replace("K = M z'' + M g", both).replace("z'' = l psi'' cos(psi)\n", "", 1))
+    assert not verdict.right
+    assert all(f.status.right for f in verdict.findings if f.line.number < 4)
+
+
+def test_what_a_force_is_may_stand_far_behind_its_line() -> None:
+    far = LEVER.replace("K - M g\n", f"K - M g{60 * ' '}K: pull of the rope on the weight\n", 1)
+    assert lever().check(far).right and not lever().check(far.replace("= K - M g ", "= K + M g ")).right
+
+
+@pytest.mark.parametrize("lost", [" + I/r^2", " + M g l cos(psi)"])
+def test_a_wrong_result_beside_right_balances_is_judged_alone(lost: str) -> None:
+    *balances, result = LEVER.split("\n")
+    verdict = lever().check("\n".join([*balances, result.replace(lost, "")]))
+    assert [f.line.number for f in verdict.findings if not f.status.right] == [8]
+    assert verdict.mistakes and not any(m.name.startswith("multiplier") for m in verdict.mistakes)

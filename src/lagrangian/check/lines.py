@@ -30,7 +30,9 @@ def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
         beside = answer.beside.get(number, frozenset())
         expr, names = sp.sympify(stated.residual), stated.names
         pushing = frozenset(sense for x, sense in senses if expr.has(x))
-        found.append(AnsweredLine(stated.kind, expr, number, stated.name, stated.text, beside, names, pushing))
+        told = (stated.kind, expr, number, stated.name, stated.text, beside, names, pushing)
+        sides = None if stated.lhs is None else (sp.sympify(stated.lhs), sp.sympify(stated.rhs))
+        found.append(AnsweredLine(*told, sides))
     return tuple(found)
 
 
@@ -67,7 +69,7 @@ def _named(key: object, value: object, number: int) -> AnsweredLine:
 def _equation(thing: object, number: int) -> AnsweredLine:
     if isinstance(thing, sp.Equality):
         lhs, rhs = (_expression(side) for side in (thing.lhs, thing.rhs))
-        return AnsweredLine("equation", lhs - rhs, number, None, str(thing))
+        return AnsweredLine("equation", lhs - rhs, number, None, str(thing), sides=(lhs, rhs))
     return AnsweredLine("equation", _expression(thing), number, None, str(thing))
 
 

@@ -194,14 +194,17 @@ def _with_balances(derivation: Derived, answer: Answer, decides: Needed, verdict
         found = answer.read_without(numbers)
         return check.lines_of(found), {u.name: u.symbol for u in found.unknown}
 
+    def judge(others: Sequence[AnsweredLine]) -> check.Verdict:
+        return check.check(derivation, others, hint=verdict.hint)
+
     truth = truth_of(derivation)
     lines = with_auxiliary(truth, check.lines_of(answer))
     left_out = any(all(x.text != y.text for y in decides.lines) for x in lines if x.kind == "equation")
     if left_out or (decides.together and not derivation.multipliers):
-        verdict = with_wrong_balance(truth, filled(truth, lines), verdict)
+        verdict = with_wrong_balance(truth, filled(truth, lines), verdict, judge=judge)
     if answer.read_without is None:
         return verdict
-    return with_forces_of_below(truth, lines, read, verdict)
+    return with_forces_of_below(truth, lines, read, verdict, judge)
 
 
 def _with_names(derivation: Derived, answer: Answer, decides: Needed, verdict: check.Verdict) -> check.Verdict:

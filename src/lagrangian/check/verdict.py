@@ -46,7 +46,7 @@ class AnsweredLine(Brief):
 
     ``beside``: what the words around it say that it is, "rest", "check" or "case"; see `reading.side_remarks`.
     ``names``: the keys of the names in it as it is written. ``senses``: what words say of forces in it; see
-    `reading.said.senses`.
+    `reading.said.senses`. ``sides``: left and right of an equation as they were read.
     """
 
     kind: str
@@ -57,6 +57,7 @@ class AnsweredLine(Brief):
     beside: frozenset[str] = frozenset()
     names: frozenset[str] = frozenset()
     senses: frozenset[tuple[str, str, str]] = frozenset()
+    sides: tuple[sp.Expr, sp.Expr] | None = field(default=None, repr=False, compare=False)
 
     @property
     def title(self) -> str:

@@ -31,6 +31,8 @@ EXCHANGED = 1.2
 """What a sine for a cosine costs."""
 MISSING, BODY, FOREIGN = 1.5, 0.2, 0.8
 """What a missing force costs, and more for mass times acceleration, a mass or coordinate that the line has not."""
+NEW_ANGLE = 0.4
+"""What it costs more to lack a component along an angle that the line has not."""
 OTHER_INERTIA = 1.7
 """What a moment of inertia about another point costs."""
 CLEAR = 0.3
@@ -77,7 +79,7 @@ def plainest(listed: Mapping[int, Sequence[Mend]]) -> tuple[int, WrongTerm] | No
     near = [(at, x) for cost, at, x in every if cost < best + CLEAR]
     own = [x for at, x in near if at == k and x.factor != sp.oo]
     alike = [x for x in own if x.term / term.term in (2, -2)]  # 2 M g for M g, not M g more
-    near = [x for x in near if x[1] not in (term, *alike)]
+    near = [x for x in near if x[0] != k or x[1] not in (term, *alike)]
     return None if near else (k, alike[0] if term.factor == sp.oo and alike else term)
 
 
@@ -204,7 +206,8 @@ def _arms(truth: Reference, expr: sp.Expr) -> Iterator[tuple[float, sp.Expr]]:
         set[sp.Expr]().union(*(cast("set[sp.Expr]", row.atoms(sp.sin, sp.cos)) for row in truth.rows)), key=str
     )[:8]
     yield 0.0, sp.S.One
-    yield from ((0.5, x) for x in (*lengths, *angles))
+    yield from ((0.5, x) for x in lengths)
+    yield from ((0.5 + (0 if expr.has(x) else NEW_ANGLE), x) for x in angles)
     yield from ((1.0, 1 / x) for x in lengths)
     yield from ((1.0, cast("sp.Expr", x * y)) for x in lengths for y in angles)
     yield from ((1.0, cast("sp.Expr", x * y)) for x, y in combinations_with_replacement(lengths, 2))

@@ -281,7 +281,8 @@ def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...
     if missing and len(missing) == len(difference):
         what = ring.expr(missing)
         if len(missing) == 1:
-            return ("the term ", what, " is missing.")
+            side, as_written = on_side(line, TermDifference("missing", what, sp.S.Zero, None))
+            return (f"{side}, " if side else "", "the term ", as_written.term, " is missing.")
         if found.order == 2 and not any(_accelerates(ring, m) for m in missing):
             return ("the terms with products of rates, ", what, ", are missing.")
     if left_out := _left_out(ring, found):
@@ -296,7 +297,7 @@ def _said(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...
             _, as_written = on_side(line, TermDifference("sign", -term, term, None))
             term = as_written.written
         return ("the term " if be == "has" else "the terms ", term, f" {be} the wrong sign.")
-    return _one(ring, found, difference)
+    return _one(ring, found, line)
 
 
 def _left_out(ring: SumRing, found: _Compared) -> sp.Expr | None:
@@ -309,16 +310,17 @@ def _left_out(ring: SumRing, found: _Compared) -> sp.Expr | None:
     return None
 
 
-def _one(ring: SumRing, found: _Compared, difference: Sum) -> tuple[Any, ...] | None:
-    """One term with another number, too much, or in place of another."""
+def _one(ring: SumRing, found: _Compared, line: AnsweredLine) -> tuple[Any, ...] | None:
+    """One term with another number, too much, or in place of another, as it stands in the line."""
+    difference = found.difference
     more = [m for m in difference if m in found.written]
     less = [m for m in difference if m in found.right]
     if len(more) > 1 or len(less) > 1 or not more:
         return None
     term = ring.expr({more[0]: found.written[more[0]]})
-    if not less:
-        return ("the term ", term, " does not belong there.")
-    _, what = term_replaced(term, ring.expr({less[0]: found.right[less[0]]}))
+    right = ring.expr({less[0]: found.right[less[0]]}) if less else sp.S.Zero
+    _, as_written = on_side(line, TermDifference("", right, term, None))
+    _, what = term_replaced(as_written.written, as_written.term)
     first, *rest = what.parts
     return (str(first)[:1].lower() + str(first)[1:], *rest)
 

@@ -102,7 +102,7 @@ class FreeBodies:
         slopes = compiled.slopes(self.accelerations).at(states, known)
         if not (np.isfinite(values).all() and np.isfinite(slopes).all()):
             return []
-        found = (_match(b, values) for b in self.balances if _alike(b.slopes, slopes))
+        found = (_match(b, values) for b in self.balances if proportional(b.slopes, slopes))
         return [m for m in found if m is not None]
 
 
@@ -118,7 +118,7 @@ def _all(values: Array, number: float) -> bool:
     return bool(np.abs(values - number).max() <= 1e-6)
 
 
-def _alike(one: Array, other: Array) -> bool:
+def proportional(one: Array, other: Array) -> bool:
     """Whether values are the same multiple of others at all states with the same parameters."""
     for a, b in zip(_by_sets(one), _by_sets(other), strict=True):
         size = float(np.linalg.norm(a) * np.linalg.norm(b))

@@ -16,7 +16,8 @@ from lagrangian import bounded
 from lagrangian.check.all_forces import letters_of_gravity
 from lagrangian.check.explain.balance_terms import is_mass
 from lagrangian.check.explain.combined_rows import MOST_TERMS, WrongTerm, own_terms_of, stands_in
-from lagrangian.check.explain.free_bodies import Match, free_bodies
+from lagrangian.check.explain.free_bodies import Match, free_bodies, proportional
+from lagrangian.check.held import held
 from lagrangian.check.reference import Reference, terms
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, Verdict, inserted
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
@@ -144,17 +145,42 @@ def weighs(truth: Reference, line: AnsweredLine) -> bool:
 
 def with_wrong_law(truth: Reference, lines: Sequence[AnsweredLine], verdict: Verdict) -> Verdict | None:
     """The verdict with a name that is meant to be the force of springs and dampers, F = k (y − s) + d ẏ, and is another
-    one; as it is if it is explained. None if there is none: balances are right with the right force alone."""
+    one, and what is wrong by it; None if there is none. Balances are right with the right force alone.
+
+    Where the answer is explained, the law is wrong if other lines are by a multiple of what it is.
+    """
     found = [(x, right) for x in lines if (right := _right_law(truth, x)) is not None]
-    if not found or verdict.mistakes:
-        return verdict if found else None
+    if not found:
+        return None
     line, (titles, effort) = found[0]
+    kept = tuple(f for f in verdict.findings if (f.line.number, f.line.text) != (line.number, line.text))
+    follow = _wrong_by_law(truth, line.expr - effort, kept)
+    if verdict.mistakes and not follow:
+        return verdict
+    kept = tuple(replace(f, follows=True, differences=()) if f in follow else f for f in kept)
+    findings = tuple(inserted(kept, Finding(line, Status.WRONG)))
+    if verdict.mistakes:
+        return replace(verdict, findings=findings)
     what = text(f"{line.opening} is not right: {titles} is ", effort, ", not ", line.expr, ".")
     brief = text(f"{line.opening}, the force of an element, is not right.")
-    blamed = Finding(line, Status.WRONG)
-    kept = tuple(f for f in verdict.findings if (f.line.number, f.line.text) != (line.number, line.text))
     mistake = Mistake("wrong_law", what, WHY, 6, brief=brief)
-    return replace(verdict, mistakes=(mistake,), alternatives=(), findings=inserted(kept, blamed))
+    return replace(verdict, mistakes=(mistake,), alternatives=(), findings=findings)
+
+
+def _wrong_by_law(truth: Reference, excess: sp.Expr, findings: Sequence[Finding]) -> list[Finding]:
+    """The wrong equations without forces of the answer's own that are, along the right motion, wrong by a multiple of
+    what a force has too much."""
+    known = {x.symbol for x in (*truth.model.parameters, *truth.model.coordinates, *truth.model.inputs)} | {time}
+    wrong = [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
+    wrong = [f for f in wrong if bounded.letters(f.line.expr) <= known]
+    on = held(truth) if truth.derivation.multipliers else truth
+    if not wrong or on is None:
+        return []
+    compiled = CompiledExpressions([excess, *(f.line.expr for f in wrong)])
+    values = compiled.at(on.states, on.accelerations)
+    if not np.isfinite(values).all():
+        return []
+    return [f for f, x in zip(wrong, values[1:], strict=True) if proportional(x, values[0])]
 
 
 def _right_law(truth: Reference, line: AnsweredLine) -> tuple[str, sp.Expr] | None:

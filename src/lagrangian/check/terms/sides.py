@@ -4,33 +4,30 @@ x'' = (F - k x)/m     on the right-hand side, the term −d ẋ/m is missing
 m x'' = F - k x       on the right-hand side, the term −d ẋ is missing
 m x'' + k x = F       the term d ẋ is missing
 m x'' - F = -k x      with everything on the left-hand side, the term d ẋ is missing
+
+A term that was written is sought on both sides, multiplied out; one that is not there stands where those stand that
+have its letters.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
-from itertools import pairwise
+from functools import lru_cache
+from typing import cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.check.verdict import AnsweredLine, TermDifference
 from lagrangian.model import time
 from lagrangian.page.formula import Left
 from lagrangian.read.letters import key
 
 LEFT, RIGHT = "with everything on the left-hand side", "on the right-hand side"
-_EQUALS = re.compile(r"(?<![<>=!:])={1,2}(?![=>])")
-_SIGN = re.compile(r"(?<![\d.][eE])(?<![\^_{(*/])[-+−±]")
-_RATE = re.compile(r"['’′″\u0307\u0308]|dot|\bd\w{0,9}\s?/\s?dt|[dD]iff|Derivative|[ẋẍẏÿżṙṁ]")
 _ACCELERATION = re.compile(r"\w(?:dd|ddot)\b")
 """An acceleration as programs call it."""
-_NAME = re.compile(r"[^\W\d]\w*")
-_DIFFERENTIAL = re.compile(r"\bd(\w{1,12})\s?/\s?dt\b")
-_NO_NAMES = frozenset(["t", "diff", "Derivative", "dt"])
-LONGEST = 2_000
-"""A longer line is not looked at."""
 
 
 def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDifference]:
@@ -38,25 +35,31 @@ def on_side(line: AnsweredLine, difference: TermDifference) -> tuple[str, TermDi
 
     The difference is given with everything on the left.
     """
-    sides = _EQUALS.split(line.text) if len(line.text) <= LONGEST else []
-    if line.kind != "equation" or len(sides) != 2:
+    if line.kind not in ("equation", "identity") or line.sides is None:
         return "", difference
     flipped = RIGHT, replace(difference, term=-difference.term, written=-difference.written)
-    names = _names_in(difference.written if difference.written != 0 else difference.term)
-    moved = any(d.derivative_count > 1 for d in difference.term.atoms(sp.Derivative))
-    if moved and _ACCELERATION.search(sides[0]) and not _ACCELERATION.search(sides[1]):
+    left, right = line.sides
+    here, there = (_terms(side) for side in line.sides)
+    if difference.written != 0:
+        own, turned = _terms(difference.written), _terms(-difference.written)
+        stands = own <= here, turned <= there
+        if stands[0] != stands[1]:
+            return ("", difference) if stands[0] else flipped
+    if _is_moving(difference.term) and _ACCELERATION.search(line.text.partition("=")[0]):
         return "", difference  # on the side of the accelerations, M qdd = f - K q
-    here, there = (sum(_names(x) == names for x in _terms(side)) for side in sides)
-    if there and not here:
+    names = _names(difference.written if difference.written != 0 else difference.term)
+    near_left, near_right = (any(_names(x) == names for x in side) for side in (here, there))
+    if near_right and not near_left:
         return flipped
-    right = sides[1].strip()
-    signed = len(_terms(sides[0])) == 1 and right.startswith(("-", "−"))
-    if (here and not there) or not (signed or _SIGN.search(right.lstrip("-+−"))):
+    alone = len(sp.Add.make_args(left)) == 1
+    signed = alone and len(there) == 1 and right.could_extract_minus_sign()
+    solved = right != 0 and isinstance(left, (sp.Symbol, sp.Derivative, AppliedUndef))
+    if (near_left and not near_right) or not (signed or solved or len(there) > 1):
         return "", difference
-    if len(_terms(sides[0])) > 1:
+    if not alone:
         return LEFT, difference
-    accelerates = _RATE.search(sides[0]) is not None
-    return ("", difference) if accelerates and _accelerates(difference.term, difference.coordinate) else flipped
+    rates = left.has(sp.Derivative)
+    return ("", difference) if rates and _accelerates(difference.term, difference.coordinate) else flipped
 
 
 def differs(d: TermDifference) -> tuple[str | Left, ...]:
@@ -72,28 +75,22 @@ def differs(d: TermDifference) -> tuple[str | Left, ...]:
             return (d.written, " should be ", d.term)
 
 
-def _terms(side: str) -> list[str]:
-    """The terms of one side, split at the signs outside brackets."""
-    depth, cuts = 0, [0]
-    first = len(side) - len(side.lstrip("-+−&> \t"))
-    for at in range(first, len(side)):
-        depth += (side[at] in "([{") - (side[at] in ")]}")
-        if depth <= 0 and _SIGN.match(side, at):
-            cuts.append(at)
-    return [side[a:b] for a, b in pairwise([*cuts, len(side)])]
+@lru_cache(maxsize=500)
+def _terms(side: sp.Expr) -> frozenset[sp.Expr]:
+    """The terms of one side, multiplied out."""
+    return frozenset(cast("tuple[sp.Expr, ...]", sp.Add.make_args(bounded.expand(side))))
 
 
-def _names(written: str) -> frozenset[str]:
-    """The names in a term of plain text, without rates and what is no name of a system."""
-    return frozenset(key(x) for x in _NAME.findall(_DIFFERENTIAL.sub(r"\1", written)) if x not in _NO_NAMES)
-
-
-def _names_in(term: sp.Expr) -> frozenset[str]:
-    """The names in a term."""
+def _names(term: sp.Expr) -> frozenset[str]:
+    """The names in a term, and its sines and cosines."""
     moving = {x.func.__name__ for x in term.atoms(AppliedUndef)}
-    return frozenset(map(key, moving | {str(x) for x in term.free_symbols if x != time})) | {
-        str(f.func) for f in term.atoms(sp.sin, sp.cos)
-    }
+    names = frozenset(map(key, moving | {str(x) for x in term.free_symbols if x != time}))
+    return names | {str(f.func) for f in term.atoms(sp.sin, sp.cos)}
+
+
+def _is_moving(term: sp.Expr) -> bool:
+    """Whether a term holds an acceleration."""
+    return any(d.derivative_count > 1 for d in term.atoms(sp.Derivative) if isinstance(d, sp.Derivative))
 
 
 def _accelerates(term: sp.Expr, coordinate: str | None) -> bool:

@@ -38,13 +38,13 @@ _NAMED = re.compile(r"(?<![\w∂/*^+'’′-])([^\W\d]\w{0,24})\s*(?::\s?=|=)(?!
 
 
 _BEHIND = re.compile(
-    r"(?<=\S)[ \t]{3,40}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]?:[ \t]+"
+    r"(?<=\S)[ \t]{3,150}+[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]?:[ \t]+"
     r"(?:[^\W\d_]{2,24}[ \t,]{1,3}){2}[^\n=]*+$",
     re.MULTILINE,
 )
 """What a name means, behind a gap at the end of a line: N: force of the yoke on the pin."""
 _TOLD_BEHIND = re.compile(
-    r"(?<=[\w)\]'’′²³])[ \t]{4,40}+(?=[^\W\d_]{1,3}_)[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
+    r"(?<=[\w)\]'’′²³])[ \t]{4,150}+(?=[^\W\d_]{1,3}_)[^\W\d]\w{0,12}+(?:,[ \t][^\W\d]\w{0,12}+){0,3}[ \t]"
     r"(?:(?!(?:alpha|beta|gamma|delta|theta|phi|psi|omega|sin|cos|tan|sqrt|exp|sign|sgn|ddot|dot)\b)[a-zäöüß]{2,24}"
     r"[ \t]){2,8}(?![a-z]{0,24}[ \t]*[*/^+-])[a-zäöüß]{3,24}[ \t]*$",
     re.MULTILINE,
